@@ -1,0 +1,48 @@
+# The commands of the README. Git, GNU make and Python 3.11 or newer are all that a machine needs.
+
+PYTHON ?= python3
+ready := .venv/.ready
+bin := .venv/bin
+
+.PHONY: help demo test lint samples templates schemas lock benchmarks clean
+
+help: ## Show this list
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+
+$(ready): pyproject.toml .ci/requirements.lock .ci/setup
+	@.ci/setup $(PYTHON)
+	@touch $@
+
+demo: $(ready) ## Register a person to a depth sequence with SoG and G-SoG
+	@$(bin)/regkit run docs/examples/demo.yaml
+
+test: $(ready) lint ## Run every check
+	@$(bin)/pytest -q
+
+lint: $(ready)
+	@$(bin)/ruff check .
+	@$(bin)/ruff format --check .
+	@$(bin)/mypy
+	@$(bin)/lint-imports --no-cache
+	@$(bin)/regkit schema --check
+	@$(bin)/regkit validate docs/examples/*.yaml plugins/regkit_plugins/templates/*.yaml
+
+samples: $(ready) ## Make the sample sequences again
+	@$(bin)/python -m regkit_plugins.synthesis docs/examples/data
+
+templates: $(ready) ## Fit the templates to the meshes again
+	@$(bin)/python -m regkit_plugins.fitting plugins/regkit_plugins/templates
+
+schemas: $(ready) ## Write the JSON Schemas again
+	@$(bin)/regkit schema
+
+lock: $(ready) ## Resolve the dependencies again
+	@$(bin)/uv pip compile pyproject.toml --extra dev --universal --python-version 3.11 \
+		--generate-hashes --no-emit-index-url --no-header --quiet --upgrade \
+		--output-file .ci/requirements.lock
+
+benchmarks: $(ready) ## Print how fast it is
+	@for file in benchmarks/*.py; do $(bin)/python $$file; done
+
+clean: ## Remove the environment and caches
+	@rm -rf .venv .mypy_cache .ruff_cache .pytest_cache .hypothesis dist

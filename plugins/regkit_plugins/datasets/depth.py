@@ -1,0 +1,104 @@
+"""Depth images in folders."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+
+from regkit.arrays import Array
+from regkit.camera import Camera
+from regkit.errors import DataError
+from regkit.interfaces import Dataset, Sequence
+from regkit.model import InputPath
+from regkit.observation import Frame, Truth
+from regkit_plugins.datasets.folders import (
+    SequenceDescription,
+    numbered_files,
+    read_truth,
+    sequence_folders,
+)
+
+
+class DepthFolders(Dataset):
+    """One folder of 16-bit PNG depth images with its camera, or a folder of such folders."""
+
+    kind: Literal["depth"] = "depth"
+
+    root: InputPath
+    """The sequence's folder, or one that holds several."""
+
+    def found(self) -> list[Sequence]:
+        """A sequence for each folder that has ``depth/``."""
+        return [self._sequence(folder) for folder in sequence_folders(self.root, "depth")]
+
+    def _sequence(self, folder: Path) -> DepthSequence:
+        description = SequenceDescription.read(folder)
+        files = numbered_files(folder / "depth", (".png",))[: self.frames]
+        return DepthSequence(
+            name=description.name or folder.name,
+            fps=description.fps,
+            length=len(files),
+            folder=folder,
+            files=tuple(files),
+            camera=Camera.read(folder / "camera.json"),
+            depth_scale=description.depth_scale,
+        )
+
+
+@dataclass(frozen=True)
+class DepthSequence(Sequence):
+    """One folder of depth images.
+
+    Attributes:
+        folder: Where it lies.
+        files: The images.
+        camera: Their camera.
+        depth_scale: Units per metre.
+    """
+
+    folder: Path
+    files: tuple[Path, ...]
+    camera: Camera
+    depth_scale: float
+
+    def frames(self) -> Iterator[Frame]:
+        """The images, back-projected."""
+        for path in self.files:
+            depth = read_depth(path) / self.depth_scale
+            try:
+                points = self.camera.back_projected(depth)
+            except DataError as error:
+                raise error.at(str(path)) from None
+            yield Frame(points, self.camera, depth, place=str(path))
+
+    def truth(self) -> Truth | None:
+        """The joints of ``truth.csv``."""
+        return read_truth(self.folder / "truth.csv", self.length)
+
+
+def read_depth(path: Path) -> Array:
+    """The numbers (H, W) of a single-channel 16-bit image.
+
+    Raises:
+        DataError: If the file is missing, damaged, or another kind of image.
+    """
+    from PIL import Image, UnidentifiedImageError
+
+    try:
+        with Image.open(path) as image:
+            mode = image.mode
+            values = np.asarray(image)
+    except FileNotFoundError:
+        raise DataError("there is no such image", place=str(path)) from None
+    except (OSError, SyntaxError, UnidentifiedImageError) as error:
+        raise DataError(f"the image is damaged or cut short: {error}", place=str(path)) from None
+    if not mode.startswith("I"):
+        raise DataError(
+            f"a depth image has one channel of 16 bits; this one is of the mode {mode}",
+            place=str(path),
+        )
+    return values.astype(np.float64)

@@ -1,0 +1,116 @@
+"""The published layout of UTD-MHAD: Kinect depth of one person, and the Kinect's own skeleton."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+
+from regkit.camera import Camera
+from regkit.errors import DataError
+from regkit.interfaces import Dataset, Sequence
+from regkit.model import InputPath
+from regkit.observation import Frame, Truth
+
+CAMERA = Camera(width=320, height=240, fx=285.63, fy=285.63, cx=159.0, cy=120.0)
+"""The Kinect's depth camera at half resolution, for images that are turned round as below."""
+
+_SIDES = [
+    f"{side}_{joint}"
+    for limb in (("shoulder", "elbow", "wrist", "hand"), ("hip", "knee", "ankle", "foot"))
+    for side in ("left", "right")
+    for joint in limb
+]
+JOINTS = ("head", "neck", "spine", "pelvis", *_SIDES)
+"""The 20 joints of the Kinect's skeleton in their order, by our names."""
+
+
+class UtdMhad(Dataset):
+    """UTD-MHAD (Chen, Jafari and Kehtarnavaz, ICIP 2015).
+
+    The images are stored as in a mirror, and the joints with them; both are turned round, for
+    otherwise the left hand would be a right one. The reference joints are the Kinect SDK's own
+    guess, not markers: they are good to about 10 cm.
+    """
+
+    kind: Literal["utd_mhad"] = "utd_mhad"
+
+    root: InputPath
+    """The folder that holds ``Depth/`` and ``Skeleton/``."""
+
+    def found(self) -> list[Sequence]:
+        """A sequence for each file of ``Depth/``."""
+        files = sorted((self.root / "Depth").glob("*_depth.mat"), key=_by_numbers)
+        if not files:
+            raise DataError(
+                "no sequence here: Depth/ must hold files like a1_s1_t1_depth.mat",
+                place=str(self.root),
+            )
+        return [self._sequence(path) for path in files]
+
+    def _sequence(self, path: Path) -> UtdSequence:
+        length = _read(path, "d_depth").shape[2]
+        name = path.stem.removesuffix("_depth")
+        return UtdSequence(
+            name=name,
+            fps=30.0,
+            length=min(length, self.frames or length),
+            depth_file=path,
+            skeleton_file=self.root / "Skeleton" / f"{name}_skeleton.mat",
+        )
+
+
+@dataclass(frozen=True)
+class UtdSequence(Sequence):
+    """One action of one person.
+
+    Attributes:
+        depth_file: Depth images (240, 320, T) [mm].
+        skeleton_file: Joints (20, 3, T) [m], x to the mirrored image's right and
+            y up.
+    """
+
+    depth_file: Path
+    skeleton_file: Path
+
+    def frames(self) -> Iterator[Frame]:
+        """The depth images, back-projected."""
+        images = _read(self.depth_file, "d_depth")
+        for index in range(self.length):
+            depth = images[:, ::-1, index] / 1000.0
+            place = f"{self.depth_file}: frame {index}"
+            try:
+                yield Frame(CAMERA.back_projected(depth), CAMERA, depth, place=place)
+            except DataError as error:
+                raise error.at(place) from None
+
+    def truth(self) -> Truth | None:
+        """The Kinect's joints in the camera's frame: x turned round as the images are, y down."""
+        if not self.skeleton_file.exists():
+            return None
+        joints = np.moveaxis(_read(self.skeleton_file, "d_skel"), 2, 0)
+        if joints.shape[1:] != (len(JOINTS), 3) or len(joints) < self.length:
+            raise DataError(
+                f"d_skel has the shape {joints.shape}, frames first; it must be "
+                f"({self.length}, 20, 3)",
+                place=str(self.skeleton_file),
+            )
+        return Truth(JOINTS, joints[: self.length] * np.array([-1.0, -1.0, 1.0]))
+
+
+def _by_numbers(path: Path) -> list[int]:
+    """Sort a9 before a19."""
+    digits = "".join(letter if letter.isdigit() else " " for letter in path.stem)
+    return [int(number) for number in digits.split()]
+
+
+def _read(path: Path, name: str) -> Any:
+    from scipy.io import loadmat
+
+    try:
+        return loadmat(path, variable_names=[name])[name].astype(np.float64)
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise DataError(f"not a .mat file with '{name}': {error}", place=str(path)) from None

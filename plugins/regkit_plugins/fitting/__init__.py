@@ -1,0 +1,1 @@
+"""Makes the templates: proportions, surfaces and Gaussians fitted to skinned meshes."""

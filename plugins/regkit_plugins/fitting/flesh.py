@@ -1,0 +1,88 @@
+"""What a mesh says of each segment: points inside it and points on its surface."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from regkit.arrays import Array, Indices
+from regkit.optional import open3d
+from regkit.rigid import moved
+from regkit_plugins.fitting.straight import Layout
+from regkit_plugins.synthesis.skinned_mesh import SkinnedMesh
+
+
+@dataclass(frozen=True)
+class Flesh:
+    """One segment's part of a mesh, in the segment's frame.
+
+    Attributes:
+        interior: (N, 3) points on a regular grid inside [m].
+        surface: (M, 3) centres of the triangles [m].
+        areas: (M,) areas of the triangles [m^2].
+    """
+
+    interior: Array
+    surface: Array
+    areas: Array
+
+
+def flesh_of(mesh: SkinnedMesh, layout: Layout, spacing: float) -> dict[str, Flesh]:
+    """The flesh of every segment, from a grid whose points are ``spacing`` apart [m].
+
+    A point belongs to the segment that the nearest vertex follows most.
+    """
+    names = list(layout.frames)
+    vertices = moved(layout.T_template_mesh, mesh.vertices)
+    followed = np.zeros((len(vertices), len(names)))
+    owners = np.array([names.index(layout.owners[label]) for label in mesh.labels])
+    np.add.at(followed, (np.arange(len(vertices))[:, None], owners[mesh.indices]), mesh.weights)
+    owner_of_vertex = followed.argmax(axis=1)
+    corners = vertices[mesh.faces]
+    centres = corners.mean(axis=1)
+    edges = corners[:, 1:] - corners[:, :1]
+    areas = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1) / 2.0
+    inside = interior_points(vertices, mesh.faces, spacing)
+    tree = cKDTree(vertices)
+    owner_of_point = owner_of_vertex[tree.query(inside)[1]]
+    owner_of_face = owner_of_vertex[tree.query(centres)[1]]
+    return {
+        name: Flesh(
+            layout.frames[name].local(inside[owner_of_point == index]),
+            layout.frames[name].local(centres[owner_of_face == index]),
+            areas[owner_of_face == index],
+        )
+        for index, name in enumerate(names)
+    }
+
+
+def interior_points(vertices: Array, faces: Indices, spacing: float) -> Array:
+    """The points (N, 3) inside a mesh of a grid that is symmetric about the plane x = 0."""
+    corners, triangles = closed(vertices, faces)
+    cells = np.ceil(np.abs(corners).max(axis=0) / spacing).astype(int)
+    axes = [(np.arange(-count, count) + 0.5) * spacing for count in cells]
+    grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+    near = (grid > corners.min(axis=0)) & (grid < corners.max(axis=0))
+    grid = grid[near.all(axis=1)]
+    library = open3d()
+    scene = library.t.geometry.RaycastingScene()
+    scene.add_triangles(
+        library.core.Tensor(corners.astype(np.float32)),
+        library.core.Tensor(triangles.astype(np.uint32)),
+    )
+    occupied = scene.compute_occupancy(library.core.Tensor(grid.astype(np.float32)), nsamples=3)
+    return np.asarray(grid[occupied.numpy() > 0.5])
+
+
+def closed(vertices: Array, faces: Indices) -> tuple[Array, Indices]:
+    """The mesh with its one hole, if it has one, closed by a fan of triangles around its middle."""
+    edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    reverse = {(int(b), int(a)) for a, b in edges}
+    rim = np.array([edge for edge in edges if (int(edge[0]), int(edge[1])) not in reverse])
+    if not len(rim):
+        return vertices, faces
+    middle = vertices[rim].mean(axis=(0, 1))
+    fan = np.column_stack([rim[:, 1], rim[:, 0], np.full(len(rim), len(vertices))])
+    return np.concatenate([vertices, middle[None]]), np.concatenate([faces, fan])

@@ -1,0 +1,82 @@
+"""Mirror images in the plane x = 0: right from left."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from regkit.arrays import Array
+from regkit.body.description import GaussianDescription
+from regkit.skeleton import SegmentDescription
+from regkit.skeleton.description import CapsuleDescription
+from regkit.skeleton.joints import BallJoint, HingeJoint, Joint, UniversalJoint, Vector
+
+REFLECT = np.array([-1.0, 1.0, 1.0])
+"""What a point is multiplied by."""
+
+_TURN = np.array([1.0, -1.0, -1.0])
+"""What an axis or a rotation vector is multiplied by: its sense of turning is reflected, too."""
+
+
+def vector(values: Array, decimals: int = 4) -> Vector:
+    """Three rounded numbers; 4 decimals are a tenth of a millimetre."""
+    x, y, z = (round(float(value), decimals) + 0.0 for value in values)
+    return (x, y, z)
+
+
+def point(value: Vector) -> Vector:
+    """The mirror image of a point [m]."""
+    return vector(REFLECT * value, 15)
+
+
+def turn(value: Vector) -> Vector:
+    """The mirror image of an axis or of a rotation vector."""
+    return vector(_TURN * value, 15)
+
+
+def capsule(value: CapsuleDescription) -> CapsuleDescription:
+    """The mirror image of a capsule."""
+    return CapsuleDescription(start=point(value.start), end=point(value.end), radius=value.radius)
+
+
+def gaussian(value: GaussianDescription) -> GaussianDescription:
+    """The mirror image of a Gaussian."""
+    return GaussianDescription(
+        centre=point(value.centre), sigma=value.sigma, rotation_deg=turn(value.rotation_deg)
+    )
+
+
+def joint(value: Joint) -> Joint:
+    """The mirror image of a joint: the same angles bend it to the mirrored pose.
+
+    A ball joint keeps its twist axis, so that its twist changes its sign.
+    """
+    match value:
+        case HingeJoint(axis=axis, limits_deg=limits):
+            return HingeJoint(type="hinge", axis=turn(axis), limits_deg=limits)
+        case UniversalJoint(axes=(first, second), limits_deg=both):
+            return UniversalJoint(
+                type="universal", axes=(turn(first), turn(second)), limits_deg=both
+            )
+        case BallJoint(twist_deg=twist):
+            return BallJoint(
+                type="ball",
+                twist_axis=value.twist_axis,
+                swing_axis=turn(value.swing_axis),
+                centre_deg=turn(value.centre_deg),
+                swing_deg=value.swing_deg,
+                twist_deg=None if twist is None else (-twist[1], -twist[0]),
+            )
+    return value
+
+
+def segment(value: SegmentDescription, rename: Callable[[str], str]) -> SegmentDescription:
+    """The mirror image of a segment; ``rename`` names what it hangs on and its markers."""
+    return SegmentDescription(
+        parent=None if value.parent is None else rename(value.parent),
+        offset=point(value.offset),
+        joint=joint(value.joint),
+        capsules=tuple(capsule(one) for one in value.capsules),
+        markers={rename(name): point(marker) for name, marker in value.markers.items()},
+    )

@@ -1,0 +1,104 @@
+"""Gaussians with the same mean and covariance as a solid, one or several of them."""
+
+from __future__ import annotations
+
+from itertools import permutations, product
+
+import numpy as np
+
+from regkit.arrays import Array, Indices
+from regkit.body.description import GaussianDescription
+from regkit.rotation import from_matrix, to_vector
+from regkit_plugins.fitting.mirror import REFLECT, vector
+
+_TURNS = np.array(
+    [
+        np.diag(signs)[:, order]
+        for order in permutations(range(3))
+        for signs in product((1.0, -1.0), repeat=3)
+        if np.linalg.det(np.diag(signs)[:, order]) > 0.0
+    ]
+)
+"""The 24 ways (24, 3, 3) to name the axes of an ellipsoid x, y and z."""
+
+
+def gaussian(points: Array) -> GaussianDescription:
+    """The Gaussian with the moments of ``points`` (N, 3) [m].
+
+    Its axes are named so that it is turned as little as possible.
+    """
+    variances, vectors = np.linalg.eigh(np.cov(points.T, bias=True))
+    if np.linalg.det(vectors) < 0.0:
+        vectors = -vectors
+    turns = vectors @ _TURNS
+    best = int(np.trace(turns, axis1=1, axis2=2).argmax())
+    sigma = np.sqrt(variances @ np.abs(_TURNS[best]))
+    rotation = np.degrees(to_vector(from_matrix(turns[best])))
+    return GaussianDescription(
+        centre=vector(points.mean(axis=0)), sigma=vector(sigma), rotation_deg=vector(rotation, 1)
+    )
+
+
+def ball(points: Array) -> GaussianDescription:
+    """The isotropic Gaussian with the mean and the total variance of ``points`` (N, 3) [m]."""
+    centre = points.mean(axis=0)
+    sigma = np.sqrt(((points - centre) ** 2).sum(axis=1).mean() / 3.0)
+    return GaussianDescription(centre=vector(centre), sigma=round(float(sigma), 4))
+
+
+def balls(points: Array, count: int) -> tuple[GaussianDescription, ...]:
+    """``count`` isotropic Gaussians with the moments of clusters of ``points`` (N, 3) [m]."""
+    owners = clusters(points, _spread(points, count))
+    return tuple(ball(points[owners == index]) for index in range(count))
+
+
+def symmetric_balls(points: Array, pairs: int, middle: int) -> tuple[GaussianDescription, ...]:
+    """Isotropic Gaussians that are their own mirror image in the plane x = 0.
+
+    Args:
+        points: (N, 3) points that are symmetric about that plane [m].
+        pairs: How many pairs there are, left first.
+        middle: How many lie in the plane.
+    """
+    half = points[points[:, 0] > 0.0]
+    start = _spread(half, pairs + middle)
+    start = start[np.argsort(-start[:, 0], kind="stable")]
+    owners = clusters(half, start, in_plane=middle)
+    balls: list[GaussianDescription] = []
+    for index in range(pairs):
+        own = half[owners == index]
+        balls += [ball(own), ball(own * REFLECT)]
+    for index in range(pairs, pairs + middle):
+        own = half[owners == index]
+        balls.append(ball(np.concatenate([own, own * REFLECT])))
+    return tuple(balls)
+
+
+def clusters(points: Array, centres: Array, in_plane: int = 0) -> Indices:
+    """Lloyd's k-means: the cluster (N,) of each point, from first centres (K, 3).
+
+    The last ``in_plane`` centres are kept in the plane x = 0.
+
+    Source: Lloyd, Least squares quantization in PCM, IEEE Trans. Inf. Theory 28, 1982.
+    """
+    centres = centres.copy()
+    kept = slice(len(centres) - in_plane, len(centres))
+    for _ in range(200):
+        centres[kept, 0] = 0.0
+        owners = ((points[:, None] - centres) ** 2).sum(axis=2).argmin(axis=1)
+        moved = np.array([points[owners == index].mean(axis=0) for index in range(len(centres))])
+        moved[kept, 0] = 0.0
+        if np.abs(moved - centres).max() < 1e-7:
+            break
+        centres = moved
+    return np.asarray(owners)
+
+
+def _spread(points: Array, count: int) -> Array:
+    """``count`` of the points, (K, 3), each as far as can be from those before it."""
+    chosen = [points[np.argmax(((points - points.mean(axis=0)) ** 2).sum(axis=1))]]
+    distances = ((points - chosen[0]) ** 2).sum(axis=1)
+    while len(chosen) < count:
+        chosen.append(points[np.argmax(distances)])
+        distances = np.minimum(distances, ((points - chosen[-1]) ** 2).sum(axis=1))
+    return np.array(chosen)

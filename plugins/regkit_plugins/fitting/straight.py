@@ -1,0 +1,84 @@
+"""Straight limbs: where the segments of a mesh lie, and how they are turned into the rest pose."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from regkit.arrays import Array
+from regkit.rigid import moved, rigid
+from regkit.rotation import IDENTITY, to_matrix, vector_to_matrix
+from regkit_plugins.synthesis.skinned_mesh import SkinnedMesh
+
+LEFT = np.array([1.0, 0.0, 0.0])
+DOWN = np.array([0.0, -1.0, 0.0])
+FORWARD = np.array([0.0, 0.0, 1.0])
+
+
+@dataclass(frozen=True)
+class SegmentFrame:
+    """The frame of a segment in a mesh.
+
+    Attributes:
+        origin: (3,) the segment's joint, in the template's axes [m].
+        rotation: (3, 3) turns the segment from the mesh's pose into the template's rest pose.
+    """
+
+    origin: Array
+    rotation: Array
+
+    def local(self, points: Array) -> Array:
+        """Points (N, 3) or (3,) of the mesh, in the template's axes, in the segment's frame."""
+        return np.asarray((points - self.origin) @ self.rotation.T)
+
+
+@dataclass(frozen=True)
+class Layout:
+    """How a mesh is divided into the segments of a template.
+
+    Attributes:
+        T_template_mesh: (4, 4) from the mesh's axes to the template's [m].
+        owners: The segment that each bone belongs to, by the bone's label.
+        frames: The frame of each segment.
+    """
+
+    T_template_mesh: Array
+    owners: Mapping[str, str]
+    frames: Mapping[str, SegmentFrame]
+
+    def neutral(self, mesh: SkinnedMesh) -> Array:
+        """The mesh's vertices (V, 3) [m] in the template's rest pose, by linear blend skinning."""
+        turn = self.T_template_mesh[:3, :3]
+        frames = [self.frames[self.owners[label]] for label in mesh.labels]
+        rotations = np.array([turn.T @ frame.rotation @ turn for frame in frames])
+        posed = mesh.posed(mesh.turned(rotations, mesh.rest[0, :3, 3]))
+        return moved(self.T_template_mesh, posed)
+
+
+def mesh_axes(columns: Array, origin: Array) -> Array:
+    """``T_template_mesh`` (4, 4) of a template's axes (3, 3), as columns, and origin in a mesh."""
+    return rigid(columns.T, -columns.T @ origin)
+
+
+def unit(vector: Array) -> Array:
+    """A vector (3,) of the length one."""
+    return np.asarray(vector / np.linalg.norm(vector))
+
+
+def shortest(start: Array, goal: Array) -> Array:
+    """The smallest rotation (3, 3) that turns the direction ``start`` into ``goal``."""
+    a, b = unit(start), unit(goal)
+    axis = np.cross(a, b)
+    sine, cosine = float(np.linalg.norm(axis)), float(a @ b)
+    if sine < 1e-9:
+        return to_matrix(IDENTITY)
+    return vector_to_matrix(axis / sine * np.arctan2(sine, cosine))
+
+
+def aligned(bone: Array, axis: Array, goal_bone: Array, goal_axis: Array) -> Array:
+    """The rotation (3, 3) that turns a bone and an axis at right angles to it into two others."""
+    start = np.column_stack([bone, axis, np.cross(bone, axis)])
+    goal = np.column_stack([goal_bone, goal_axis, np.cross(goal_bone, goal_axis)])
+    return np.asarray(goal @ start.T)

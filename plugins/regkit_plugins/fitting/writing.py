@@ -1,0 +1,154 @@
+"""Templates as YAML that a person can read: aligned rows, sections and comments."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping, Sequence
+
+import numpy as np
+
+from regkit.body import BodyDescription
+from regkit.body.description import GaussianDescription
+from regkit.skeleton import SegmentDescription
+from regkit.skeleton.description import CapsuleDescription
+from regkit.skeleton.joints import (
+    BallJoint,
+    FixedJoint,
+    FreeJoint,
+    HingeJoint,
+    Joint,
+    UniversalJoint,
+)
+
+_LETTERS = {
+    tuple(float(number) for number in sign * axis): text + letter
+    for sign, text in ((1.0, ""), (-1.0, "-"))
+    for axis, letter in zip(np.eye(3), "xyz", strict=True)
+}
+
+
+_UPRIGHT = "In the first frame y points up and the front to the camera; a hand may be anyhow."
+
+
+def template_text(body: BodyDescription, opening: str, comments: Mapping[str, str]) -> str:
+    """The YAML of a template.
+
+    Args:
+        body: The template.
+        opening: What to say at its top.
+        comments: What to say of the joint of a segment, by the segment's name.
+    """
+    size = body.size
+    lines = [
+        *_comment(opening),
+        "",
+        f"title: {json.dumps(body.title)}",
+        "",
+        "sources:",
+        *(f"  - {json.dumps(source)}" for source in body.sources),
+        "",
+        f"size: {{name: {size.name}, value: {size.value:.4f}, range: {_row(size.range, 2)}}}",
+        *(["", *_comment(_UPRIGHT), "upright: true"] if body.upright else []),
+        "",
+        "# Each segment's origin is its joint; `offset` is where that lies in the parent's frame.",
+        "segments:",
+    ]
+    for name, segment in body.segments.items():
+        lines += ["", f"  {name}:", *_segment(segment, comments.get(name, ""))]
+    lines += [
+        "",
+        "# Likely poses of the first frame, in degrees; the rest pose is always tried.",
+        "stances:",
+    ]
+    for name, pose in body.stances.items():
+        lines.append(f"  {name}:")
+        lines.append("    joints:")
+        width = max(len(joint) for joint in pose.joints) + 1
+        for joint, angles in pose.joints.items():
+            value = _number(angles, 1) if isinstance(angles, float) else _row(angles, 1)
+            lines.append(f"      {joint + ':':<{width}} {value.strip()}")
+    lines += [
+        "",
+        "# Standard deviations [m]; the surface lies at about twice as much.",
+        "gaussians:",
+    ]
+    for kind, by_segment in body.gaussians.items():
+        lines.append(f"  {kind}: # {sum(map(len, by_segment.values()))} in all")
+        for name, several in by_segment.items():
+            lines.append(f"    {name}:")
+            lines += [f"      - {_gaussian(one)}" for one in several]
+    return "\n".join(lines) + "\n"
+
+
+def _segment(segment: SegmentDescription, comment: str) -> list[str]:
+    lines = _comment(comment, "    ")
+    if segment.parent is not None:
+        lines += [f"    parent: {segment.parent}", f"    offset: {_row(segment.offset)}"]
+    lines.append(f"    joint: {_joint(segment.joint)}")
+    lines.append("    capsules:")
+    lines += [f"      - {_capsule(one)}" for one in segment.capsules]
+    if segment.markers:
+        width = max(map(len, segment.markers)) + 1
+        lines.append("    markers:")
+        lines += [f"      {name + ':':<{width}} {_row(at)}" for name, at in segment.markers.items()]
+    return lines
+
+
+def _joint(joint: Joint) -> str:
+    match joint:
+        case FreeJoint() | FixedJoint():
+            return f"{{type: {joint.type}}}"
+        case HingeJoint():
+            fields = [f"axis: {_axis(joint.axis)}"]
+            if joint.limits_deg is not None:
+                fields.append(f"limits_deg: {_row(joint.limits_deg, 1)}")
+        case UniversalJoint():
+            fields = [f"axes: [{', '.join(map(_axis, joint.axes))}]"]
+            if joint.limits_deg is not None:
+                ranges = ", ".join(_row(limits, 1) for limits in joint.limits_deg)
+                fields.append(f"limits_deg: [{ranges}]")
+        case BallJoint():
+            fields = [f"twist_axis: {_axis(joint.twist_axis)}"]
+            fields.append(f"swing_axis: {_axis(joint.swing_axis)}")
+            fields.append(f"centre_deg: {_row(joint.centre_deg, 1)}")
+            if joint.swing_deg is not None:
+                fields.append(f"swing_deg: {_row(joint.swing_deg, 1)}")
+            if joint.twist_deg is not None:
+                fields.append(f"twist_deg: {_row(joint.twist_deg, 1)}")
+    return f"{{type: {joint.type}, {', '.join(fields)}}}"
+
+
+def _capsule(capsule: CapsuleDescription) -> str:
+    radius = capsule.radius
+    text = f"{radius:.4f}" if isinstance(radius, float) else f"[{radius[0]:.4f}, {radius[1]:.4f}]"
+    return f"{{start: {_row(capsule.start)}, end: {_row(capsule.end)}, radius: {text}}}"
+
+
+def _gaussian(gaussian: GaussianDescription) -> str:
+    if isinstance(gaussian.sigma, float):
+        return f"{{centre: {_row(gaussian.centre)}, sigma: {gaussian.sigma:.4f}}}"
+    sigma = f"[{', '.join(f'{one:.4f}' for one in gaussian.sigma)}]"
+    return (
+        f"{{centre: {_row(gaussian.centre)}, sigma: {sigma}, "
+        f"rotation_deg: {_row(gaussian.rotation_deg, 1)}}}"
+    )
+
+
+def _axis(axis: Sequence[float]) -> str:
+    """A letter where there is one, else four decimals of the unit vector."""
+    return _LETTERS.get(tuple(axis)) or _row(axis)
+
+
+def _row(values: Iterable[float], decimals: int = 4) -> str:
+    return f"[{', '.join(_number(value, decimals) for value in values)}]"
+
+
+def _number(value: float, decimals: int) -> str:
+    """A number with a blank where others have a sign; degrees lose their needless decimals."""
+    if decimals == 4:
+        return f"{round(value, 4) + 0.0: .4f}"
+    return f"{round(value, decimals) + 0.0:g}"
+
+
+def _comment(text: str, indent: str = "") -> list[str]:
+    return [f"{indent}# {line}".rstrip() for line in text.strip().splitlines()]

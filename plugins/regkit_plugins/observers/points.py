@@ -1,0 +1,48 @@
+"""The observer that makes every point, or every voxel, one Gaussian of the same variance."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field
+
+from regkit.arrays import Array
+from regkit.interfaces import Observer
+from regkit.observation import Frame, Observation
+from regkit_plugins.observers.crop import Crop
+
+Length = Annotated[float, Field(gt=0.0)]
+
+
+class PointsObserver(Observer):
+    """A sum of Gaussians with a uniform variance, section 3 of the paper."""
+
+    kind: Literal["points"] = "points"
+
+    sigma: Length = 0.02
+    """Standard deviation of each Gaussian [m]."""
+    voxel: Length | None = None
+    """Side of the cubes whose points are averaged to one [m]; every point counts without it."""
+    crop: Crop = Crop()
+    """What part of the frame is looked at."""
+
+    def observe(self, frame: Frame) -> Observation:
+        """One Gaussian for each point or voxel, all of weight 1.
+
+        Averaging also evens out how densely a surface is seen: near parts count no more than far
+        ones.
+        """
+        points = self.crop.points(frame)
+        if self.voxel is not None:
+            points = _averaged(points, self.voxel)
+        ones = np.ones(len(points))
+        return Observation(points, ones, self.sigma**2 * ones, frame.camera)
+
+
+def _averaged(points: Array, voxel: float) -> Array:
+    """The mean of the points in each occupied voxel, (M, 3)."""
+    cells = np.floor(points / voxel).astype(np.int64)
+    _, cell, counts = np.unique(cells, axis=0, return_inverse=True, return_counts=True)
+    sums = [np.bincount(cell.ravel(), weights=column) for column in points.T]
+    return np.column_stack(sums) / counts[:, None]

@@ -1,0 +1,60 @@
+"""SoG: a body as a sum of isotropic Gaussians."""
+
+from __future__ import annotations
+
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from regkit.body import Body
+from regkit.capsules import Capsules
+from regkit.errors import ConfigError
+from regkit.interfaces import ShapeModel
+from regkit.primitives import Gaussians, Primitives
+
+
+class SumOfGaussians(ShapeModel):
+    """Sum of isotropic Gaussians, eqs. 1 and 2.
+
+    Where the template lists none, spheres are strung along its capsules, each with half the
+    capsule's radius as its standard deviation (the deviation of a solid cylinder across its axis).
+    """
+
+    kind: Literal["sog"] = "sog"
+    makes: ClassVar[type[Primitives]] = Gaussians
+
+    def attach(self, body: Body) -> Gaussians:
+        """The template's own isotropic Gaussians, or some made from its capsules."""
+        own = body.gaussians.get(self.kind)
+        if own is None:
+            return _strung_along(body.capsules, body.name)
+        if (own.scales != own.scales[:, :1]).any():
+            raise ConfigError(
+                f"gaussians.sog of '{body.name}' has a Gaussian with three sigmas; those of a SoG "
+                "have one"
+            )
+        return own
+
+
+def _strung_along(capsules: Capsules, name: str) -> Gaussians:
+    """Gaussians about one mean radius apart on the axes of capsules."""
+    if not len(capsules):
+        raise ConfigError(
+            f"the template '{name}' has neither gaussians.sog nor capsules to make them from"
+        )
+    segments, centres, radii = [], [], []
+    for segment, (start, end), (first, last) in zip(
+        capsules.segments, capsules.ends, capsules.radii, strict=True
+    ):
+        count = max(1, round(float(np.linalg.norm(end - start)) / (0.5 * (first + last))))
+        along = (np.arange(count) + 0.5) / count
+        segments += [segment] * count
+        centres += list(start + along[:, None] * (end - start))
+        radii += list(first + along * (last - first))
+    return Gaussians(
+        segments=np.array(segments, dtype=np.intp),
+        centres=np.array(centres),
+        axes=np.tile(np.eye(3), (len(segments), 1, 1)),
+        scales=np.repeat(0.5 * np.array(radii)[:, None], 3, axis=1),
+        weights=np.ones(len(segments)),
+    )

@@ -1,0 +1,1 @@
+"""Templates and the YAML files that hold them."""

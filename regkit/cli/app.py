@@ -1,0 +1,33 @@
+"""The commands, each in a file of its own, and how an error reaches the user."""
+
+from __future__ import annotations
+
+import sys
+
+import typer
+
+from regkit.cli.console import errors
+from regkit.cli.doctor import doctor
+from regkit.cli.plugins import plugins
+from regkit.cli.run import run
+from regkit.cli.schema import schema
+from regkit.cli.validate import validate
+from regkit.errors import RegkitError
+
+app = typer.Typer(
+    help="Register articulated shape models to point clouds and depth frames.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+for command in (run, validate, plugins, schema, doctor):
+    app.command()(command)
+
+
+def main() -> None:
+    """Run the command line; what a user can mend ends with a message and the exit code 1."""
+    try:
+        app()
+    except RegkitError as error:
+        errors.print(f"error: {error}", style="red", markup=False, highlight=False, soft_wrap=True)
+        sys.exit(1)

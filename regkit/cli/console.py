@@ -1,0 +1,28 @@
+"""Where the commands print: results to standard output, everything else to standard error."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+from regkit.plugin import run_plugin_file
+
+output = Console()
+errors = Console(stderr=True)
+
+PluginFiles = Annotated[
+    list[Path] | None,
+    typer.Option(
+        "--plugin", metavar="FILE", help="Python file that registers plug-ins of your own."
+    ),
+]
+
+
+def run_plugin_files(files: Iterable[Path] | None) -> None:
+    """Make the plug-ins of ``--plugin`` files available."""
+    for file in files or ():
+        run_plugin_file(file)

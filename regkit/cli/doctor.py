@@ -1,0 +1,68 @@
+"""``regkit doctor``."""
+
+from __future__ import annotations
+
+import importlib
+import platform
+import sys
+from collections.abc import Callable
+from importlib.metadata import version
+from typing import Any
+
+import typer
+from rich.table import Table
+
+from regkit import optional
+from regkit.cli.console import output
+from regkit.errors import RegkitError
+from regkit.interfaces import SLOTS
+
+
+def doctor() -> None:
+    """Say what is installed and what is missing, with the command that mends it."""
+    table = Table("what", "state", "to mend it")
+    findings = [_python(), *map(_library, ("numpy", "scipy", "pydantic", "matplotlib", "PIL"))]
+    findings += [_optional("open3d", optional.open3d), _optional("casadi", optional.casadi)]
+    findings += [_plugins()]
+    for what, state, cure in findings:
+        table.add_row(what, state, cure, style="red" if cure else None)
+    output.print(table)
+    if any(cure for _, _, cure in findings):
+        raise typer.Exit(1)
+
+
+def _python() -> tuple[str, str, str]:
+    enough = sys.version_info >= (3, 11)
+    return "Python", platform.python_version(), "" if enough else "install Python 3.11 or newer"
+
+
+def _library(module: str) -> tuple[str, str, str]:
+    distribution = {"PIL": "pillow"}.get(module, module)
+    try:
+        importlib.import_module(module)
+    except ImportError as error:
+        return distribution, f"cannot be loaded: {error}", f"pip install {distribution}"
+    return distribution, version(distribution), ""
+
+
+def _optional(name: str, load: Callable[[], Any]) -> tuple[str, str, str]:
+    try:
+        return name, str(load().__version__), ""
+    except RegkitError as error:
+        state, _, cure = str(error).rpartition("run: ")
+        return name, state.rstrip("; "), cure
+
+
+def _plugins() -> tuple[str, str, str]:
+    broken = []
+    total = 0
+    for slot in SLOTS:
+        for kind in slot.available():
+            total += 1
+            try:
+                slot.load(kind)
+            except RegkitError as error:
+                broken.append(str(error))
+    if broken:
+        return "plug-ins", "\n".join(broken), "reinstall or uninstall what brings them"
+    return "plug-ins", f"{total} of {len(SLOTS)} groups", ""

@@ -1,0 +1,54 @@
+"""``regkit validate``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from regkit.cli.console import PluginFiles, errors, output, run_plugin_files
+from regkit.document import Document
+from regkit.errors import ConfigError, RegkitError
+
+
+def validate(
+    files: Annotated[list[Path], typer.Argument(help="Experiments, templates or skeletons.")],
+    plugin: PluginFiles = None,
+) -> None:
+    """Check YAML files and say what is wrong with them, and where."""
+    run_plugin_files(plugin)
+    failed = False
+    for file in files:
+        try:
+            output.print(f"{file}: a valid {_checked(file)}", highlight=False, soft_wrap=True)
+        except RegkitError as error:
+            failed = True
+            errors.print(
+                f"error: {error}", style="red", markup=False, highlight=False, soft_wrap=True
+            )
+    if failed:
+        raise typer.Exit(1)
+
+
+def _checked(file: Path) -> str:
+    """What kind of file it is, once it is known to be valid."""
+    from regkit.body import BodyDescription
+    from regkit.experiment import Experiment
+    from regkit.skeleton import SkeletonDescription
+
+    document = Document.read(file)
+    if "methods" in document.data:
+        document.validated(Experiment)
+        return "experiment"
+    if "segments" not in document.data:
+        raise ConfigError(
+            "cannot tell what this is: an experiment has 'methods', a template or a skeleton has "
+            "'segments'",
+            place=str(file),
+        )
+    if {"title", "size", "gaussians", "stances"} & document.data.keys():
+        document.validated(BodyDescription).body(file.stem, 1.0)
+        return "template"
+    document.validated(SkeletonDescription)
+    return "skeleton"

@@ -1,0 +1,144 @@
+"""Coordinates of poses: the vectors that a solver moves."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from regkit.arrays import Array
+from regkit.rigid import rigid
+from regkit.rotation import conjugate, from_matrix, normalized, product, right_jacobian, to_matrix
+from regkit.skeleton import Pose, Skeleton
+
+CoordinatesName = Literal["tangent", "quaternion"]
+
+
+@dataclass(frozen=True)
+class Coordinates(ABC):
+    """A chart around a start pose: vectors x (m,) <-> poses.
+
+    Attributes:
+        skeleton: Whose poses.
+        start: The pose of ``origin()``.
+    """
+
+    skeleton: Skeleton
+    start: Pose
+
+    @abstractmethod
+    def origin(self) -> Array:
+        """The coordinates (m,) of the start pose."""
+
+    @abstractmethod
+    def pose(self, x: Array) -> Pose:
+        """The pose at coordinates x (m,)."""
+
+    @abstractmethod
+    def differential(self, x: Array) -> Array:
+        """D (n, m) at x: a change dx moves the degrees of freedom at ``pose(x)`` by D dx.
+
+        So a generalised force f has the gradient D^T f, and a normal matrix H the form D^T H D.
+        """
+
+    @abstractmethod
+    def bounds(self) -> tuple[Array, Array]:
+        """Lower and upper bounds (m,) that keep the hinges within their limits."""
+
+
+@dataclass(frozen=True)
+class TangentCoordinates(Coordinates):
+    """Steps on the tangent space at the start: 6 for a free root, 3 for a ball, 1 for a hinge."""
+
+    def origin(self) -> Array:
+        """Zero."""
+        return np.zeros(self.skeleton.freedoms)
+
+    def pose(self, x: Array) -> Pose:
+        """``retract(start, x)``."""
+        return self.skeleton.retract(self.start, x)
+
+    def differential(self, x: Array) -> Array:
+        """By the right Jacobian of each rotation vector: exp(w + dw) = exp(w) exp(J dw)."""
+        turned = slice(3 if self.skeleton.free else 0, self.skeleton.hinge_freedoms.start)
+        jacobians = right_jacobian(x[turned].reshape(-1, 3))
+        differential = np.eye(len(x))
+        rows = np.arange(len(x))[turned].reshape(-1, 3)
+        differential[rows[:, :, None], rows[:, None, :]] = jacobians
+        return differential
+
+    def bounds(self) -> tuple[Array, Array]:
+        """The hinges' limits, and half a turn for each part of a rotation vector."""
+        lower, upper = np.full((2, self.skeleton.freedoms), np.pi)
+        lower = -lower
+        if self.skeleton.free:
+            lower[:3], upper[:3] = -np.inf, np.inf
+        hinges = self.skeleton.hinge_freedoms
+        lower[hinges] = self.skeleton.limits.hinge[:, 0] - self.start.hinges
+        upper[hinges] = self.skeleton.limits.hinge[:, 1] - self.start.hinges
+        return np.minimum(lower, 0.0), np.maximum(upper, 0.0)
+
+
+@dataclass(frozen=True)
+class QuaternionCoordinates(Coordinates):
+    """The paper's pose parameters [t, r(1), ..., r(L)]: un-normalised quaternions, p = r / |r|.
+
+    L counts the root's rotation and the ball joints: 4 L + 3 parameters, and one more for each
+    hinge.
+    """
+
+    def origin(self) -> Array:
+        """The start's translation, unit quaternions and hinge angles."""
+        return self._vector(self.start)
+
+    def pose(self, x: Array) -> Pose:
+        """The pose whose rotations are the normalised quaternions."""
+        quaternions, hinges = self._split(x)
+        unit = normalized(quaternions)
+        if not self.skeleton.free:
+            return Pose(self.start.root, unit, hinges)
+        return Pose(rigid(to_matrix(unit[0]), x[:3]), unit[1:], hinges)
+
+    def differential(self, x: Array) -> Array:
+        """By the angular rate 2 vec(p* dr) / |r|; the part of dr along r turns nothing."""
+        quaternions, hinges = self._split(x)
+        inverse = conjugate(normalized(quaternions)) * (
+            2.0 / np.linalg.norm(quaternions, axis=1, keepdims=True)
+        )
+        rates = product(inverse[:, None, :], np.eye(4))[..., :3]  # (L, 4, 3), a row for each of r
+        start = 3 if self.skeleton.free else 0
+        differential = np.zeros((self.skeleton.freedoms, len(x)))
+        differential[:start, :start] = np.eye(start)
+        rows = start + np.arange(3 * len(rates)).reshape(-1, 3)
+        columns = start + np.arange(4 * len(rates)).reshape(-1, 4)
+        differential[rows[:, :, None], columns[:, None, :]] = np.swapaxes(rates, 1, 2)
+        own = np.arange(1, len(hinges) + 1)
+        differential[-own, -own] = 1.0
+        return differential
+
+    def bounds(self) -> tuple[Array, Array]:
+        """The hinges' limits; a quaternion has none."""
+        lower, upper = np.full_like(self.origin(), -np.inf), np.full_like(self.origin(), np.inf)
+        hinges = len(self.start.hinges)
+        limits = self.skeleton.limits.hinge
+        if hinges:
+            lower[-hinges:] = np.minimum(limits[:, 0], self.start.hinges)
+            upper[-hinges:] = np.maximum(limits[:, 1], self.start.hinges)
+        return lower, upper
+
+    def _vector(self, pose: Pose) -> Array:
+        root = [pose.root[:3, 3], from_matrix(pose.root[:3, :3])] if self.skeleton.free else []
+        return np.concatenate([*root, pose.balls.ravel(), pose.hinges])
+
+    def _split(self, x: Array) -> tuple[Array, Array]:
+        hinges = len(x) - len(self.start.hinges)
+        start = 3 if self.skeleton.free else 0
+        return x[start:hinges].reshape(-1, 4), x[hinges:]
+
+
+COORDINATES: dict[CoordinatesName, type[Coordinates]] = {
+    "tangent": TangentCoordinates,
+    "quaternion": QuaternionCoordinates,
+}

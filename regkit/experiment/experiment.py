@@ -1,0 +1,56 @@
+"""What an experiment's YAML holds."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Annotated
+
+from pydantic import AfterValidator, Field
+
+from regkit.document import Document
+from regkit.interfaces import Dataset, Method, Observer, Template, Tracker
+from regkit.model import Model
+from regkit.skeleton import PoseDescription
+
+
+def _fit_for_a_folder(name: str) -> str:
+    if not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9_.-]*", name):
+        raise ValueError(
+            f"'{name}' names a folder: use letters, digits, '-', '_' and '.', and begin with a "
+            "letter or digit"
+        )
+    return name
+
+
+Name = Annotated[str, AfterValidator(_fit_for_a_folder)]
+
+
+class Experiment(Model):
+    """Methods that register one template to the sequences of one dataset, on equal terms."""
+
+    name: Name
+    """What the results folder is called."""
+    dataset: Dataset
+    """Where the frames come from."""
+    template: Template
+    """What is seen in them."""
+    observer: Observer = Field(default="points", validate_default=True)
+    """How frames become data."""
+    tracker: Tracker = Field(default="hold", validate_default=True)
+    """How one frame's pose leads to the next."""
+    start: PoseDescription | None = None
+    """Pose in the first frame of every sequence; found from the cloud without it. It needs the
+    template's size."""
+    methods: dict[Name, Method] = Field(min_length=1)
+    """What is compared, by a name of your own."""
+
+    @classmethod
+    def read(cls, path: Path, settings: Iterable[str] = ()) -> Experiment:
+        """An experiment's YAML, after ``a.b.c=value`` settings.
+
+        Raises:
+            ConfigError: One line for each thing that is wrong, with its file, line and field.
+        """
+        return Document.read(path).overridden(settings).validated(cls)

@@ -1,0 +1,147 @@
+"""Running an experiment: every method on every sequence, what is finished being kept."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Protocol
+
+from regkit.errors import ConfigError, RegkitError
+from regkit.experiment.experiment import Experiment
+from regkit.experiment.results import Results
+from regkit.interfaces import Method, Sequence
+from regkit.metrics import Measure, matched, measured
+from regkit.model import did_you_mean
+from regkit.observation import Truth
+from regkit.optional import one_blas_thread
+from regkit.report import draw_overlay, report
+from regkit.start import Start, found_start, given_start
+from regkit.tracking import Track, tracked
+
+
+class Progress(Protocol):
+    """Who wants to know how far a run is."""
+
+    def begin(self, method: str, sequence: str, frames: int) -> None:
+        """A method starts on a sequence."""
+
+    def advance(self) -> None:
+        """One more frame is done."""
+
+    def end(self, method: str, sequence: str, outcome: Measure | RegkitError) -> None:
+        """The sequence is finished, or could not be."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """The figures of a run, by method and sequence, and what failed with its reason."""
+
+    measures: dict[str, dict[str, Measure]]
+    failures: dict[str, dict[str, str]]
+
+
+def run(
+    experiment: Experiment, results: Results, progress: Progress, *, only: Iterable[str] = ()
+) -> Outcome:
+    """Run an experiment into its folder; what the folder holds already is not done again.
+
+    A sequence that fails does not stop the others. After each one the metrics and the report are
+    written anew.
+
+    Args:
+        experiment: What to run.
+        results: Where to.
+        progress: Who is told.
+        only: Names of the methods to run; all of them if it is empty.
+
+    Raises:
+        RegkitError: If nothing can be run: an unknown method, a dataset without sequences.
+    """
+    methods = _chosen(experiment, tuple(only))
+    sequences = experiment.dataset.chosen()
+    truths = {sequence.name: sequence.truth() for sequence in sequences}
+    _check_joints(experiment, truths)
+    outcome = Outcome({name: {} for name in methods}, {name: {} for name in methods})
+    # The products here are small; a second BLAS thread costs more than it brings.
+    with one_blas_thread():
+        for sequence in sequences:
+            task = _Task(experiment, results, sequence, truths[sequence.name])
+            for name, method in methods.items():
+                progress.begin(name, sequence.name, sequence.length)
+                try:
+                    measure = task.measure(name, method, progress)
+                except RegkitError as error:
+                    outcome.failures[name][sequence.name] = str(error)
+                    progress.end(name, sequence.name, error)
+                else:
+                    outcome.measures[name][sequence.name] = measure
+                    progress.end(name, sequence.name, measure)
+                results.write_metrics(outcome.measures, outcome.failures)
+                results.write_report(report(experiment.name, outcome.measures, outcome.failures))
+    return outcome
+
+
+@dataclass(frozen=True)
+class _Task:
+    """One sequence, which every method gets with the same start."""
+
+    experiment: Experiment
+    results: Results
+    sequence: Sequence
+    truth: Truth | None
+
+    def measure(self, name: str, method: Method, progress: Progress) -> Measure:
+        """The figures of a method, tracked now or found in the results folder."""
+        finished = self.results.finished(name, self.sequence.name)
+        if finished is not None:
+            return finished
+        registrar = method.prepare(self.start.body)
+        frames = []
+        for frame in tracked(
+            self.sequence,
+            self.experiment.observer,
+            registrar,
+            self.experiment.tracker,
+            self.start.pose,
+        ):
+            frames.append(frame)
+            progress.advance()
+        track = Track.of(frames, registrar)
+        measure = measured(track, registrar.body, self.truth, self.experiment.dataset.joints)
+        picture = self.results.sequence_folder(name, self.sequence.name) / "overlay.png"
+        title = f"{name} on {self.sequence.name}"
+        draw_overlay(picture, title, frames, track, registrar, self.truth)
+        self.results.write(name, self.sequence.name, track, registrar.body, measure)
+        return measure
+
+    @cached_property
+    def start(self) -> Start:
+        """The given start, or the one found in the first frame."""
+        if self.experiment.start is not None:
+            return given_start(self.experiment.template, self.experiment.start)
+        frame = next(self.sequence.frames())
+        try:
+            observation = self.experiment.observer.observe(frame)
+        except RegkitError as error:
+            raise error.at(frame.place or self.sequence.name) from None
+        return found_start(self.experiment.template, observation)
+
+
+def _chosen(experiment: Experiment, only: tuple[str, ...]) -> dict[str, Method]:
+    for name in only:
+        if name not in experiment.methods:
+            known = list(experiment.methods)
+            raise ConfigError(
+                f"no method '{name}' (there are: {', '.join(known)})" + did_you_mean(name, known),
+                place="--only",
+            )
+    return {name: experiment.methods[name] for name in only or experiment.methods}
+
+
+def _check_joints(experiment: Experiment, truths: dict[str, Truth | None]) -> None:
+    """Find a misspelt joint before the hours of computing, not after them."""
+    body = experiment.template.body(experiment.template.candidate_sizes()[0])
+    for truth in truths.values():
+        if truth is not None:
+            matched(body, truth, experiment.dataset.joints)

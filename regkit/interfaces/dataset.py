@@ -1,0 +1,86 @@
+"""Datasets: sequences of frames, with reference joints where there are any."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Annotated
+
+from pydantic import Field
+
+from regkit.errors import ConfigError
+from regkit.model import did_you_mean
+from regkit.observation import Frame, Truth
+from regkit.plugin import Plugin
+
+
+@dataclass(frozen=True)
+class Sequence(ABC):
+    """Frames in the order of time.
+
+    Attributes:
+        name: Unique within its dataset, and fit to be a folder's name.
+        fps: Frames per second at which it was recorded.
+        length: Number of frames.
+    """
+
+    name: str
+    fps: float
+    length: int
+
+    @abstractmethod
+    def frames(self) -> Iterator[Frame]:
+        """The frames, read one by one.
+
+        Raises:
+            DataError: If a frame is missing or damaged.
+        """
+
+    @abstractmethod
+    def truth(self) -> Truth | None:
+        """The reference joints of the frames, or None.
+
+        Raises:
+            DataError: If they are there but damaged.
+        """
+
+
+class Dataset(Plugin, ABC):
+    """A set of sequences."""
+
+    group = "regkit.datasets"
+
+    sequences: tuple[str, ...] | None = None
+    """Names of the sequences to use; all that there are without it."""
+    frames: Annotated[int, Field(ge=1)] | None = None
+    """Use only so many frames from the start of each sequence."""
+    joints: dict[str, str] = Field(default_factory=dict)
+    """Names of the data's reference joints to the template's markers, where they differ."""
+
+    @abstractmethod
+    def found(self) -> list[Sequence]:
+        """Every sequence that there is, cut to ``frames``.
+
+        Raises:
+            DataError: If there is none, or one is damaged.
+        """
+
+    def chosen(self) -> list[Sequence]:
+        """The sequences to use.
+
+        Raises:
+            DataError: If there is none, or one is damaged.
+            ConfigError: If one is named that there is not.
+        """
+        found = {sequence.name: sequence for sequence in self.found()}
+        if self.sequences is None:
+            return list(found.values())
+        for name in self.sequences:
+            if name not in found:
+                raise ConfigError(
+                    f"no sequence '{name}' (there are: {', '.join(found)})"
+                    + did_you_mean(name, list(found)),
+                    place="dataset.sequences",
+                )
+        return [found[name] for name in self.sequences]

@@ -1,0 +1,56 @@
+"""Kernels: how well placed primitives explain data, and the forces that the data put on them."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from regkit.arrays import Array
+from regkit.observation import Observation
+from regkit.plugin import Plugin
+from regkit.primitives import Placed, Primitives
+
+
+@dataclass(frozen=True)
+class Response:
+    """An energy, which registration makes small, and its derivative.
+
+    Attributes:
+        energy: The energy; the lower, the better the primitives explain the data.
+        wrenches: Its derivative to each primitive's motion, (K, 6): to the translation of the
+            primitive, then to a rotation vector in the world about the primitive's own centre.
+    """
+
+    energy: float
+    wrenches: Array
+
+
+class Similarity(ABC):
+    """A kernel bound to the data of one frame."""
+
+    @abstractmethod
+    def __call__(self, placed: Placed[Any]) -> Response:
+        """The energy of primitives in the world, and its derivative."""
+
+
+class Kernel(Plugin, ABC):
+    """Compares primitives with data; it never sees a skeleton."""
+
+    group = "regkit.kernels"
+
+    accepts: ClassVar[type[Primitives]]
+    """The primitives that it can compare."""
+
+    @abstractmethod
+    def against(
+        self, observation: Observation, start: Placed[Any], *, blur: float = 0.0
+    ) -> Similarity:
+        """Bind the kernel to a frame.
+
+        Args:
+            observation: The data.
+            start: The primitives in the pose from which the frame is registered.
+            blur: Standard deviation [m] of a Gaussian that smooths the energy over space; a first,
+                coarse look uses it to see further.
+        """

@@ -1,0 +1,22 @@
+"""Observers: from a frame to the data that a kernel compares with."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+
+from regkit.observation import Frame, Observation
+from regkit.plugin import Plugin
+
+
+class Observer(Plugin, ABC):
+    """Makes a sum of Gaussians of a frame's points."""
+
+    group = "regkit.observers"
+
+    @abstractmethod
+    def observe(self, frame: Frame) -> Observation:
+        """The frame as data.
+
+        Raises:
+            DataError: If it holds too few points, or points that are not finite.
+        """

@@ -1,0 +1,40 @@
+"""Templates: bodies before their size is known."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+
+import numpy as np
+
+from regkit.body import Body, BodyDescription
+from regkit.plugin import Plugin
+
+
+class Template(Plugin, ABC):
+    """A body that can be had in any size."""
+
+    group = "regkit.templates"
+
+    @abstractmethod
+    def description(self) -> BodyDescription:
+        """What the template's YAML says.
+
+        Raises:
+            RegkitError: If the file is missing or wrong.
+        """
+
+    @abstractmethod
+    def given_size(self) -> float | None:
+        """The size that the user gave [m], or None if it is to be found from the data."""
+
+    def candidate_sizes(self, count: int = 5) -> tuple[float, ...]:
+        """The given size alone, or ``count`` sizes over the range that occurs [m]."""
+        given = self.given_size()
+        if given is not None:
+            return (given,)
+        smallest, largest = self.description().size.range
+        return tuple(float(size) for size in np.geomspace(smallest, largest, count))
+
+    def body(self, size: float) -> Body:
+        """The body whose size is ``size`` [m]."""
+        return self.description().body(self.kind, size)

@@ -1,0 +1,134 @@
+"""From the tree that a person wrote to the arrays that are computed with."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from regkit.arrays import Array, Indices, read_only
+from regkit.rigid import rigid
+from regkit.rotation import from_vector, vector_to_matrix
+from regkit.skeleton.description import SkeletonDescription, parents_first
+from regkit.skeleton.joints import BallJoint, FreeJoint, HingeJoint, Range, UniversalJoint, Vector
+from regkit.skeleton.limits import Limits
+from regkit.skeleton.skeleton import Skeleton
+
+_UNLIMITED = (-np.inf, np.inf)
+
+
+@dataclass
+class _Links:
+    """The links gathered so far."""
+
+    parents: list[int] = field(default_factory=list)
+    offsets: list[Array] = field(default_factory=list)
+    balls: list[tuple[int, BallJoint]] = field(default_factory=list)
+    hinges: list[tuple[int, Vector, Range]] = field(default_factory=list)
+
+    def add(self, parent: int, offset: Array) -> int:
+        self.parents.append(parent)
+        self.offsets.append(offset)
+        return len(self.parents) - 1
+
+    def add_hinge(self, link: int, axis: Vector, limits_deg: Range | None) -> None:
+        self.hinges.append((link, axis, _UNLIMITED if limits_deg is None else limits_deg))
+
+
+def compiled(description: SkeletonDescription, scale: float = 1.0) -> Skeleton:
+    """The skeleton of a description, its lengths multiplied by ``scale``."""
+    names = parents_first(description.segments)
+    links = _Links()
+    segment_links: dict[str, int] = {}
+    for name in names:
+        segment = description.segments[name]
+        rotation = vector_to_matrix(np.radians(segment.rotation_deg))
+        offset = rigid(rotation, scale * np.array(segment.offset))
+        link = links.add(-1 if segment.parent is None else segment_links[segment.parent], offset)
+        match segment.joint:
+            case BallJoint() as ball:
+                links.balls.append((link, ball))
+            case HingeJoint() as hinge:
+                links.add_hinge(link, hinge.axis, hinge.limits_deg)
+            case UniversalJoint() as universal:
+                first, second = universal.limits_deg or (None, None)
+                links.add_hinge(link, universal.axes[0], first)
+                link = links.add(link, np.eye(4))
+                links.add_hinge(link, universal.axes[1], second)
+        segment_links[name] = link
+    free = isinstance(description.segments[names[0]].joint, FreeJoint)
+    return _skeleton(names, description, links, segment_links, free=free)
+
+
+def _skeleton(
+    names: list[str],
+    description: SkeletonDescription,
+    links: _Links,
+    segment_links: dict[str, int],
+    *,
+    free: bool,
+) -> Skeleton:
+    parents = [description.segments[name].parent for name in names]
+    chains = [_chain(link, links.parents) for link in range(len(links.parents))]
+    depths = np.array([len(chain) for chain in chains])
+    ball_links = np.array([link for link, _ in links.balls], dtype=np.intp)
+    hinge_links = np.array([link for link, _, _ in links.hinges], dtype=np.intp)
+    movers = [*([0] * 6 if free else []), *np.repeat(ball_links, 3), *hinge_links]
+    return Skeleton(
+        names=tuple(names),
+        parents=np.array([-1 if p is None else names.index(p) for p in parents], dtype=np.intp),
+        free=free,
+        segment_links=np.array([segment_links[name] for name in names], dtype=np.intp),
+        link_parents=np.array(links.parents, dtype=np.intp),
+        link_offsets=read_only(links.offsets),
+        levels=tuple(np.flatnonzero(depths == d) for d in range(2, int(depths.max()) + 1)),
+        ball_links=ball_links,
+        hinge_links=hinge_links,
+        hinge_axes=read_only([axis for _, axis, _ in links.hinges]).reshape(-1, 3),
+        joint_freedoms=_joint_freedoms(links, segment_links, first=6 if free else 0),
+        moves=read_only(
+            [[mover in chains[segment_links[name]] for name in names] for mover in movers]
+        ).reshape(len(movers), len(names)),
+        limits=_limits(links),
+    )
+
+
+def _joint_freedoms(
+    links: _Links, segment_links: dict[str, int], *, first: int
+) -> dict[str, Indices]:
+    """Three for a ball, one for a hinge, and for a universal joint those of two links."""
+    freedoms: dict[int, list[int]] = {}
+    for link, _ in links.balls:
+        freedoms[link] = [first, first + 1, first + 2]
+        first += 3
+    for link, _, _ in links.hinges:
+        freedoms[link] = [first]
+        first += 1
+    joints: dict[str, Indices] = {}
+    for name, link in segment_links.items():
+        parent = links.parents[link]
+        virtual = parent >= 0 and parent not in segment_links.values()
+        own = (freedoms.get(parent, []) if virtual else []) + freedoms.get(link, [])
+        if own:
+            joints[name] = np.array(own, dtype=np.intp)
+    return joints
+
+
+def _chain(link: int, parents: list[int]) -> list[int]:
+    """A link and all that it hangs on."""
+    chain = [link]
+    while parents[chain[-1]] >= 0:
+        chain.append(parents[chain[-1]])
+    return chain
+
+
+def _limits(links: _Links) -> Limits:
+    balls = [ball for _, ball in links.balls]
+    return Limits(
+        hinge=read_only(np.radians([limits for _, _, limits in links.hinges])).reshape(-1, 2),
+        centre=from_vector(np.radians([ball.centre_deg for ball in balls]).reshape(-1, 3)),
+        twist_axis=read_only([ball.twist_axis for ball in balls]).reshape(-1, 3),
+        swing_axis=read_only([ball.swing_axis for ball in balls]).reshape(-1, 3),
+        swing=np.radians([ball.swing_deg or (np.inf, np.inf) for ball in balls]).reshape(-1, 2),
+        twist=np.radians([ball.twist_deg or _UNLIMITED for ball in balls]).reshape(-1, 2),
+    )

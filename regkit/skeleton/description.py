@@ -1,0 +1,90 @@
+"""What a skeleton's YAML holds: a tree of named segments."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field, model_validator
+
+from regkit.model import Model
+from regkit.skeleton.joints import FixedJoint, FreeJoint, Joint, Vector
+
+Radius = Annotated[float, Field(gt=0.0)]
+
+
+class CapsuleDescription(Model):
+    """The convex hull of two spheres, in the segment's frame."""
+
+    start: Vector
+    """Centre of the first sphere [m]."""
+    end: Vector
+    """Centre of the second sphere [m]; the same as the first makes one sphere."""
+    radius: Radius | tuple[Radius, Radius]
+    """One radius, or that of the first and of the second sphere [m]."""
+
+
+class SegmentDescription(Model):
+    """One rigid segment and the joint that ties it to its parent."""
+
+    parent: str | None = None
+    """Name of the parent segment; the one segment without it is the root."""
+    offset: Vector = (0.0, 0.0, 0.0)
+    """Position of the joint in the parent's frame [m]."""
+    rotation_deg: Vector = (0.0, 0.0, 0.0)
+    """Rotation vector of the joint's frame in the parent's at rest [deg]; zero: parallel."""
+    joint: Joint = Field(default_factory=FixedJoint)
+    """How the segment moves relative to its parent."""
+    capsules: tuple[CapsuleDescription, ...] = ()
+    """The segment's surface."""
+    markers: dict[str, Vector] = Field(default_factory=dict)
+    """Named points in the segment's frame [m]: joints, fingertips, whatever can be measured."""
+
+
+class SkeletonDescription(Model):
+    """A tree of segments; in the rest pose every joint angle is zero."""
+
+    segments: dict[str, SegmentDescription] = Field(min_length=1)
+    """The segments by name, in any order."""
+
+    @model_validator(mode="after")
+    def _is_a_tree(self) -> SkeletonDescription:
+        parents_first(self.segments)
+        owners: dict[str, str] = {}
+        for name, segment in self.segments.items():
+            for marker in segment.markers:
+                if marker in owners:
+                    raise ValueError(f"marker '{marker}' is on '{owners[marker]}' and on '{name}'")
+                owners[marker] = name
+        return self
+
+
+def parents_first(segments: dict[str, SegmentDescription]) -> list[str]:
+    """The names ordered so that each parent comes before its children.
+
+    Raises:
+        ValueError: If there is not exactly one root, a parent is unknown, the tree has a cycle, or
+            a joint other than the root's is free. (pydantic puts the place before it.)
+    """
+    roots = [name for name, segment in segments.items() if segment.parent is None]
+    for name, segment in segments.items():
+        if segment.parent is not None and segment.parent not in segments:
+            raise ValueError(
+                f"segment '{name}' is an orphan: its parent '{segment.parent}' is not a segment "
+                f"(there are: {', '.join(segments)})"
+            )
+        if segment.parent is not None and isinstance(segment.joint, FreeJoint):
+            raise ValueError(f"segment '{name}' has a free joint; only the root may")
+    if len(roots) > 1:
+        raise ValueError(
+            f"several segments have no parent ({', '.join(roots)}); one root is needed"
+        )
+    ordered = list(roots)
+    for name in ordered:
+        ordered += [child for child, segment in segments.items() if segment.parent == name]
+    cyclic = [name for name in segments if name not in ordered]
+    if cyclic:
+        raise ValueError(
+            f"the segments {', '.join(cyclic)} form a cycle; following their parents must end at "
+            "the root"
+        )
+    return ordered

@@ -1,0 +1,134 @@
+"""Forward kinematics of a tree of segments, one matrix product for each level of the tree."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from regkit.arrays import Array, Indices
+from regkit.errors import ConfigError
+from regkit.rigid import rigid
+from regkit.rotation import from_vector, product, to_matrix, vector_to_matrix
+from regkit.skeleton.limits import Limits
+from regkit.skeleton.placement import Placement
+from regkit.skeleton.pose import Pose, PoseDescription
+
+
+@dataclass(frozen=True)
+class Skeleton:
+    """A tree of *links*, each with at most one joint; ``regkit.skeleton.compile`` makes it.
+
+    A universal joint is two hinges, the first of them on a link of its own. So every link's joint
+    is free (the root's), a ball, a hinge, or fixed, and a segment is the last link of its joint.
+
+    The degrees of freedom are ordered: the root's translation (3) and rotation (3) if it is free,
+    three for each ball joint, one for each hinge.
+
+    Attributes:
+        names: Names of the segments, parents first, (S).
+        parents: Index of each segment's parent, -1 for the root, (S,).
+        free: Whether the root moves.
+        segment_links: The link of each segment, (S,).
+        link_parents: Index of each link's parent, -1 for the root, (L,).
+        link_offsets: T_parent_joint of each link at rest, (L, 4, 4).
+        levels: Indices of the links at each depth of the tree below the root.
+        ball_links: The link of each ball joint, (n_ball,).
+        hinge_links: The link of each hinge, (n_hinge,).
+        hinge_axes: Unit axis of each hinge in its link's frame, (n_hinge, 3).
+        joint_freedoms: The degrees of freedom of each segment's own joint, by the segment's name.
+        moves: 1 where a degree of freedom moves a segment, else 0, (n, S).
+        limits: Joint limits.
+    """
+
+    names: tuple[str, ...]
+    parents: Indices
+    free: bool
+    segment_links: Indices
+    link_parents: Indices
+    link_offsets: Array
+    levels: tuple[Indices, ...]
+    ball_links: Indices
+    hinge_links: Indices
+    hinge_axes: Array
+    joint_freedoms: Mapping[str, Indices]
+    moves: Array
+    limits: Limits
+
+    @property
+    def freedoms(self) -> int:
+        """Number n of degrees of freedom."""
+        return len(self.moves)
+
+    @property
+    def ball_freedoms(self) -> slice:
+        """Where the ball joints stand among the degrees of freedom."""
+        start = 6 if self.free else 0
+        return slice(start, start + 3 * len(self.ball_links))
+
+    @property
+    def hinge_freedoms(self) -> slice:
+        """Where the hinges stand among the degrees of freedom."""
+        return slice(self.ball_freedoms.stop, self.freedoms)
+
+    def rest(self, root: Array | None = None) -> Pose:
+        """The pose with every angle zero, its root at T_world_root (4, 4)."""
+        balls = np.tile([0.0, 0.0, 0.0, 1.0], (len(self.ball_links), 1))
+        return Pose(np.eye(4) if root is None else root, balls, np.zeros(len(self.hinge_links)))
+
+    def retract(self, pose: Pose, step: Array) -> Pose:
+        """The pose after a step (n,) on the tangent space at ``pose``.
+
+        The root's translation is in the world; its rotation and those of the ball joints are
+        rotation vectors in the frames that they turn, R exp(w); hinge angles add.
+        """
+        root = pose.root
+        if self.free:
+            rotation = pose.root[:3, :3] @ vector_to_matrix(step[3:6])
+            root = rigid(rotation, pose.root[:3, 3] + step[:3])
+        turns = from_vector(step[self.ball_freedoms].reshape(-1, 3))
+        return Pose(root, product(pose.balls, turns), pose.hinges + step[self.hinge_freedoms])
+
+    def place(self, pose: Pose) -> Placement:
+        """Where a pose puts every segment, eq. 4: T_l = T_par(l) R_l."""
+        local = self.link_offsets.copy()
+        turns = np.concatenate([to_matrix(pose.balls), self._hinge_rotations(pose.hinges)])
+        turned = np.concatenate([self.ball_links, self.hinge_links])
+        local[turned, :3, :3] = local[turned, :3, :3] @ turns
+        links = np.empty_like(local)
+        links[0] = pose.root @ local[0]
+        for level in self.levels:
+            links[level] = links[self.link_parents[level]] @ local[level]
+        return Placement(self, pose, links)
+
+    def pose(self, description: PoseDescription) -> Pose:
+        """The pose that a person wrote down in degrees.
+
+        Raises:
+            ConfigError: If a joint is unknown, or has another number of angles.
+        """
+        root = rigid(
+            vector_to_matrix(np.radians(description.root.rotation_deg)),
+            np.array(description.root.position),
+        )
+        pose = self.rest(root)
+        angles_of = self.joint_freedoms
+        for name, angles in description.joints.items():
+            if name not in angles_of:
+                raise ConfigError(
+                    f"a pose turns '{name}', which has no joint (there are: {', '.join(angles_of)})"
+                )
+            values = np.radians(np.atleast_1d(angles))
+            where = angles_of[name]
+            if len(values) != len(where):
+                raise ConfigError(
+                    f"a pose gives {len(values)} angles for '{name}', which has {len(where)}"
+                )
+            step = np.zeros(self.freedoms)
+            step[where] = values
+            pose = self.retract(pose, step)
+        return pose
+
+    def _hinge_rotations(self, angles: Array) -> Array:
+        return vector_to_matrix(angles[:, None] * self.hinge_axes)

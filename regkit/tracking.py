@@ -1,0 +1,104 @@
+"""Following a body through a sequence: the loop that every experiment runs."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from regkit.arrays import Array
+from regkit.errors import RegkitError
+from regkit.interfaces import Observer, Registered, Registrar, Sequence, Tracker
+from regkit.observation import Observation
+from regkit.skeleton import Pose
+
+
+@dataclass(frozen=True)
+class TrackedFrame:
+    """What was found in one frame.
+
+    Attributes:
+        observation: What was measured, as data.
+        registered: The pose and how it was found.
+        seconds: Time to observe and register; reading the file is not counted.
+    """
+
+    observation: Observation
+    registered: Registered
+    seconds: float
+
+
+def tracked(
+    sequence: Sequence, observer: Observer, registrar: Registrar, tracker: Tracker, start: Pose
+) -> Iterator[TrackedFrame]:
+    """Track a sequence from a start pose, frame by frame.
+
+    Raises:
+        RegkitError: If a frame cannot be read or registered; it says which.
+    """
+    past = [start]
+    for index, frame in enumerate(sequence.frames()):
+        begun = time.perf_counter()
+        try:
+            observation = observer.observe(frame)
+            registered = tracker.step(registrar, observation, past)
+        except RegkitError as error:
+            raise error.at(frame.place or f"{sequence.name}: frame {index}") from None
+        past.append(registered.pose)
+        yield TrackedFrame(observation, registered, time.perf_counter() - begun)
+
+
+@dataclass(frozen=True)
+class Track:
+    """A tracked sequence as arrays over its T frames.
+
+    Attributes:
+        root: T_camera_root, (T, 4, 4) [m].
+        balls: (T, n_ball, 4) unit quaternions.
+        hinges: (T, n_hinge) [rad].
+        markers: (T, M, 3) [m], in the camera's frame.
+        surface_distances: Median distance of a frame's points to the body's surface, (T,) [m].
+        energies: (T,) in the method's own units.
+        evaluations: (T,).
+        seconds: (T,).
+    """
+
+    root: Array
+    balls: Array
+    hinges: Array
+    markers: Array
+    surface_distances: Array
+    energies: Array
+    evaluations: Array
+    seconds: Array
+
+    def pose(self, index: int) -> Pose:
+        """The pose in a frame."""
+        return Pose(self.root[index], self.balls[index], self.hinges[index])
+
+    @classmethod
+    def of(cls, frames: list[TrackedFrame], registrar: Registrar) -> Track:
+        """The arrays of tracked frames; the surface is that of the registrar's body."""
+        body = registrar.body
+        poses = [frame.registered.pose for frame in frames]
+        placements = [body.place(pose) for pose in poses]
+        distances = [
+            np.median(np.abs(body.capsules.place(placement.transforms).surface_distance(points)))
+            if len(body.capsules)
+            else np.nan
+            for placement, points in zip(
+                placements, (frame.observation.points for frame in frames), strict=True
+            )
+        ]
+        return cls(
+            root=np.array([pose.root for pose in poses]),
+            balls=np.array([pose.balls for pose in poses]),
+            hinges=np.array([pose.hinges for pose in poses]),
+            markers=np.array([body.markers.place(p.transforms) for p in placements]),
+            surface_distances=np.array(distances),
+            energies=np.array([frame.registered.energy for frame in frames]),
+            evaluations=np.array([float(frame.registered.evaluations) for frame in frames]),
+            seconds=np.array([frame.seconds for frame in frames]),
+        )

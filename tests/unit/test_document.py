@@ -1,0 +1,179 @@
+"""Errors in YAML name the file, the line, the field, what is wrong and what would be right."""
+
+from pathlib import Path
+
+import pytest
+
+from regkit.body import BodyDescription
+from regkit.document import Document
+from regkit.errors import ConfigError, DataError, RegkitError
+from regkit.experiment import Experiment
+from regkit.skeleton import SkeletonDescription
+
+EXPERIMENT = """\
+name: test
+dataset:
+  kind: depth
+  root: data
+template: {kind: human, height: 1.7}
+methods:
+  gsog:
+    kind: direct
+    shape: gsog
+    kernel: {kind: correlation}
+    solver: {kind: lbfgs}
+"""
+
+
+def complaint(path: Path, text: str, model: type, settings: tuple[str, ...] = ()) -> str:
+    path.write_text(text)
+    with pytest.raises(RegkitError) as caught:
+        Document.read(path).overridden(settings).validated(model)
+    return str(caught.value).replace(str(path), "FILE")
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Path:
+    return tmp_path / "experiment.yaml"
+
+
+def test_valid_experiment_is_read(file):
+    file.write_text(EXPERIMENT)
+    experiment = Experiment.read(file)
+    assert experiment.methods["gsog"].shape.kind == "gsog"
+    assert experiment.tracker.kind == "hold"
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ("shape: gsog", "shape: gsg", "FILE:9: methods.gsog.shape: no plug-in 'gsg' in "
+         "regkit.shapes (installed: gsog, sog); did you mean 'gsog'?"),
+        ("kind: lbfgs", "kind: lbfgs, max_iteration: 5", "FILE:11: "
+         "methods.gsog.solver.max_iteration: no such field (there are: gradient_tolerance, kind, max_iterations, memory, "
+         "value_tolerance); did you mean 'max_iterations'?"),
+        ("kind: lbfgs", "kind: lbfgs, max_iterations: many", "FILE:11: "
+         "methods.gsog.solver.max_iterations: input should be a valid integer, unable to parse "
+         "string as an integer; it is 'many'"),
+        ("kind: lbfgs", "kind: lbfgs, max_iterations: 0", "FILE:11: "
+         "methods.gsog.solver.max_iterations: input should be greater than or equal to 1; it is 0"),
+        ("height: 1.7", "height: .nan", "FILE:5: template.height: input should be a finite number; "
+         "it is nan"),
+        ("kind: correlation", "covariance: exact", "FILE:10: methods.gsog.kernel: expected a name "
+         "or a mapping with a 'kind' (installed: correlation)"),
+        ("    shape: gsog\n", "", "FILE:7: methods.gsog.shape: field required"),
+        ("name: test", "name: a/b", "FILE:1: name: 'a/b' names a folder: use letters, digits, '-', "
+         "'_' and '.', and begin with a letter or digit"),
+    ],
+)  # fmt: skip
+def test_experiment_error_names_the_place(file, old, new, expected):
+    assert complaint(file, EXPERIMENT.replace(old, new), Experiment) == expected
+
+
+def test_every_error_is_told_at_once(file):
+    text = EXPERIMENT.replace("shape: gsog", "shape: x").replace("height: 1.7", "height: tall")
+    lines = complaint(file, text, Experiment).splitlines()
+    assert len(lines) == 2
+    assert lines[0].startswith("FILE:5: template.height")
+    assert lines[1].startswith("FILE:9: methods.gsog.shape")
+
+
+def test_repeated_key_is_refused(file):
+    message = complaint(file, EXPERIMENT + "name: again\n", Experiment)
+    assert message.startswith("FILE:12: not valid YAML: found duplicate key")
+
+
+def test_broken_yaml_is_told_with_its_line(file):
+    assert complaint(file, "name: [1, 2\nmore: 3\n", Experiment).startswith(
+        "FILE:2: not valid YAML"
+    )
+
+
+def test_missing_file_is_told(tmp_path):
+    with pytest.raises(DataError, match="there is no such file"):
+        Document.read(tmp_path / "nothing.yaml")
+
+
+def test_document_that_is_no_mapping_is_refused(file):
+    assert complaint(file, "- 1\n", Experiment) == (
+        "FILE:1: the file must hold a mapping of fields (name: value)"
+    )
+
+
+def test_setting_changes_a_value_and_is_named_in_errors(file):
+    file.write_text(EXPERIMENT)
+    changed = Experiment.read(file, ["methods.gsog.solver.max_iterations=7"])
+    assert changed.methods["gsog"].solver.max_iterations == 7
+    message = complaint(file, EXPERIMENT, Experiment, ("template.height=tall",))
+    assert message.startswith("--set template.height=tall: template.height: input should be")
+    message = complaint(file, EXPERIMENT, Experiment, ("template.height",))
+    assert message == "--set template.height: a setting must read a.b.c=value"
+
+
+def test_setting_reaches_into_a_short_form(file):
+    file.write_text(EXPERIMENT)
+    changed = Experiment.read(file, ["methods.gsog.shape.kind=sog", "template=human"])
+    assert changed.methods["gsog"].shape.kind == "sog"
+    assert changed.template.height is None
+
+
+def test_path_is_meant_from_the_file_and_a_setting_from_here(file, monkeypatch, tmp_path):
+    file.write_text(EXPERIMENT)
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    monkeypatch.chdir(elsewhere)
+    assert Experiment.read(file).dataset.root == tmp_path / "data"
+    assert Experiment.read(file, ["dataset.root=data"]).dataset.root == elsewhere / "data"
+
+
+SKELETON = """\
+segments:
+  root: {joint: {type: free}}
+  arm: {parent: root, joint: {type: hinge, axis: x, limits_deg: [0, 90]}}
+  hand: {parent: arm, joint: {type: fixed}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ("parent: root", "parent: hand", "FILE:1: the segments arm, hand form a cycle; following "
+         "their parents must end at the root"),
+        ("parent: arm", "parent: amr", "FILE:1: segment 'hand' is an orphan: its parent 'amr' is "
+         "not a segment (there are: root, arm, hand)"),
+        ("parent: arm, ", "", "FILE:1: several segments have no parent (root, hand); one root is "
+         "needed"),
+        ("  hand:", "  arm:", "FILE:4: not valid YAML: found duplicate key \"arm\""),
+        ("[0, 90]", "[90, 0]", "FILE:3: segments.arm.joint.limits_deg: limits are reversed: "
+         "[90.0, 0.0]; write [0.0, 90.0]"),
+        ("axis: x", "axis: [0, 0, 0]", "FILE:3: segments.arm.joint.axis: an axis must not be zero"),
+        ("type: hinge", "type: hing", "FILE:3: segments.arm.joint: input tag 'hing' found using "
+         "'type' does not match any of the expected tags: 'free', 'fixed', 'hinge', 'universal', "
+         "'ball'"),
+        ("type: fixed", "type: free", "FILE:1: segment 'hand' has a free joint; only the root may"),
+    ],
+)  # fmt: skip
+def test_skeleton_error_names_the_place(file, old, new, expected):
+    message = complaint(file, SKELETON.replace(old, new), SkeletonDescription)
+    assert message.splitlines()[0].replace("segments: the", "the").startswith(expected)
+
+
+@pytest.mark.parametrize(
+    ("more", "expected"),
+    [
+        ("gaussians: {gsog: {base: [{centre: [0, 0, 0], sigma: [0.1, 0, 0.1]}]}}",
+         "gaussians.gsog.base[0].sigma"),
+        ("gaussians: {sog: {nothing: [{centre: [0, 0, 0], sigma: 0.1}]}}",
+         "gaussians.sog has 'nothing', which is not a segment"),
+    ],
+)  # fmt: skip
+def test_template_error_names_the_place(file, linkage_text, more, expected):
+    assert expected in complaint(file, linkage_text + more + "\n", BodyDescription)
+
+
+def test_unknown_joint_of_a_stance_is_refused(file, linkage_text):
+    file.write_text(linkage_text + "stances: {odd: {joints: {elbow: 10}}}\n")
+    with pytest.raises(
+        ConfigError, match=r"stances.odd of thing: a pose turns 'elbow', which has no"
+    ):
+        Document.read(file).validated(BodyDescription).body("thing", 1.0)

