@@ -66,7 +66,8 @@ class Capsules:
         for segment, (start, end), (first, last) in zip(
             self.segments, self.ends, self.radii, strict=True
         ):
-            count = int(np.ceil(np.linalg.norm(end - start) / spacing)) + 1
+            # Less a little, so that their number is the same wherever the capsules are placed.
+            count = int(np.ceil(np.linalg.norm(end - start) / spacing - 1e-6)) + 1
             along = np.linspace(0.0, 1.0, count)
             segments.append(np.full(count, segment))
             points.append(start + along[:, None] * (end - start))

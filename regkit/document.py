@@ -12,7 +12,7 @@ from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 from ruamel.yaml import YAML
 from ruamel.yaml.comments import CommentedMap, CommentedSeq
-from ruamel.yaml.error import MarkedYAMLError
+from ruamel.yaml.error import MarkedYAMLError, YAMLError
 
 from regkit.errors import ConfigError, DataError
 from regkit.model import Text
@@ -153,6 +153,8 @@ def _parsed(text: str, place: str) -> Any:
         )
         reason = (error.problem or "not YAML").splitlines()[0]
         raise ConfigError(f"not valid YAML: {reason}", place=f"{place}{line}") from None
+    except YAMLError as error:
+        raise ConfigError(f"not valid YAML: {str(error).splitlines()[0]}", place=place) from None
 
 
 def _plain(node: Any, location: Location, path: Path, places: dict[Location, str]) -> Any:

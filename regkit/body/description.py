@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
 from regkit.arrays import read_only
 from regkit.body.body import Body, Markers, Stance
@@ -21,6 +21,12 @@ from regkit.skeleton.joints import Range, Vector
 Deviation = Annotated[float, Field(gt=1e-6)]
 
 
+def _positive(value: tuple[float, float]) -> tuple[float, float]:
+    if value[0] <= 0.0:
+        raise ValueError(f"a length must be positive: {list(value)}")
+    return value
+
+
 class SizeDescription(Model):
     """The length by which a person would name the body's size."""
 
@@ -28,7 +34,7 @@ class SizeDescription(Model):
     """What is measured: the height of a person, the length of a hand."""
     value: Annotated[float, Field(gt=0.0)]
     """The length at which all other lengths of this file hold [m]."""
-    range: Range
+    range: Annotated[Range, AfterValidator(_positive)]
     """The smallest and the largest that occur [m]; tried where no size is given."""
 
 

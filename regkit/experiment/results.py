@@ -45,6 +45,8 @@ class Results:
         results = cls(folder)
         config = yaml_text(experiment.model_dump(mode="json"))
         file = folder / "config.yaml"
+        if folder.exists() and not folder.is_dir():
+            raise ConfigError("this is a file, not a folder", place=f"--out {folder}")
         if file.exists() and file.read_text(encoding="utf-8") != config:
             raise ConfigError(
                 f"the folder holds the results of another configuration ({file}); "

@@ -9,7 +9,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from regkit.errors import ConfigError
+from regkit.errors import ConfigError, DataError
 from regkit.model import did_you_mean
 from regkit.observation import Frame, Truth
 from regkit.plugin import Plugin
@@ -70,10 +70,14 @@ class Dataset(Plugin, ABC):
         """The sequences to use.
 
         Raises:
-            DataError: If there is none, or one is damaged.
+            DataError: If there is none, one is damaged, or two have the same name.
             ConfigError: If one is named that there is not.
         """
-        found = {sequence.name: sequence for sequence in self.found()}
+        found: dict[str, Sequence] = {}
+        for sequence in self.found():
+            if sequence.name in found:
+                raise DataError(f"two sequences are called '{sequence.name}'", place="dataset")
+            found[sequence.name] = sequence
         if self.sequences is None:
             return list(found.values())
         for name in self.sequences:

@@ -106,5 +106,6 @@ def _draw(
     plot.set_aspect("equal")
     plot.invert_yaxis()
     plot.tick_params(labelsize=7)
+    plot.locator_params(axis="x", nbins=4)
     plot.set_xlabel("x [m]" if across == 0 else "z [m]", fontsize=8)
     plot.set_ylabel("y [m]", fontsize=8)

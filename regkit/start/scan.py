@@ -48,9 +48,22 @@ class Scan:
 
     def __init__(self, points: Array) -> None:
         step = max(1, len(points) // MOST_POINTS)
-        self.centre = points.mean(axis=0)
+        self._centre = points.mean(axis=0)
         self._points = points[::step]
         self._tree = KDTree(points)
+
+    def centres(self, size: float) -> list[Array]:
+        """Where a body of this size [m] may be: at the cloud's centre, or at either end of a long one.
+
+        A hand with its forearm is such a cloud: the forearm is no part of the body that is sought.
+        """
+        offsets = self._points - self._centre
+        axis = np.linalg.svd(offsets, full_matrices=False)[2][0]
+        low, high = np.percentile(offsets @ axis, [1.0, 99.0])
+        if high - low < 1.2 * size:
+            return [self._centre]
+        ends = (low + 0.5 * size, high - 0.5 * size)
+        return [self._centre, *(self._centre + end * axis for end in ends)]
 
     def unexplained(self, body: Body, placement: Placement) -> Gaps:
         """From the surface to the points."""

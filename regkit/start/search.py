@@ -24,6 +24,12 @@ FACING_CAMERA = np.diag([1.0, -1.0, -1.0])
 REACH = 0.06
 """Gaps beyond this part of the body's size count no more: an arm's width on a person."""
 
+ROUGH = 3.0
+"""By how much the reach is larger for guesses."""
+
+LIKELY = 12
+"""How many guesses are fitted in a middle size."""
+
 FINALISTS = 3
 """How many stances are fitted in every candidate size."""
 
@@ -35,7 +41,7 @@ class Start:
     Attributes:
         body: The body at its size.
         pose: Its pose in the first frame.
-        misfit: How badly it fits, from 0 to 2, and by how much it violates a joint limit [rad];
+        misfit: How badly it fits, from 0 to 2, plus the largest violation of a joint limit [rad];
             None if the pose was given.
     """
 
@@ -47,10 +53,10 @@ class Start:
 def found_start(template: Template, observation: Observation) -> Start:
     """The start that fits the first frame best.
 
-    Every likely stance is placed at the cloud's centre, facing the camera, in every candidate size
-    and turn; the best guess of each stance is fitted to the cloud. The stances that then fit best
-    are fitted again in every size, annealed from far to near, and the best fit is kept. Shape
-    models, kernels and solvers play no part, so that all methods begin alike.
+    Every likely stance is placed at the cloud's centre, facing the camera, in every turn. The best
+    of these guesses are fitted to the cloud; those that then fit best are fitted in every candidate
+    size, annealed from far to near, and the best fit is kept. Shape models, kernels and solvers play
+    no part, so that all methods begin alike.
 
     Args:
         template: What is seen, perhaps of unknown size.
@@ -58,11 +64,8 @@ def found_start(template: Template, observation: Observation) -> Start:
     """
     scan = Scan(observation.points)
     bodies = [template.body(size) for size in template.candidate_sizes()]
-    likely = [
-        min((guess for body in bodies for guess in _guesses(scan, body, index)), key=_misfit)
-        for index in range(len(bodies[0].stances))
-    ]
-    coarse = sorted((_fit(scan, guess.body, guess.pose, (1.0,)) for guess in likely), key=_misfit)
+    likely = sorted(_guesses(scan, bodies[len(bodies) // 2]), key=_misfit)[:LIKELY]
+    coarse = sorted((_fit(scan, s.body, s.pose, (ROUGH, 1.0)) for s in likely), key=_misfit)
     fine = [
         _fit(scan, body, start.pose, (1.0, 0.4)) for start in coarse[:FINALISTS] for body in bodies
     ]
@@ -92,13 +95,20 @@ def _fit(scan: Scan, body: Body, pose: Pose, reaches: tuple[float, ...]) -> Star
     found = fitted(scan, body, pose, [part * reach for part in reaches])
     # A body of the wrong size fits as well as the right one if its joints may bend as they cannot.
     strain = float(body.skeleton.limits.violation(found).max(initial=0.0))
-    return Start(body, found, scan.misfit(body, body.place(found), reach) + strain)
+    return Start(body, found, scan.misfit(body, body.place(found), reaches[-1] * reach) + strain)
 
 
-def _guesses(scan: Scan, body: Body, stance: int) -> Iterator[Start]:
-    for turn in _turns(body):
-        pose = _at_centre(body, body.stances[stance], FACING_CAMERA @ turn, scan)
-        yield Start(body, pose, scan.misfit(body, body.place(pose), REACH * body.size))
+def _guesses(scan: Scan, body: Body) -> Iterator[Start]:
+    """The best place for every stance and turn; these are rough, and looked at from farther off."""
+    reach = ROUGH * REACH * body.size
+    for stance in body.stances:
+        for turn in _turns(body):
+            poses = [
+                _placed(body, stance, FACING_CAMERA @ turn, centre)
+                for centre in scan.centres(body.size)
+            ]
+            starts = [Start(body, pose, scan.misfit(body, body.place(pose), reach)) for pose in poses]
+            yield min(starts, key=_misfit)
 
 
 def _turns(body: Body) -> list[Array]:
@@ -110,8 +120,8 @@ def _turns(body: Body) -> list[Array]:
     return [roll @ side for roll in rolls for side in sides]
 
 
-def _at_centre(body: Body, stance: Stance, rotation: Array, scan: Scan) -> Pose:
-    """The stance, turned, with its visible side at the centre of the cloud."""
+def _placed(body: Body, stance: Stance, rotation: Array, place: Array) -> Pose:
+    """The stance, turned, with the centre of its visible side at a place (3,)."""
     root = rotation @ stance.pose.root[:3, :3]
     pose = Pose(rigid(root, np.zeros(3)), stance.pose.balls, stance.pose.hinges)
     placed = body.capsules.place(body.place(pose).transforms)
@@ -119,4 +129,4 @@ def _at_centre(body: Body, stance: Stance, rotation: Array, scan: Scan) -> Pose:
     # The camera sees the surface in front of the axes.
     visible = axes.points - axes.radii[:, None] * np.array([0.0, 0.0, 1.0])
     centre = np.average(visible, axis=0, weights=axes.radii)
-    return Pose(rigid(root, scan.centre - centre), pose.balls, pose.hinges)
+    return Pose(rigid(root, place - centre), pose.balls, pose.hinges)

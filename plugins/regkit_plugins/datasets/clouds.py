@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import zlib
 from collections.abc import Iterator
+from contextlib import redirect_stdout
 from dataclasses import dataclass
+from io import StringIO
 from pathlib import Path
 from typing import Literal
+from zipfile import BadZipFile
 
 import numpy as np
 
@@ -23,6 +27,8 @@ from regkit_plugins.datasets.folders import (
 )
 
 SUFFIXES = (".ply", ".pcd", ".xyz", ".npz")
+
+_DAMAGED = (BadZipFile, zlib.error)
 
 
 class CloudFolders(Dataset):
@@ -85,16 +91,20 @@ def read_cloud(path: Path) -> Array:
         raise DataError("there is no such file", place=str(path))
     if path.suffix.lower() == ".npz":
         try:
-            with np.load(path, allow_pickle=False) as arrays:
-                points = arrays["points"]
-        except (OSError, ValueError, KeyError) as error:
+            with path.open("rb") as stream, np.load(stream, allow_pickle=False) as arrays:
+                points = arrays["points"].astype(np.float64)
+        except (OSError, EOFError, ValueError, KeyError, TypeError, *_DAMAGED) as error:
             raise DataError(
                 f"not a .npz with an array 'points' (N, 3): {error}", place=str(path)
             ) from None
     else:
         library = open3d()
-        with library.utility.VerbosityContextManager(library.utility.VerbosityLevel.Error):
+        level = library.utility.VerbosityLevel.Warning
+        # Open3D only prints that it failed, and returns what was in the memory beyond a PLY's end.
+        with library.utility.VerbosityContextManager(level), redirect_stdout(StringIO()) as told:
             points = np.asarray(library.io.read_point_cloud(str(path)).points)
+        if told.getvalue():
+            raise DataError("the file holds no point, or is damaged", place=str(path))
     checked = checked_points(points, place=str(path))
     if not len(checked):
         raise DataError("the file holds no point, or is damaged", place=str(path))

@@ -27,7 +27,7 @@ Positive = Annotated[float, Field(gt=0.0)]
 class SequenceDescription(Model):
     """What ``sequence.yaml`` holds."""
 
-    name: str | None = None
+    name: Annotated[str, Field(pattern=r"^\w[\w. -]*$")] | None = None
     """Name of the sequence; that of its folder without it."""
     fps: Positive = 30.0
     """Frames per second."""
@@ -92,7 +92,8 @@ def read_truth(path: Path, length: int) -> Truth | None:
     if not path.exists():
         return None
     rows: dict[tuple[int, str], list[float]] = {}
-    with path.open(newline="", encoding="utf-8") as stream:
+    # A spreadsheet begins UTF-8 with a mark; bytes that are no text make a row that is refused.
+    with path.open(newline="", encoding="utf-8-sig", errors="replace") as stream:
         reader = csv.DictReader(stream)
         if reader.fieldnames != ["frame", "joint", "x", "y", "z"]:
             raise DataError(
@@ -102,6 +103,8 @@ def read_truth(path: Path, length: int) -> Truth | None:
         for row in reader:
             try:
                 frame, position = int(row["frame"]), [float(row[axis]) for axis in "xyz"]
+                if frame < 0 or None in row:
+                    raise ValueError
             except (TypeError, ValueError):
                 raise DataError(
                     f"not a row of frame,joint,x,y,z: {','.join(map(str, row.values()))}",

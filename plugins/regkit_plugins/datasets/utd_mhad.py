@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -109,8 +110,16 @@ def _by_numbers(path: Path) -> list[int]:
 
 def _read(path: Path, name: str) -> Any:
     from scipy.io import loadmat
+    from scipy.io.matlab import MatReadError
 
+    broken = (OSError, ValueError, KeyError, TypeError, NotImplementedError, zlib.error)
     try:
-        return loadmat(path, variable_names=[name])[name].astype(np.float64)
-    except (OSError, ValueError, KeyError, TypeError) as error:
+        values = loadmat(path, variable_names=[name])[name].astype(np.float64)
+    except (*broken, MatReadError) as error:
         raise DataError(f"not a .mat file with '{name}': {error}", place=str(path)) from None
+    if values.ndim != 3:
+        raise DataError(
+            f"{name} has the shape {values.shape}; it must have three axes, the frames last",
+            place=str(path),
+        )
+    return values

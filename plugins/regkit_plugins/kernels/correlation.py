@@ -92,77 +92,74 @@ class _Group:
     """Data Gaussians of one variance, against the Gaussians of the template.
 
     S is diagonal in the axes of a template's Gaussian, so the amplitudes do not depend on the pose.
+    With homogeneous coordinates h = (y, 1) and Z = [I, -m], so that Z h = y - m, the exponent is the
+    quadratic form -1/2 h^T (Z^T S^-1 Z) h, and the moments are the symmetric matrix sum K h h^T.
     """
 
     def __init__(
         self, gaussians: Gaussians, points: Array, weights: Array, variance: float
     ) -> None:
-        squares = gaussians.scales**2
-        sums = squares + variance
+        sums = gaussians.scales**2 + variance
         self._precisions = (1.0 / sums)[:, None, :]
-        self._ratios = (squares / sums)[:, None, :]
-        self._log_amplitudes = np.log(gaussians.weights) + 0.5 * np.log(squares / sums).sum(axis=1)
+        # |C| / |S|, as logarithms for the exponent.
+        ratios = np.log(gaussians.scales**2 / sums).sum(axis=1)
+        self._log_amplitudes = np.log(gaussians.weights) + 0.5 * ratios
 
         x, y, z = points.T
         ones = np.ones(len(points))
-        self._features = np.array([ones, x, y, z, x * x, y * y, z * z, x * y, x * z, y * z])
+        self._features = np.array([x * x, y * y, z * z, x * y, x * z, y * z, x, y, z, ones])
         self._weighted = (self._features * weights).T
-        self._coefficients = np.empty((len(gaussians), 10))
         self._kernel = np.empty((len(gaussians), len(points)))
+        self._relative = np.zeros((len(gaussians), 3, 4))
+        self._relative[:, :, :3] = np.eye(3)
+
+        radius = np.sqrt((points**2).sum(axis=1).max())
+        reach = np.sqrt(-2.0 * (_FLOOR - self._log_amplitudes) * sums.min(axis=1))
+        self._safe = np.maximum(reach - radius, 0.0) ** 2
         self._floor = np.full(len(points), _FLOOR)
-        self._radius = float(np.sqrt((points**2).sum(axis=1).max()))
-        self._sharpest = (1.0 / sums).max(axis=1)
 
     def pull(self, means: Array, axes: Array) -> tuple[float, Array]:
         """Minus the overlap, and its derivative (K, 6) to the Gaussians' motions."""
-        transposed = axes.transpose(0, 2, 1)
-        precision = (axes * self._precisions) @ transposed
-        pulled = (precision @ means[:, :, None])[:, :, 0]
-        coefficients, kernel = self._coefficients, self._kernel
-        coefficients[:, 0] = self._log_amplitudes - 0.5 * (means * pulled).sum(axis=1)
-        coefficients[:, 1:4] = pulled
-        coefficients[:, 4:] = precision.reshape(-1, 9).take(_UPPER, axis=1) * _HALVED
+        relative, kernel = self._relative, self._kernel
+        relative[:, :, 3] = -means
+        turned = relative.transpose(0, 2, 1)
+        scaled = (axes * self._precisions) @ (axes.transpose(0, 2, 1) @ relative)  # S^-1 Z
+        quadric = (turned @ scaled).reshape(-1, 16)
+        coefficients = quadric.take(_ENTRIES, axis=1) * _FACTORS
+        coefficients[:, 9] += self._log_amplitudes
         np.matmul(coefficients, self._features, out=kernel)
         if self._may_underflow(means):
             np.maximum(kernel, self._floor, out=kernel)
         np.exp(kernel, out=kernel)
         moments = kernel @ self._weighted
 
-        # With u = S^-1 (m - y), dK/dm = -K u, so that the sum of K u is the derivative of minus K.
-        mass = moments[:, :1]
-        offset = mass * means - moments[:, 1:4]
+        # With u = S^-1 (m - y), dK/dm = -K u. The exact derivative to the rotation is the same force
+        # applied at the product's mean m - C u, or just as well at y, which lies on the line of
+        # action: m - y = C u + sigma^2 u. So the columns of sum K S^-1 (y - m) h^T hold both.
+        pulls = scaled @ moments.take(_MATRIX, axis=1).reshape(-1, 4, 4)
         wrenches = np.empty((len(means), 6))
-        np.matmul(precision, offset[:, :, None], out=wrenches[:, :3, None])
-        # sum K (m - y)(m - y)^T, from the moments.
-        crossed = (offset - 0.5 * mass * means)[:, :, None] * means[:, None, :]
-        spread = moments.take(_SQUARE, axis=1).reshape(-1, 3, 3)
-        spread += crossed
-        spread += crossed.transpose(0, 2, 1)
-        # The exact derivative to the rotation is the same force applied at the product's mean,
-        # m - C u: the torque sum K u x (C u), read off C sum K u u^T.
-        lever = ((axes * self._ratios) @ (transposed @ spread @ precision)).reshape(-1, 9)
-        np.subtract(lever.take(_BEFORE, axis=1), lever.take(_AFTER, axis=1), out=wrenches[:, 3:])
-        return -float(mass.sum()), wrenches
+        np.negative(pulls[:, :, 3], out=wrenches[:, :3])
+        levers = (pulls @ turned).reshape(-1, 9)  # sum K u (m - y)^T
+        np.subtract(levers.take(_AFTER, axis=1), levers.take(_BEFORE, axis=1), out=wrenches[:, 3:])
+        return -float(moments[:, 9].sum()), wrenches
 
     def _may_underflow(self, means: Array) -> bool:
         """Whether a mean may be so far from a point that the exponent is below the floor."""
-        farthest = np.sqrt((means * means).sum(axis=1)) + self._radius
-        lowest = float((self._log_amplitudes - 0.5 * farthest * farthest * self._sharpest).min())
-        return lowest < _FLOOR
+        return bool(((means * means).sum(axis=1) > self._safe).any())
 
 
 _FLOOR = -600.0
 """Exponents below this are raised to it: such an overlap is nothing (1e-261), but numbers near
 underflow take the processor up to a hundred times as long."""
 
-_UPPER = np.array([0, 4, 8, 1, 2, 5])
-"""Where a flattened symmetric matrix has its entries xx, yy, zz, xy, xz, yz."""
+_ENTRIES = np.array([0, 5, 10, 1, 2, 6, 3, 7, 11, 15])
+"""Where a flattened symmetric 4x4 matrix has its ten entries, in the order of the features."""
 
-_HALVED = np.array([-0.5, -0.5, -0.5, -1.0, -1.0, -1.0])
-"""Factors of those entries in the exponent -1/2 y^T P y."""
+_FACTORS = np.array([-0.5, -0.5, -0.5, -1.0, -1.0, -1.0, -1.0, -1.0, -1.0, -0.5])
+"""Factors of those entries in the exponent -1/2 h^T Q h."""
 
-_SQUARE = np.array([4, 7, 8, 7, 5, 9, 8, 9, 6])
-"""Where the moments hold the entries of sum K y y^T."""
+_MATRIX = np.array([0, 3, 4, 6, 3, 1, 5, 7, 4, 5, 2, 8, 6, 7, 8, 9])
+"""Where the ten moments stand in the flattened matrix sum K h h^T."""
 
 _AFTER, _BEFORE = np.array([5, 6, 1]), np.array([7, 2, 3])
 """Entries of a flattened matrix whose differences are its axial vector."""

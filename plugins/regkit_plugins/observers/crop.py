@@ -24,6 +24,8 @@ class Crop(Model):
     """Drop what is farther away than this [m]."""
     behind_nearest: Distance | None = None
     """Keep only what is at most so far behind the nearest points [m]: a hand before its owner."""
+    connected: Distance | None = None
+    """Keep only the piece nearest to the camera, pieces being at least so far apart [m]."""
     min_points: Annotated[int, Field(ge=1)] = 20
     """Fewer points than this are an error: no pose can be told from them."""
 
@@ -51,6 +53,8 @@ class Crop(Model):
             # A percentile rather than the minimum, which a single stray pixel would set.
             nearest = float(np.percentile(kept[:, 2], 0.5))
             kept = kept[kept[:, 2] <= nearest + self.behind_nearest]
+        if self.connected is not None and len(kept):
+            kept = _nearest_piece(kept, self.connected)
         if len(kept) < self.min_points:
             raise DataError(
                 f"{len(kept)} of the frame's {len(points)} points are left after cropping; at "
@@ -58,3 +62,18 @@ class Crop(Model):
                 place=frame.place,
             )
         return kept
+
+
+def _nearest_piece(points: Array, gap: float) -> Array:
+    """Of the pieces of a cloud that no cubes of side ``gap`` bridge, the one nearest to the camera."""
+    from scipy.ndimage import label
+
+    cells = np.floor(points / gap).astype(np.int64)
+    cells -= cells.min(axis=0)
+    occupied = np.zeros(cells.max(axis=0) + 1, dtype=bool)
+    occupied[tuple(cells.T)] = True
+    pieces, _ = label(occupied, structure=np.ones((3, 3, 3)))
+    piece = pieces[tuple(cells.T)]
+    # Most of the nearest points decide, for a single one may be a stray pixel.
+    nearest = points[:, 2] <= np.percentile(points[:, 2], 2.0)
+    return np.asarray(points[piece == np.bincount(piece[nearest]).argmax()])

@@ -67,7 +67,10 @@ class LBFGS(Solver):
             },
         )
         return best.solution(
-            converged=bool(result.success), iterations=int(result.nit), message=str(result.message)
+            converged=bool(result.success),
+            # SciPy counts no iterations where the bounds leave nothing to move.
+            iterations=int(result.get("nit", 0)),
+            message=str(result.message),
         )
 
 
