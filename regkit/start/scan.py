@@ -53,7 +53,7 @@ class Scan:
         self._tree = KDTree(points)
 
     def centres(self, size: float) -> list[Array]:
-        """Where a body of this size [m] may be: at the cloud's centre, or at either end of a long one.
+        """Where a body of this size [m] may be: at the centre, or at the ends of a long cloud.
 
         A hand with its forearm is such a cloud: the forearm is no part of the body that is sought.
         """

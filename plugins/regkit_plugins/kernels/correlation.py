@@ -92,8 +92,8 @@ class _Group:
     """Data Gaussians of one variance, against the Gaussians of the template.
 
     S is diagonal in the axes of a template's Gaussian, so the amplitudes do not depend on the pose.
-    With homogeneous coordinates h = (y, 1) and Z = [I, -m], so that Z h = y - m, the exponent is the
-    quadratic form -1/2 h^T (Z^T S^-1 Z) h, and the moments are the symmetric matrix sum K h h^T.
+    With homogeneous coordinates h = (y, 1) and Z = [I, -m], so that Z h = y - m, the exponent is
+    the quadratic form -1/2 h^T (Z^T S^-1 Z) h, and the moments are the matrix sum K h h^T.
     """
 
     def __init__(
@@ -133,9 +133,9 @@ class _Group:
         np.exp(kernel, out=kernel)
         moments = kernel @ self._weighted
 
-        # With u = S^-1 (m - y), dK/dm = -K u. The exact derivative to the rotation is the same force
-        # applied at the product's mean m - C u, or just as well at y, which lies on the line of
-        # action: m - y = C u + sigma^2 u. So the columns of sum K S^-1 (y - m) h^T hold both.
+        # With u = S^-1 (m - y), dK/dm = -K u. The exact derivative to the rotation is the same
+        # force applied at the product's mean m - C u, or just as well at y, which lies on its line
+        # of action: m - y = C u + sigma^2 u. So sum K S^-1 (y - m) h^T holds both.
         pulls = scaled @ moments.take(_MATRIX, axis=1).reshape(-1, 4, 4)
         wrenches = np.empty((len(means), 6))
         np.negative(pulls[:, :, 3], out=wrenches[:, :3])

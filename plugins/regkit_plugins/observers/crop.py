@@ -65,7 +65,7 @@ class Crop(Model):
 
 
 def _nearest_piece(points: Array, gap: float) -> Array:
-    """Of the pieces of a cloud that no cubes of side ``gap`` bridge, the one nearest to the camera."""
+    """The piece nearest to the camera, of those that no occupied cubes of side ``gap`` [m] join."""
     from scipy.ndimage import label
 
     cells = np.floor(points / gap).astype(np.int64)

@@ -1,0 +1,125 @@
+"""Real recordings: people before a Kinect, and a hand before an SR305.
+
+What is asserted is what holds of the start, which is found from the first frame alone. The plain
+correlation is known to drift afterwards (docs/explanation/real-data.md has the figures); of the
+track it is only asked that every frame is registered and measured.
+"""
+
+import json
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from regkit.body import Body
+from regkit.camera import Camera
+from regkit.cli.app import main
+from regkit.observation import Observation
+from regkit.skeleton import Pose
+from regkit.start import found_start
+from regkit_plugins.datasets.depth import DepthFolders
+from regkit_plugins.datasets.utd_mhad import UtdMhad
+from regkit_plugins.observers.crop import Crop
+from regkit_plugins.observers.points import PointsObserver
+from regkit_plugins.templates.hand import Hand
+from regkit_plugins.templates.human import Human
+
+EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
+
+
+def run(monkeypatch: pytest.MonkeyPatch, *arguments: str) -> None:
+    monkeypatch.setattr("sys.argv", ["regkit", "run", *arguments])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    assert ended.value.code == 0
+
+
+def median_to_surface(body: Body, pose: Pose, observation: Observation) -> float:
+    placed = body.capsules.place(body.place(pose).transforms)
+    return float(np.median(np.abs(placed.surface_distance(observation.points))))
+
+
+def test_start_of_people_is_found_within_the_reference_accuracy(reference_data: Path):
+    """In 14 sequences of 2 people, standing and sitting: the reference is good to about 10 cm."""
+    dataset = UtdMhad(root=reference_data / "utd_mhad", frames=1)
+    errors = {}
+    for sequence in dataset.found()[::3]:
+        observation = PointsObserver(voxel=0.03).observe(next(sequence.frames()))
+        start = found_start(Human(), observation)
+        markers = start.body.markers.place(start.body.place(start.pose).transforms)
+        truth = sequence.truth()
+        columns = [truth.joints.index(name) for name in start.body.markers.names]
+        distances = np.linalg.norm(markers - truth.positions[0, columns], axis=1)
+        errors[sequence.name] = float(distances.mean())
+        assert median_to_surface(start.body, start.pose, observation) < 0.02
+    print("mean distance to the reference joints [m]:", errors)
+    assert np.median(list(errors.values())) < 0.08
+    assert max(errors.values()) < 0.15
+
+
+@pytest.fixture
+def hand_sequence(reference_data: Path, tmp_path: Path) -> Path:
+    """One SR305 sequence in the folder format."""
+    source = reference_data / "hand_depth_sr305_mit" / "20210326-230536"
+    folder = tmp_path / "hand"
+    (folder / "depth").mkdir(parents=True)
+    for index, image in enumerate(sorted(source.glob("*.png"), key=lambda path: int(path.stem))):
+        shutil.copy(image, folder / "depth" / f"{index:06d}.png")
+    (folder / "sequence.yaml").write_text("fps: 1.5\ndepth_scale: 8000\n")
+    camera = Camera(640, 480, 476.007, 476.007, 313.683, 242.755)
+    (folder / "camera.json").write_text(camera.to_json())
+    return folder
+
+
+def test_start_of_a_hand_lies_on_its_surface(hand_sequence: Path):
+    crop = Crop(behind_nearest=0.12, connected=0.02)
+    observer = PointsObserver(voxel=0.006, sigma=0.004, crop=crop)
+    frame = next(DepthFolders(root=hand_sequence).found()[0].frames())
+    observation = observer.observe(frame)
+    start = found_start(Hand(side="right"), observation)
+    distance = median_to_surface(start.body, start.pose, observation)
+    print("median distance to the surface [m]:", distance)
+    assert distance < 0.008
+
+
+@pytest.mark.slow
+def test_person_is_tracked_through_real_sequences(
+    reference_data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    run(
+        monkeypatch,
+        str(EXAMPLES / "utd.yaml"),
+        f"--set=dataset.root={reference_data / 'utd_mhad'}",
+        "--set=dataset.sequences=[a1_s1_t1,a6_s2_t1]",
+        "--set=dataset.frames=20",
+        f"--out={tmp_path / 'out'}",
+    )
+    metrics = json.loads((tmp_path / "out" / "metrics.json").read_text())
+    sequences = metrics["methods"]["gsog"]["sequences"]
+    assert sorted(sequences) == ["a1_s1_t1", "a6_s2_t1"]
+    for name, figures in sequences.items():
+        print(name, figures)
+        assert figures["frames"] == 20
+        assert 0.0 < figures["within_10cm_percent"] <= 100.0
+        assert figures["surface_distance_mm"] < 100.0
+
+
+@pytest.mark.slow
+def test_hand_is_tracked_through_a_real_sequence(
+    hand_sequence: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    run(
+        monkeypatch,
+        str(EXAMPLES / "hand.yaml"),
+        f"--set=dataset.root={hand_sequence}",
+        "--set=observer.crop={behind_nearest: 0.12, connected: 0.02}",
+        "--only=gsog",
+        f"--out={tmp_path / 'out'}",
+    )
+    metrics = json.loads((tmp_path / "out" / "metrics.json").read_text())
+    figures = metrics["methods"]["gsog"]["sequences"]["hand"]
+    print(figures)
+    assert figures["frames"] == 8
+    assert figures["joint_error_raw_cm"] is None
+    assert figures["surface_distance_mm"] < 50.0
