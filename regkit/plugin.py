@@ -79,7 +79,7 @@ class Plugin(Model):
             )
         if plugin.model_fields["kind"].default != kind:
             raise PluginError(
-                f"{plugin.__qualname__}.kind must default to its entry-point name {kind!r}"
+                f"plug-in '{kind}': {plugin.__qualname__}.kind must default to its entry-point name"
             )
         return plugin
 

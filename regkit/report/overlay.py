@@ -46,7 +46,7 @@ def draw_overlay(
 
     worst = int(np.argmax(track.surface_distances)) if len(frames) > 1 else 0
     chosen = {0: "first", len(frames) - 1: "last", worst: "worst"}
-    figure = Figure(figsize=(3.4 * len(chosen), 7.2), layout="constrained", facecolor="white")
+    figure = Figure(figsize=(2.9 * len(chosen), 7.2), layout="constrained", facecolor="white")
     FigureCanvasAgg(figure)
     figure.suptitle(title)
     grid = figure.subplots(len(_VIEWS), len(chosen), squeeze=False)
