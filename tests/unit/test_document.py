@@ -50,8 +50,8 @@ def test_valid_experiment_is_read(file):
         ("shape: gsog", "shape: gsg", "FILE:9: methods.gsog.shape: no plug-in 'gsg' in "
          "regkit.shapes (installed: gsog, sog); did you mean 'gsog'?"),
         ("kind: lbfgs", "kind: lbfgs, max_iteration: 5", "FILE:11: "
-         "methods.gsog.solver.max_iteration: no such field (there are: gradient_tolerance, kind, max_iterations, memory, "
-         "value_tolerance); did you mean 'max_iterations'?"),
+         "methods.gsog.solver.max_iteration: no such field (there are: gradient_tolerance, kind, "
+         "max_iterations, memory, value_tolerance); did you mean 'max_iterations'?"),
         ("kind: lbfgs", "kind: lbfgs, max_iterations: many", "FILE:11: "
          "methods.gsog.solver.max_iterations: input should be a valid integer, unable to parse "
          "string as an integer; it is 'many'"),
