@@ -6,6 +6,7 @@ from regkit.arrays import Array
 from regkit.coordinates import Coordinates
 from regkit.interfaces import Problem, Similarity
 from regkit.primitives import Primitives
+from regkit.skeleton import Placement
 
 
 class RegistrationProblem(Problem):
@@ -33,7 +34,7 @@ class RegistrationProblem(Problem):
     def value_and_gradient(self, x: Array) -> tuple[float, Array]:
         """The energy at coordinates x (m,) and its gradient (m,), eqs. 11 to 13."""
         skeleton = self._coordinates.skeleton
-        placement = skeleton.place(self._coordinates.pose(x))
+        placement = Placement.of(skeleton, self._coordinates.pose(x))
         placed = self._primitives.place(placement.transforms)
         response = self._similarity(placed)
         wrenches = placed.gather(response.wrenches, segments=len(skeleton.names))

@@ -78,4 +78,4 @@ class Body:
 
     def place(self, pose: Pose) -> Placement:
         """The skeleton's placement in a pose."""
-        return self.skeleton.place(pose)
+        return Placement.of(self.skeleton, pose)

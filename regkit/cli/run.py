@@ -53,7 +53,11 @@ def run(
         with _ProgressBar() as bar:
             outcome = run_experiment(config, results, bar, only=only or ())
     except KeyboardInterrupt:
-        errors.print(f"interrupted; what was finished is kept: repeat with --out {folder}")
+        errors.print(
+            f"interrupted; what was finished is kept: repeat with --out {folder}",
+            highlight=False,
+            soft_wrap=True,
+        )
         raise typer.Exit(130) from None
     output.print(_table(outcome.measures))
     output.print(f"results: {folder}", highlight=False, soft_wrap=True)

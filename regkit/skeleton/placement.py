@@ -1,18 +1,15 @@
-"""A placed skeleton: the chain rule from forces on segments to degrees of freedom."""
+"""A placed skeleton: forward kinematics, and the chain rule back to the degrees of freedom."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from regkit.arrays import Array
-from regkit.rotation import skew
+from regkit.rotation import skew, to_matrix, vector_to_matrix
 from regkit.skeleton.pose import Pose
-
-if TYPE_CHECKING:
-    from regkit.skeleton.skeleton import Skeleton
+from regkit.skeleton.skeleton import Skeleton
 
 
 @dataclass(frozen=True)
@@ -32,6 +29,21 @@ class Placement:
     skeleton: Skeleton
     pose: Pose
     links: Array
+
+    @classmethod
+    def of(cls, skeleton: Skeleton, pose: Pose) -> Placement:
+        """Where a pose puts every link, eq. 4: T_l = T_par(l) R_l, level by level of the tree."""
+        local = skeleton.link_offsets.copy()
+        hinges = vector_to_matrix(pose.hinges[:, None] * skeleton.hinge_axes)
+        turned = np.concatenate([skeleton.ball_links, skeleton.hinge_links])
+        local[turned, :3, :3] = local[turned, :3, :3] @ np.concatenate(
+            [to_matrix(pose.balls), hinges]
+        )
+        links = np.empty_like(local)
+        links[0] = pose.root @ local[0]
+        for level in skeleton.levels:
+            links[level] = links[skeleton.link_parents[level]] @ local[level]
+        return cls(skeleton, pose, links)
 
     @property
     def transforms(self) -> Array:

@@ -1,4 +1,4 @@
-"""Forward kinematics of a tree of segments, one matrix product for each level of the tree."""
+"""Skeletons: a tree of segments, its degrees of freedom, and steps on its poses."""
 
 from __future__ import annotations
 
@@ -10,9 +10,8 @@ import numpy as np
 from regkit.arrays import Array, Indices
 from regkit.errors import ConfigError
 from regkit.rigid import rigid
-from regkit.rotation import from_vector, product, to_matrix, vector_to_matrix
+from regkit.rotation import from_vector, product, vector_to_matrix
 from regkit.skeleton.limits import Limits
-from regkit.skeleton.placement import Placement
 from regkit.skeleton.pose import Pose, PoseDescription
 
 
@@ -90,18 +89,6 @@ class Skeleton:
         turns = from_vector(step[self.ball_freedoms].reshape(-1, 3))
         return Pose(root, product(pose.balls, turns), pose.hinges + step[self.hinge_freedoms])
 
-    def place(self, pose: Pose) -> Placement:
-        """Where a pose puts every segment, eq. 4: T_l = T_par(l) R_l."""
-        local = self.link_offsets.copy()
-        turns = np.concatenate([to_matrix(pose.balls), self._hinge_rotations(pose.hinges)])
-        turned = np.concatenate([self.ball_links, self.hinge_links])
-        local[turned, :3, :3] = local[turned, :3, :3] @ turns
-        links = np.empty_like(local)
-        links[0] = pose.root @ local[0]
-        for level in self.levels:
-            links[level] = links[self.link_parents[level]] @ local[level]
-        return Placement(self, pose, links)
-
     def pose(self, description: PoseDescription) -> Pose:
         """The pose that a person wrote down in degrees.
 
@@ -129,6 +116,3 @@ class Skeleton:
             step[where] = values
             pose = self.retract(pose, step)
         return pose
-
-    def _hinge_rotations(self, angles: Array) -> Array:
-        return vector_to_matrix(angles[:, None] * self.hinge_axes)

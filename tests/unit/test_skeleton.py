@@ -45,7 +45,7 @@ def test_hinge_turns_about_its_axis(linkage):
     bones = linkage.skeleton
     pose = bones.pose(PoseDescription(joints={"forearm": 30.0}))
     names = bones.names
-    arm, forearm = (bones.place(pose).transforms[names.index(n)] for n in ("arm", "forearm"))
+    arm, forearm = (linkage.place(pose).transforms[names.index(n)] for n in ("arm", "forearm"))
     rest = vector_to_matrix(np.radians([20.0, 0.0, 30.0]))
     turn = rest.T @ (arm[:3, :3].T @ forearm[:3, :3])
     expected = vector_to_matrix(np.radians(30.0) * np.array([1.0, 1.0, 0.0]) / np.sqrt(2.0))
@@ -56,7 +56,7 @@ def test_universal_joint_turns_the_second_axis_with_the_first(linkage):
     bones = linkage.skeleton
     pose = bones.pose(PoseDescription(joints={"wrist": (40.0, 15.0)}))
     names = bones.names
-    forearm, wrist = (bones.place(pose).transforms[names.index(n)] for n in ("forearm", "wrist"))
+    forearm, wrist = (linkage.place(pose).transforms[names.index(n)] for n in ("forearm", "wrist"))
     first = vector_to_matrix(np.radians([40.0, 0.0, 0.0]))
     second = vector_to_matrix(np.radians([0.0, 0.0, 15.0]))
     np.testing.assert_allclose(forearm[:3, :3].T @ wrist[:3, :3], first @ second, atol=1e-13)
@@ -65,11 +65,11 @@ def test_universal_joint_turns_the_second_axis_with_the_first(linkage):
 def test_jacobian_is_the_derivative_of_place(linkage, random):
     bones = linkage.skeleton
     pose = random_pose(linkage, random)
-    jacobian = bones.place(pose).jacobian()
+    jacobian = linkage.place(pose).jacobian()
     step = 1e-6
     for column, direction in enumerate(np.eye(bones.freedoms)):
-        ahead = bones.place(bones.retract(pose, step * direction)).transforms
-        behind = bones.place(bones.retract(pose, -step * direction)).transforms
+        ahead = linkage.place(bones.retract(pose, step * direction)).transforms
+        behind = linkage.place(bones.retract(pose, -step * direction)).transforms
         linear = (ahead - behind)[:, :3, 3] / (2 * step)
         turn = log(rigid(ahead[:, :3, :3] @ np.swapaxes(behind[:, :3, :3], 1, 2), np.zeros(3)))
         angular = turn[:, :3] / (2 * step)
