@@ -46,7 +46,10 @@ def casadi() -> Any:
 
 
 def one_blas_thread() -> AbstractContextManager[object]:
-    """A context in which NumPy's matrix products use one thread."""
+    """A context in which NumPy's matrix products use one thread.
+
+    The products here are small; a second thread costs several times more than it brings.
+    """
     limits: AbstractContextManager[object] = importlib.import_module(
         "threadpoolctl"
     ).threadpool_limits(1, user_api="blas")

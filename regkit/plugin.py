@@ -115,8 +115,13 @@ class Plugin(Model):
 
     @classmethod
     def _slot_json_schema(cls, _: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
-        kinds = list(cls.available())
-        options = [handler(cls.load(kind).__pydantic_core_schema__) for kind in kinds]
+        kinds, options = [], []
+        for kind in cls.available():
+            try:
+                options.append(handler(cls.load(kind).__pydantic_core_schema__))
+            except PluginError:
+                continue  # A broken plug-in must not harm those who never name it.
+            kinds.append(kind)
         return {
             "anyOf": [
                 {"type": "string", "enum": kinds},

@@ -42,16 +42,15 @@ def run(
     ] = None,
 ) -> None:
     """Run an experiment: register the template to every sequence with every method."""
-    from regkit.experiment import Experiment, Results
+    from regkit.experiment import Experiment
     from regkit.experiment import run as run_experiment
 
     run_plugin_files(plugin)
     config = Experiment.read(experiment, settings or ())
     folder = out or Path("results") / config.name / f"{datetime.now():%Y%m%d-%H%M%S}"
-    results = Results.opened(folder, config)
     try:
         with _ProgressBar() as bar:
-            outcome = run_experiment(config, results, bar, only=only or ())
+            outcome = run_experiment(config, folder, bar, only=only or ())
     except KeyboardInterrupt:
         errors.print(
             f"interrupted; what was finished is kept: repeat with --out {folder}",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from typing import Protocol
 
 from regkit.errors import ConfigError, RegkitError
@@ -35,38 +36,39 @@ class Progress(Protocol):
 
 @dataclass(frozen=True)
 class Outcome:
-    """The figures of a run, by method and sequence, and what failed with its reason."""
+    """The figures in a results folder, by method and sequence, and what failed with its reason."""
 
     measures: dict[str, dict[str, Measure]]
     failures: dict[str, dict[str, str]]
 
 
 def run(
-    experiment: Experiment, results: Results, progress: Progress, *, only: Iterable[str] = ()
+    experiment: Experiment, folder: Path, progress: Progress, *, only: Iterable[str] = ()
 ) -> Outcome:
     """Run an experiment into its folder; what the folder holds already is not done again.
 
     A sequence that fails does not stop the others. After each one the metrics and the report are
-    written anew.
+    written anew, over all that the folder holds.
 
     Args:
         experiment: What to run.
-        results: Where to.
+        folder: Where to.
         progress: Who is told.
         only: Names of the methods to run; all of them if it is empty.
 
     Raises:
-        RegkitError: If nothing can be run: an unknown method, a dataset without sequences.
+        RegkitError: If nothing can be run: an unknown method, a dataset without sequences, a folder
+            that holds something else.
     """
     methods = _chosen(experiment, tuple(only))
     sequences = experiment.dataset.chosen()
-    truths = {sequence.name: sequence.truth() for sequence in sequences}
-    _check_joints(experiment, truths)
+    results = Results.opened(folder, experiment)
     outcome = Outcome({name: {} for name in methods}, {name: {} for name in methods})
-    # The products here are small; a second BLAS thread costs more than it brings.
+    others = [name for name in experiment.methods if name not in methods]
+    outcome.measures.update(_finished(results, others, sequences))
     with one_blas_thread():
         for sequence in sequences:
-            task = _Task(experiment, results, sequence, truths[sequence.name])
+            task = _Task(experiment, results, sequence)
             for name, method in methods.items():
                 progress.begin(name, sequence.name, sequence.length)
                 try:
@@ -89,13 +91,16 @@ class _Task:
     experiment: Experiment
     results: Results
     sequence: Sequence
-    truth: Truth | None
 
     def measure(self, name: str, method: Method, progress: Progress) -> Measure:
         """The figures of a method, tracked now or found in the results folder."""
         finished = self.results.finished(name, self.sequence.name)
         if finished is not None:
             return finished
+        joints = self.experiment.dataset.joints
+        if self.truth is not None:
+            # A misspelt joint is found before the hours of computing, not after them.
+            matched(self.start.body, self.truth, joints)
         registrar = method.prepare(self.start.body)
         frames = []
         for frame in tracked(
@@ -108,12 +113,17 @@ class _Task:
             frames.append(frame)
             progress.advance()
         track = Track.of(frames, registrar)
-        measure = measured(track, registrar.body, self.truth, self.experiment.dataset.joints)
+        measure = measured(track, registrar.body, self.truth, joints)
         picture = self.results.sequence_folder(name, self.sequence.name) / "overlay.png"
         title = f"{name} on {self.sequence.name}"
         draw_overlay(picture, title, frames, track, registrar, self.truth)
         self.results.write(name, self.sequence.name, track, registrar.body, measure)
         return measure
+
+    @cached_property
+    def truth(self) -> Truth | None:
+        """The reference joints, if there are any."""
+        return self.sequence.truth()
 
     @cached_property
     def start(self) -> Start:
@@ -128,6 +138,19 @@ class _Task:
         return found_start(self.experiment.template, observation)
 
 
+def _finished(
+    results: Results, methods: list[str], sequences: list[Sequence]
+) -> dict[str, dict[str, Measure]]:
+    """What the folder holds of methods that are not run now."""
+    found: dict[str, dict[str, Measure]] = {}
+    for method in methods:
+        for sequence in sequences:
+            measure = results.finished(method, sequence.name)
+            if measure is not None:
+                found.setdefault(method, {})[sequence.name] = measure
+    return found
+
+
 def _chosen(experiment: Experiment, only: tuple[str, ...]) -> dict[str, Method]:
     for name in only:
         if name not in experiment.methods:
@@ -137,11 +160,3 @@ def _chosen(experiment: Experiment, only: tuple[str, ...]) -> dict[str, Method]:
                 place="--only",
             )
     return {name: experiment.methods[name] for name in only or experiment.methods}
-
-
-def _check_joints(experiment: Experiment, truths: dict[str, Truth | None]) -> None:
-    """Find a misspelt joint before the hours of computing, not after them."""
-    body = experiment.template.body(experiment.template.candidate_sizes()[0])
-    for truth in truths.values():
-        if truth is not None:
-            matched(body, truth, experiment.dataset.joints)

@@ -28,6 +28,8 @@ def rows(measures: Mapping[str, Mapping[str, Measure]]) -> list[list[str]]:
     """One row for each method: its name, the number of its sequences, and the mean figures."""
     table = []
     for method, by_sequence in measures.items():
+        if not by_sequence:
+            continue
         mean = mean_of(list(by_sequence.values()))
         figures = [shown(getattr(mean, name)) for name in COLUMNS]
         table.append([method, str(len(by_sequence)), *figures])
@@ -54,6 +56,8 @@ def report(
         parts.append("## Failed")
         parts += [f"- **{method}** on {sequence}: {why}" for method, sequence, why in failed]
     for method, by_sequence in measures.items():
+        if not by_sequence:
+            continue
         parts.append(f"## {method}")
         table = [
             [sequence, *(shown(getattr(measure, figure)) for figure in COLUMNS)]

@@ -10,6 +10,7 @@ from regkit.body import Body
 from regkit.errors import ConfigError
 from regkit.interfaces import Template
 from regkit.observation import Observation
+from regkit.optional import one_blas_thread
 from regkit.skeleton import Pose, PoseDescription
 from regkit.start.fit import fitted
 from regkit.start.guesses import Candidate, guesses
@@ -67,7 +68,11 @@ def found_start(template: Template, observation: Observation) -> Start:
         template: What is seen, perhaps of unknown size.
         observation: The first frame.
     """
-    scan = Scan(observation.points)
+    with one_blas_thread():
+        return _found_start(template, Scan(observation.points))
+
+
+def _found_start(template: Template, scan: Scan) -> Start:
     bodies = [template.body(size) for size in template.candidate_sizes()]
     usual = bodies[len(bodies) // 2]
     rough = sorted(guesses(scan, usual, FAR * REACH * usual.size), key=_misfit)[:LIKELY]

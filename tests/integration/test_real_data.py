@@ -14,7 +14,6 @@ import pytest
 
 from regkit.body import Body
 from regkit.camera import Camera
-from regkit.cli.app import main
 from regkit.observation import Observation
 from regkit.skeleton import Pose
 from regkit.start import found_start
@@ -26,13 +25,6 @@ from regkit_plugins.templates.hand import Hand
 from regkit_plugins.templates.human import Human
 
 EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
-
-
-def run(monkeypatch: pytest.MonkeyPatch, *arguments: str) -> None:
-    monkeypatch.setattr("sys.argv", ["regkit", "run", *arguments])
-    with pytest.raises(SystemExit) as ended:
-        main()
-    assert ended.value.code == 0
 
 
 def median_to_surface(body: Body, pose: Pose, observation: Observation) -> float:
@@ -84,17 +76,16 @@ def test_start_of_a_hand_lies_on_its_surface(hand_sequence: Path):
 
 
 @pytest.mark.slow
-def test_person_is_tracked_through_real_sequences(
-    reference_data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-):
-    run(
-        monkeypatch,
+def test_person_is_tracked_through_real_sequences(regkit, reference_data: Path, tmp_path: Path):
+    ended = regkit(
+        "run",
         str(EXAMPLES / "utd.yaml"),
         f"--set=dataset.root={reference_data / 'utd_mhad'}",
         "--set=dataset.sequences=[a1_s1_t1,a6_s2_t1]",
         "--set=dataset.frames=20",
         f"--out={tmp_path / 'out'}",
     )
+    assert ended.code == 0
     metrics = json.loads((tmp_path / "out" / "metrics.json").read_text())
     sequences = metrics["methods"]["gsog"]["sequences"]
     assert sorted(sequences) == ["a1_s1_t1", "a6_s2_t1"]
@@ -106,17 +97,16 @@ def test_person_is_tracked_through_real_sequences(
 
 
 @pytest.mark.slow
-def test_hand_is_tracked_through_a_real_sequence(
-    hand_sequence: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-):
-    run(
-        monkeypatch,
+def test_hand_is_tracked_through_a_real_sequence(regkit, hand_sequence: Path, tmp_path: Path):
+    ended = regkit(
+        "run",
         str(EXAMPLES / "hand.yaml"),
         f"--set=dataset.root={hand_sequence}",
         "--set=observer.crop={behind_nearest: 0.12, connected: 0.02}",
         "--only=gsog",
         f"--out={tmp_path / 'out'}",
     )
+    assert ended.code == 0
     metrics = json.loads((tmp_path / "out" / "metrics.json").read_text())
     figures = metrics["methods"]["gsog"]["sequences"]["hand"]
     print(figures)

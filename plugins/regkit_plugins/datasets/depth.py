@@ -44,7 +44,6 @@ class DepthFolders(Dataset):
             length=len(files),
             folder=folder,
             files=tuple(files),
-            camera=Camera.read(folder / "camera.json"),
             depth_scale=description.depth_scale,
         )
 
@@ -56,24 +55,23 @@ class DepthSequence(Sequence):
     Attributes:
         folder: Where it lies.
         files: The images.
-        camera: Their camera.
         depth_scale: Units per metre.
     """
 
     folder: Path
     files: tuple[Path, ...]
-    camera: Camera
     depth_scale: float
 
     def frames(self) -> Iterator[Frame]:
         """The images, back-projected."""
+        camera = Camera.read(self.folder / "camera.json")
         for path in self.files:
             depth = read_depth(path) / self.depth_scale
             try:
-                points = self.camera.back_projected(depth)
+                points = camera.back_projected(depth)
             except DataError as error:
                 raise error.at(str(path)) from None
-            yield Frame(points, self.camera, depth, place=str(path))
+            yield Frame(points, camera, depth, place=str(path))
 
     def truth(self) -> Truth | None:
         """The joints of ``truth.csv``."""
@@ -94,7 +92,7 @@ def read_depth(path: Path) -> Array:
             values = np.asarray(image)
     except FileNotFoundError:
         raise DataError("there is no such image", place=str(path)) from None
-    except (OSError, SyntaxError, UnidentifiedImageError) as error:
+    except (OSError, SyntaxError, UnidentifiedImageError, Image.DecompressionBombError) as error:
         raise DataError(f"the image is damaged or cut short: {error}", place=str(path)) from None
     if not mode.startswith("I"):
         raise DataError(

@@ -115,6 +115,11 @@ def read_truth(path: Path, length: int) -> Truth | None:
                     "a position is NaN or infinite; leave the row out where a joint was not seen",
                     place=f"{path}:{reader.line_num}",
                 )
+            if (frame, row["joint"]) in rows:
+                raise DataError(
+                    f"joint '{row['joint']}' of frame {frame} is given a second time",
+                    place=f"{path}:{reader.line_num}",
+                )
             if frame < length:
                 rows[frame, row["joint"]] = position
     joints = tuple(dict.fromkeys(joint for _, joint in rows))

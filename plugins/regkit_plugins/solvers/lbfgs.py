@@ -39,7 +39,7 @@ class LBFGS(Solver):
 
         first, gradient = problem.value_and_gradient(problem.start)
         if not (np.isfinite(first) and np.isfinite(gradient).all()):
-            raise DataError(f"the energy at the start is not finite: {first}")
+            raise DataError(f"the energy ({first}) or its gradient at the start is not finite")
         best = _Best(problem.start, first)
         if not gradient.any():
             return best.solution(

@@ -1,0 +1,37 @@
+"""The command line as a fixture."""
+
+import sys
+from typing import NamedTuple
+
+import pytest
+
+from regkit import plugin
+from regkit.cli import main
+
+
+class Ended(NamedTuple):
+    code: int
+    out: str
+    err: str
+
+
+@pytest.fixture(autouse=True)
+def registry(monkeypatch):
+    """Plug-ins that a test registers are gone after it."""
+    monkeypatch.setattr(plugin, "_REGISTERED", {})
+
+
+@pytest.fixture
+def regkit(monkeypatch, capsys):
+    """The command line in this process; an error that it does not catch fails the test."""
+    monkeypatch.setenv("COLUMNS", "200")
+
+    def run(*arguments: object) -> Ended:
+        monkeypatch.setattr(sys, "argv", ["regkit", *map(str, arguments)])
+        capsys.readouterr()
+        with pytest.raises(SystemExit) as caught:
+            main()
+        told = capsys.readouterr()
+        return Ended(int(caught.value.code or 0), told.out, told.err)
+
+    return run

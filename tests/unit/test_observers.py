@@ -1,0 +1,201 @@
+"""Observers: what of a frame they keep, and the Gaussians that they make of it."""
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from regkit.camera import Camera
+from regkit.errors import DataError
+from regkit.interfaces import Observer
+from regkit.observation import Frame
+from regkit_plugins.observers.crop import Crop
+from regkit_plugins.observers.octree import OctreeObserver
+from regkit_plugins.observers.points import PointsObserver
+
+OBSERVERS = [Observer.load(kind)() for kind in Observer.available()]
+
+
+def frame(points, place: str | None = "some/000003.png") -> Frame:
+    return Frame(np.asarray(points, dtype=float), place=place)
+
+
+@pytest.fixture
+def cloud(random) -> np.ndarray:
+    """A dense ball at one side, a sparse one at the other, and strays."""
+    dense = np.array([0.2, 0.1, 2.0]) + 0.1 * random.normal(size=(600, 3))
+    sparse = np.array([-0.5, -0.3, 2.4]) + 0.3 * random.normal(size=(100, 3))
+    strays = np.array([0.0, 0.0, 3.0]) + random.normal(size=(5, 3))
+    return np.concatenate([dense, sparse, strays])
+
+
+def test_points_without_voxels_are_kept_as_they_are(cloud):
+    observation = PointsObserver(sigma=0.03).observe(frame(cloud))
+    np.testing.assert_array_equal(observation.points, cloud)
+    np.testing.assert_array_equal(observation.weights, 1.0)
+    np.testing.assert_allclose(observation.variances, 0.03**2, rtol=1e-15)
+
+
+def test_points_of_a_voxel_become_their_mean(cloud):
+    voxel = 0.05
+    observation = PointsObserver(voxel=voxel, sigma=0.01).observe(frame(cloud))
+    groups: dict[tuple[int, ...], list[np.ndarray]] = {}
+    for point in cloud:
+        groups.setdefault(tuple(np.floor(point / voxel).astype(int)), []).append(point)
+    expected = np.array(sorted(np.mean(group, axis=0).tolist() for group in groups.values()))
+    found = np.array(sorted(observation.points.tolist()))
+    np.testing.assert_allclose(found, expected, atol=1e-12)
+    assert 1 < len(found) < len(cloud)
+    np.testing.assert_array_equal(observation.weights, np.ones(len(found)))
+    np.testing.assert_allclose(observation.variances, np.full(len(found), 0.01**2))
+
+
+def test_points_larger_voxels_leave_fewer_points(cloud):
+    counts = [
+        len(PointsObserver(voxel=voxel).observe(frame(cloud)).points)
+        for voxel in (0.01, 0.03, 0.1, 100.0)
+    ]
+    assert counts == sorted(counts, reverse=True)
+    assert counts[0] > counts[-1]
+    assert counts[-1] <= 8  # The planes through the origin may cut a cloud that lies across them.
+
+
+def test_crop_keeps_what_lies_between_near_and_far(cloud):
+    kept = Crop(near=1.9, far=2.2).points(frame(cloud))
+    z = cloud[:, 2]
+    np.testing.assert_array_equal(kept, cloud[(z >= 1.9) & (z <= 2.2)])
+    assert 0 < len(kept) < len(cloud)
+    np.testing.assert_array_equal(Crop().points(frame(cloud)), cloud)
+
+
+def test_crop_behind_nearest_drops_the_background_and_survives_a_stray(random):
+    hand = np.array([0.0, 0.0, 0.5]) + 0.03 * random.uniform(-1.0, 1.0, size=(500, 3))
+    owner = np.array([0.0, 0.0, 1.0]) + 0.1 * random.uniform(-1.0, 1.0, size=(500, 3))
+    stray = [[0.0, 0.0, 0.05]]
+    kept = Crop(behind_nearest=0.2).points(frame(np.concatenate([owner, hand, stray])))
+    assert kept[:, 2].max() < 0.6
+    assert len(kept) == len(hand) + 1
+
+
+def test_crop_measures_the_nearest_after_the_near_limit(random):
+    points = random.uniform(-0.5, 0.5, size=(400, 3)) + np.array([0.0, 0.0, 1.0])
+    kept = Crop(near=0.9, behind_nearest=0.2).points(frame(points))
+    assert kept[:, 2].min() >= 0.9
+    assert 1.05 < kept[:, 2].max() < 1.15
+
+
+@pytest.mark.parametrize(("near", "far"), [(2.0, 1.0), (1.0, 1.0)])
+def test_crop_near_beyond_far_is_refused(near, far):
+    with pytest.raises(ValidationError, match=rf"near \({near} m\) must be less than far"):
+        Crop(near=near, far=far)
+
+
+@pytest.mark.parametrize("observer", OBSERVERS, ids=lambda observer: observer.kind)
+class TestEveryObserver:
+    def test_observation_is_a_valid_sum_of_gaussians(self, observer, cloud):
+        camera = Camera(10, 10, 5.0, 5.0, 4.5, 4.5)
+        observation = observer.observe(Frame(cloud, camera))
+        count = len(observation.points)
+        assert observation.points.shape == (count, 3)
+        assert observation.weights.shape == observation.variances.shape == (count,)
+        assert (observation.weights > 0.0).all()
+        assert (observation.variances > 0.0).all()
+        assert observation.camera is camera
+
+    def test_observation_does_not_depend_on_the_order_of_the_points(self, observer, cloud, random):
+        def rows(points: np.ndarray) -> np.ndarray:
+            seen = observer.observe(frame(points))
+            table = np.column_stack([seen.points, seen.weights, seen.variances])
+            return table[np.lexsort(table.round(9).T)]
+
+        np.testing.assert_allclose(rows(cloud), rows(random.permutation(cloud)), atol=1e-9)
+
+    @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+    def test_point_that_is_not_finite_is_refused(self, observer, cloud, value):
+        cloud[41, 1] = cloud[97, 2] = value
+        with pytest.raises(DataError) as caught:
+            observer.observe(frame(cloud))
+        assert str(caught.value).startswith(
+            f"some/000003.png: 2 of {len(cloud)} points have a NaN or infinite coordinate, first "
+            "at point 41: ["
+        )
+
+    def test_empty_frame_is_refused(self, observer):
+        with pytest.raises(DataError) as caught:
+            observer.observe(frame(np.zeros((0, 3))))
+        assert str(caught.value) == "some/000003.png: the frame is empty: it has no measured point"
+
+    def test_too_few_points_are_refused(self, observer, cloud):
+        with pytest.raises(DataError) as caught:
+            observer.observe(frame(cloud[:19]))
+        assert str(caught.value) == (
+            "some/000003.png: 19 of the frame's 19 points are left after cropping; at least 20 are "
+            "needed (observer.crop)"
+        )
+        assert len(observer.observe(frame(cloud[:20])).points)
+
+    def test_crop_that_leaves_nothing_is_refused(self, observer, cloud):
+        cropped = observer.model_validate(
+            {"kind": observer.kind, "crop": {"far": 0.1, "behind_nearest": 0.1, "min_points": 5}}
+        )
+        with pytest.raises(DataError, match=rf"0 of the frame's {len(cloud)} points are left"):
+            cropped.observe(frame(cloud))
+
+    def test_points_of_another_shape_are_refused(self, observer):
+        with pytest.raises(DataError, match=r"points have the shape \(30, 2\); they must be"):
+            observer.observe(frame(np.ones((30, 2))))
+
+
+@pytest.mark.parametrize("largest", [0, 2, 6])
+@pytest.mark.parametrize("few", [1, 2, 10])
+def test_octree_keeps_the_number_and_the_mean_of_the_points(cloud, few, largest):
+    """Each point is in one leaf, whose weight is the number of its points."""
+    seen = OctreeObserver(leaf=0.05, few=few, largest=largest).observe(frame(cloud))
+    assert seen.weights.sum() == len(cloud)
+    np.testing.assert_array_equal(seen.weights, seen.weights.round())
+    np.testing.assert_allclose(
+        seen.weights @ seen.points / len(cloud), cloud.mean(axis=0), atol=1e-12
+    )
+
+
+def test_octree_sigma_is_half_the_side_of_a_cube_of_the_tree(cloud):
+    leaf, largest = 0.05, 3
+    seen = OctreeObserver(leaf=leaf, largest=largest).observe(frame(cloud))
+    doublings = np.log2(2.0 * np.sqrt(seen.variances) / leaf)
+    np.testing.assert_allclose(doublings, doublings.round(), atol=1e-9)
+    assert set(doublings.round()) == {0.0, 1.0, 2.0, 3.0}
+
+
+def test_octree_leaf_that_could_be_divided_holds_few_points(cloud):
+    """And there are leaves of more points among the smallest, or the law would say nothing."""
+    seen = OctreeObserver(leaf=0.05, few=3, largest=4).observe(frame(cloud))
+    smallest = seen.variances == seen.variances.min()
+    assert (seen.weights[~smallest] <= 3).all()
+    assert (seen.weights[smallest] > 3).any()
+
+
+def test_octree_leaves_are_cubes_that_hold_their_points(cloud):
+    """Points are counted anew in the cube of each leaf, from the corner of the cloud."""
+    leaf = 0.05
+    seen = OctreeObserver(leaf=leaf, few=3, largest=2).observe(frame(cloud))
+    corner = cloud.min(axis=0)
+    for mean, weight, variance in zip(seen.points, seen.weights, seen.variances, strict=True):
+        side = 2.0 * np.sqrt(variance)
+        cube = np.floor((mean - corner) / side + 1e-9)
+        inside = (np.floor((cloud - corner) / side) == cube).all(axis=1)
+        assert inside.sum() == weight
+        np.testing.assert_allclose(cloud[inside].mean(axis=0), mean, atol=1e-9)
+
+
+def test_octree_coarser_leaves_are_fewer(cloud):
+    counts = [
+        len(OctreeObserver(leaf=leaf, largest=0).observe(frame(cloud)).points)
+        for leaf in (0.02, 0.04, 0.08, 0.16, 10.0)
+    ]
+    assert counts == sorted(counts, reverse=True)
+    assert counts[0] > counts[1] > counts[-1] == 1
+
+
+def test_octree_with_room_for_all_points_is_their_mean(cloud):
+    seen = OctreeObserver(leaf=1.0, few=len(cloud), largest=5).observe(frame(cloud))
+    np.testing.assert_allclose(seen.points, [cloud.mean(axis=0)], atol=1e-12)
+    np.testing.assert_array_equal(seen.variances, [(0.5 * 1.0 * 2**5) ** 2])
