@@ -37,6 +37,10 @@ class Coordinates(ABC):
         """The pose at coordinates x (m,)."""
 
     @abstractmethod
+    def vector(self, pose: Pose) -> Array:
+        """The coordinates (m,) of a pose."""
+
+    @abstractmethod
     def differential(self, x: Array) -> Array:
         """D (n, m) at x: a change dx moves the degrees of freedom at ``pose(x)`` by D dx.
 
@@ -59,6 +63,10 @@ class TangentCoordinates(Coordinates):
     def pose(self, x: Array) -> Pose:
         """``retract(start, x)``."""
         return self.skeleton.retract(self.start, x)
+
+    def vector(self, pose: Pose) -> Array:
+        """The step from the start to a pose, its rotations of at most half a turn."""
+        return self.skeleton.difference(self.start, pose)
 
     def differential(self, x: Array) -> Array:
         """By the right Jacobian of each rotation vector: exp(w + dw) = exp(w) exp(J dw)."""
@@ -91,7 +99,7 @@ class QuaternionCoordinates(Coordinates):
 
     def origin(self) -> Array:
         """The start's translation, unit quaternions and hinge angles."""
-        return self._vector(self.start)
+        return self.vector(self.start)
 
     def pose(self, x: Array) -> Pose:
         """The pose whose rotations are the normalised quaternions."""
@@ -128,7 +136,8 @@ class QuaternionCoordinates(Coordinates):
             upper[-hinges:] = np.maximum(limits[:, 1], self.start.hinges)
         return lower, upper
 
-    def _vector(self, pose: Pose) -> Array:
+    def vector(self, pose: Pose) -> Array:
+        """A pose's translation, unit quaternions and hinge angles."""
         root = [pose.root[:3, 3], from_matrix(pose.root[:3, :3])] if self.skeleton.free else []
         return np.concatenate([*root, pose.balls.ravel(), pose.hinges])
 

@@ -12,6 +12,7 @@ from typing import Generic, Self, TypeVar
 import numpy as np
 
 from regkit.arrays import Array, Indices
+from regkit.rotation import skew
 
 
 @dataclass(frozen=True)
@@ -60,6 +61,11 @@ class Gaussians(Primitives):
     """
 
 
+@dataclass(frozen=True)
+class SurfaceGaussians(Gaussians):
+    """Gaussians of which a camera, where there is one, sees only the front."""
+
+
 P_co = TypeVar("P_co", bound=Primitives, covariant=True)
 
 
@@ -79,6 +85,10 @@ class Placed(Generic[P_co]):
     centres: Array
     axes: Array
 
+    def __len__(self) -> int:
+        """Number K of primitives."""
+        return len(self.centres)
+
     def covariances(self) -> Array:
         """``R diag(scales^2) R^T`` in the world, (K, 3, 3) [m^2]."""
         return (self.axes * self.primitives.scales[:, None, :] ** 2) @ np.swapaxes(self.axes, 1, 2)
@@ -89,4 +99,14 @@ class Placed(Generic[P_co]):
         moved[:, 3:] += np.cross(self.centres - self.carriers, wrenches[:, :3])
         gathered = np.zeros((segments, 6))
         np.add.at(gathered, self.primitives.segments, moved)
+        return gathered
+
+    def gather_stiffness(self, stiffness: Array, segments: int) -> Array:
+        """Blocks (K, 6, 6) on the primitives as (S, 6, 6), summed about the segments' origins."""
+        # A centre moves with the segment's translation and with its rotation times the lever arm.
+        motion = np.tile(np.eye(6), (len(stiffness), 1, 1))
+        motion[:, :3, 3:] = -skew(self.centres - self.carriers)
+        gathered = np.zeros((segments, 6, 6))
+        blocks = np.swapaxes(motion, 1, 2) @ stiffness @ motion
+        np.add.at(gathered, self.primitives.segments, blocks)
         return gathered

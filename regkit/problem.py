@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from regkit.arrays import Array
 from regkit.coordinates import Coordinates
-from regkit.interfaces import Problem, Similarity
-from regkit.primitives import Primitives
+from regkit.interfaces import Problem, Response, Similarity
+from regkit.primitives import Placed, Primitives
 from regkit.skeleton import Placement
 
 
@@ -33,10 +33,33 @@ class RegistrationProblem(Problem):
 
     def value_and_gradient(self, x: Array) -> tuple[float, Array]:
         """The energy at coordinates x (m,) and its gradient (m,), eqs. 11 to 13."""
-        skeleton = self._coordinates.skeleton
-        placement = Placement.of(skeleton, self._coordinates.pose(x))
-        placed = self._primitives.place(placement.transforms)
+        placement, placed = self._placed(x)
         response = self._similarity(placed)
-        wrenches = placed.gather(response.wrenches, segments=len(skeleton.names))
-        force = placement.pull_back(wrenches)
-        return response.energy, self._coordinates.differential(x).T @ force
+        return response.energy, self._gradient(x, placement, placed, response)
+
+    def normal_equations(self, x: Array) -> tuple[float, Array, Array] | None:
+        """The energy, its gradient (m,) and Gauss-Newton matrix (m, m), if the kernel has one."""
+        placement, placed = self._placed(x)
+        response = self._similarity(placed, curvature=True)
+        if response.stiffness is None:
+            return None
+        stiffness = placed.gather_stiffness(response.stiffness, len(placement.skeleton.names))
+        differential = self._coordinates.differential(x)
+        matrix = differential.T @ placement.normal_matrix(stiffness) @ differential
+        return response.energy, self._gradient(x, placement, placed, response), matrix
+
+    def projected(self, x: Array) -> Array:
+        """The pose's hinges and balls brought back within their limits."""
+        pose = self._coordinates.pose(x)
+        within = self._coordinates.skeleton.limits.projected(pose)
+        return x if within is pose else self._coordinates.vector(within)
+
+    def _placed(self, x: Array) -> tuple[Placement, Placed[Primitives]]:
+        placement = Placement.of(self._coordinates.skeleton, self._coordinates.pose(x))
+        return placement, self._primitives.place(placement.transforms)
+
+    def _gradient(
+        self, x: Array, placement: Placement, placed: Placed[Primitives], response: Response
+    ) -> Array:
+        wrenches = placed.gather(response.wrenches, segments=len(placement.skeleton.names))
+        return self._coordinates.differential(x).T @ placement.pull_back(wrenches)

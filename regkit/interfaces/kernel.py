@@ -20,18 +20,21 @@ class Response:
         energy: The energy; the lower, the better the primitives explain the data.
         wrenches: Its derivative to each primitive's motion, (K, 6): to the translation of the
             primitive, then to a rotation vector in the world about the primitive's own centre.
+        stiffness: Gauss-Newton blocks of its second derivative to the same motions, (K, 6, 6), if
+            they were asked for and the kernel has them.
     """
 
     energy: float
     wrenches: Array
+    stiffness: Array | None = None
 
 
 class Similarity(ABC):
     """A kernel bound to the data of one frame."""
 
     @abstractmethod
-    def __call__(self, placed: Placed[Any]) -> Response:
-        """The energy of primitives in the world, and its derivative."""
+    def __call__(self, placed: Placed[Any], *, curvature: bool = False) -> Response:
+        """The energy of primitives in the world, its derivative, and the stiffness if asked for."""
 
 
 class Kernel(Plugin, ABC):

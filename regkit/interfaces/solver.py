@@ -5,6 +5,8 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
+import numpy as np
+
 from regkit.arrays import Array
 from regkit.plugin import Plugin
 
@@ -25,6 +27,17 @@ class Problem(ABC):
     @abstractmethod
     def value_and_gradient(self, x: Array) -> tuple[float, Array]:
         """The value at x (m,) and its gradient (m,)."""
+
+    def normal_equations(self, x: Array) -> tuple[float, Array, Array] | None:
+        """The value, the gradient (m,) and a positive semi-definite matrix (m, m) of curvature.
+
+        None if the problem has no such matrix.
+        """
+        return None
+
+    def projected(self, x: Array) -> Array:
+        """The point nearest to x (m,) that keeps all limits; here, those of the box."""
+        return np.clip(x, self.lower, self.upper)
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from regkit.arrays import Array
-from regkit.rotation import conjugate, product, swing_twist
+from regkit.rotation import conjugate, from_vector, product, swing_twist
 from regkit.skeleton.pose import Pose
 
 
@@ -37,15 +37,36 @@ class Limits:
         A ball's is the larger of its twist's and its swing's; the latter is measured along the ray
         from the middle of the cone through the swing.
         """
-        hinges = _beyond(pose.hinges, self.hinge)
-        relative = product(conjugate(self.centre), pose.balls)
-        swing, twist = swing_twist(relative, self.twist_axis)
+        swing, twist = self._swing_twist(pose)
+        stretch = self._stretch(swing)
+        angle = np.linalg.norm(swing, axis=1)
+        outside = angle * (1.0 - 1.0 / np.maximum(stretch, 1.0))
+        balls = np.maximum(outside, _beyond(twist, self.twist))
+        return np.concatenate([balls, _beyond(pose.hinges, self.hinge)])
+
+    def projected(self, pose: Pose) -> Pose:
+        """The pose itself if it keeps the limits; else hinges, swings and twists brought to them.
+
+        A swing is shortened towards the middle of its cone.
+        """
+        if not self.violation(pose).any():
+            return pose
+        swing, twist = self._swing_twist(pose)
+        shortened = swing / np.maximum(self._stretch(swing), 1.0)[:, None]
+        turned = np.clip(twist, self.twist[:, 0], self.twist[:, 1])[:, None] * self.twist_axis
+        within = product(self.centre, product(from_vector(shortened), from_vector(turned)))
+        hinges = np.clip(pose.hinges, self.hinge[:, 0], self.hinge[:, 1])
+        return Pose(pose.root, within, hinges)
+
+    def _swing_twist(self, pose: Pose) -> tuple[Array, Array]:
+        """Swing vectors (n_ball, 3) and twist angles (n_ball,) relative to the cones' middles."""
+        return swing_twist(product(conjugate(self.centre), pose.balls), self.twist_axis)
+
+    def _stretch(self, swing: Array) -> Array:
+        """How long a swing is against the cone in its direction, (n_ball,); above 1 outside."""
         first = (swing * self.swing_axis).sum(axis=-1)
         second = (swing * np.cross(self.twist_axis, self.swing_axis)).sum(axis=-1)
-        stretch = np.hypot(first / self.swing[:, 0], second / self.swing[:, 1])
-        angle = np.hypot(first, second)
-        outside = np.where(stretch > 1.0, angle * (1.0 - 1.0 / np.maximum(stretch, 1.0)), 0.0)
-        return np.concatenate([np.maximum(outside, _beyond(twist, self.twist)), hinges])
+        return np.asarray(np.hypot(first / self.swing[:, 0], second / self.swing[:, 1]))
 
 
 def _beyond(angles: Array, interval: Array) -> Array:

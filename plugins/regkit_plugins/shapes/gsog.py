@@ -8,10 +8,10 @@ import numpy as np
 
 from regkit.arrays import Array
 from regkit.body import Body
-from regkit.capsules import Capsules
 from regkit.errors import ConfigError
 from regkit.interfaces import ShapeModel
 from regkit.primitives import Gaussians, Primitives
+from regkit_plugins.shapes.surface import Surface, shown
 
 
 class GeneralizedSumOfGaussians(ShapeModel):
@@ -24,16 +24,20 @@ class GeneralizedSumOfGaussians(ShapeModel):
     kind: Literal["gsog"] = "gsog"
     makes: ClassVar[type[Primitives]] = Gaussians
 
+    surface: Surface = "volume"
+    """Whether data are compared with the whole Gaussian, or with the side that the camera sees."""
+
     def attach(self, body: Body) -> Gaussians:
         """The template's own Gaussians, or the moments of its capsules."""
         own = body.gaussians.get(self.kind)
-        return _moments_of(body.capsules, body.name) if own is None else own
+        return shown(_moments_of(body) if own is None else own, self.surface)
 
 
-def _moments_of(capsules: Capsules, name: str) -> Gaussians:
+def _moments_of(body: Body) -> Gaussians:
+    capsules = body.capsules
     if not len(capsules):
         raise ConfigError(
-            f"the template '{name}' has neither gaussians.gsog nor capsules to make them from"
+            f"the template '{body.name}' has neither gaussians.gsog nor capsules to make them from"
         )
     moments = [
         _moments(ends, radii) for ends, radii in zip(capsules.ends, capsules.radii, strict=True)

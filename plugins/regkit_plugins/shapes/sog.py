@@ -11,6 +11,7 @@ from regkit.capsules import Capsules
 from regkit.errors import ConfigError
 from regkit.interfaces import ShapeModel
 from regkit.primitives import Gaussians, Primitives
+from regkit_plugins.shapes.surface import Surface, shown
 
 
 class SumOfGaussians(ShapeModel):
@@ -23,17 +24,20 @@ class SumOfGaussians(ShapeModel):
     kind: Literal["sog"] = "sog"
     makes: ClassVar[type[Primitives]] = Gaussians
 
+    surface: Surface = "volume"
+    """Whether data are compared with the whole Gaussian, or with the side that the camera sees."""
+
     def attach(self, body: Body) -> Gaussians:
         """The template's own isotropic Gaussians, or some made from its capsules."""
         own = body.gaussians.get(self.kind)
         if own is None:
-            return _strung_along(body.capsules, body.name)
+            return shown(_strung_along(body.capsules, body.name), self.surface)
         if (own.scales != own.scales[:, :1]).any():
             raise ConfigError(
                 f"gaussians.sog of '{body.name}' has a Gaussian with three sigmas; those of a SoG "
                 "have one"
             )
-        return own
+        return shown(own, self.surface)
 
 
 def _strung_along(capsules: Capsules, name: str) -> Gaussians:

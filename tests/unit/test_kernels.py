@@ -1,0 +1,199 @@
+"""Laws of every kernel of Gaussians, whole or as a camera sees them."""
+
+import numpy as np
+import pytest
+
+from regkit.camera import Camera
+from regkit.coordinates import COORDINATES
+from regkit.observation import Observation
+from regkit.primitives import Gaussians, SurfaceGaussians
+from regkit.problem import RegistrationProblem
+from regkit.rigid import rigid
+from regkit.rotation import vector_to_matrix
+from regkit_plugins.kernels.correlation import Correlation
+from regkit_plugins.kernels.likelihood import Likelihood
+from regkit_plugins.kernels.seen import Visible
+from regkit_plugins.shapes.gsog import GeneralizedSumOfGaussians
+from regkit_plugins.shapes.sog import SumOfGaussians
+
+CAMERA = Camera(width=176, height=144, fx=230.0, fy=230.0, cx=87.5, cy=71.5)
+KERNELS = [
+    Correlation(), Correlation(covariance="frozen"), Likelihood(), Likelihood(covariance="frozen")
+]  # fmt: skip
+SHAPES = [
+    shape(surface=surface)
+    for shape in (SumOfGaussians, GeneralizedSumOfGaussians)
+    for surface in ("volume", "visible")
+]
+
+
+def name(plugin) -> str:
+    return "-".join(str(value) for value in plugin.model_dump().values())
+
+
+def scene(linkage, random, shape):
+    """A posed linkage before the camera, and anisotropic data about it."""
+    bones = linkage.skeleton
+    root = rigid(vector_to_matrix(random.normal(size=3)), np.array([0.2, -0.1, 2.0]))
+    start = bones.retract(bones.rest(root), 0.5 * random.normal(size=bones.freedoms))
+    primitives = shape.attach(linkage)
+    points = start.root[:3, 3] + random.normal(size=(250, 3)) * [0.3, 0.2, 0.15]
+    variances = random.choice([0.01, 0.03], size=250) ** 2
+    data = Observation(points, random.uniform(0.5, 2.0, 250), variances, CAMERA)
+    return start, primitives, data
+
+
+@pytest.mark.parametrize("coordinates", COORDINATES)
+@pytest.mark.parametrize("shape", SHAPES, ids=name)
+@pytest.mark.parametrize("kernel", KERNELS, ids=name)
+def test_gradient_agrees_with_finite_differences(linkage, random, kernel, shape, coordinates):
+    start, primitives, data = scene(linkage, random, shape)
+    placed = primitives.place(linkage.place(start).transforms)
+    chart = COORDINATES[coordinates](linkage.skeleton, start)
+    similarity = kernel.against(data, placed, blur=0.01)
+    problem = RegistrationProblem(chart, primitives, similarity)
+    x = problem.start + 0.2 * random.normal(size=len(problem.start))
+    value, gradient = problem.value_and_gradient(x)
+    numerical = [
+        problem.value_and_gradient(x + 1e-6 * e)[0] - problem.value_and_gradient(x - 1e-6 * e)[0]
+        for e in np.eye(len(x))
+    ]
+    np.testing.assert_allclose(
+        gradient, np.array(numerical) / 2e-6, atol=1e-6 * np.abs(gradient).max()
+    )
+    again, same, matrix = problem.normal_equations(x)
+    assert again == value
+    np.testing.assert_array_equal(same, gradient)
+    np.testing.assert_allclose(matrix, matrix.T, atol=1e-9 * np.abs(matrix).max())
+    assert np.linalg.eigvalsh(matrix).min() > -1e-9 * np.abs(matrix).max()
+
+
+@pytest.mark.parametrize("surface", [Gaussians, SurfaceGaussians])
+@pytest.mark.parametrize("kernel", KERNELS, ids=name)
+def test_stiffness_is_the_hessian_of_the_weighted_residuals(random, kernel, surface):
+    """With weights and P held, the Gauss-Newton block is exact: sum w J^T P J, by brute force."""
+    model = surface(
+        segments=np.zeros(2, dtype=np.intp),
+        centres=random.normal(scale=0.1, size=(2, 3)),
+        axes=vector_to_matrix(random.normal(size=(2, 3))),
+        scales=random.uniform(0.04, 0.1, size=(2, 3)),
+        weights=np.ones(2),
+    )
+    placed = model.place(rigid(np.eye(3), np.array([0.1, 0.0, 1.5]))[None])
+    points = np.array([0.1, 0.0, 1.45]) + random.normal(scale=0.1, size=(40, 3))
+    data = Observation(points, np.ones(40), np.full(40, 0.02**2), CAMERA)
+    similarity = kernel.against(data, placed)
+    blocks = similarity(placed, curvature=True).stiffness
+    view = similarity._view(placed)
+    group = similarity._groups[0]
+    means = view.means - similarity._centre
+    precisions = view.precisions(group.variance)
+    weights = group.pairs.densities(means, precisions, group.log_scales)
+    similarity.weigh(weights, group.weights)
+    for index in range(2):
+        expected = np.zeros((6, 6))
+        for point, weight in zip(points, weights[index], strict=True):
+            x, y, z = point - placed.centres[index]
+            jacobian = np.array([
+                [1, 0, 0, 0, z, -y],
+                [0, 1, 0, -z, 0, x],
+                [0, 0, 1, y, -x, 0],
+            ])  # fmt: skip
+            expected += weight * jacobian.T @ precisions[index] @ jacobian
+        np.testing.assert_allclose(blocks[index], expected, atol=1e-9 * np.abs(expected).max())
+
+
+def test_likelihood_is_the_log_density_of_the_mixture(random):
+    """By brute force, with volumes, two variances and outliers."""
+    model = Gaussians(
+        segments=np.zeros(3, dtype=np.intp),
+        centres=random.normal(scale=0.1, size=(3, 3)),
+        axes=vector_to_matrix(random.normal(size=(3, 3))),
+        scales=random.uniform(0.04, 0.1, size=(3, 3)),
+        weights=np.ones(3),
+    )
+    placed = model.place(np.eye(4)[None])
+    points = random.normal(scale=0.15, size=(30, 3))
+    variances = random.choice([0.01, 0.03], size=30) ** 2
+    weights = random.uniform(0.5, 2.0, size=30)
+    data = Observation(points, weights, variances)
+    found = Likelihood(outliers=0.2).against(data, placed)(placed).energy
+    sorted_scales = np.sort(model.scales, axis=1)
+    mixing = sorted_scales[:, 1] * sorted_scales[:, 2]
+    mixing = 0.8 * mixing / mixing.sum()
+    background = 0.2 / np.ptp(points, axis=0).prod()
+    total = 0.0
+    for point, weight, variance in zip(points, weights, variances, strict=True):
+        density = background
+        for share, centre, covariance in zip(
+            mixing, placed.centres, placed.covariances(), strict=True
+        ):
+            spread = covariance + variance * np.eye(3)
+            q = point - centre
+            normal = np.exp(-0.5 * q @ np.linalg.solve(spread, q))
+            density += share * normal / np.sqrt(np.linalg.det(2 * np.pi * spread))
+        total -= weight * np.log(density)
+    assert found == pytest.approx(total / weights.sum(), rel=1e-10)
+
+
+def test_visible_side_agrees_with_sampling(random):
+    """Mean, covariance and area of an ellipsoid's visible side, as a distant camera sees it."""
+    model = SurfaceGaussians(
+        segments=np.zeros(1, dtype=np.intp),
+        centres=np.zeros((1, 3)),
+        axes=vector_to_matrix(random.normal(size=(1, 3))),
+        scales=np.array([[0.05, 0.1, 0.03]]),
+        weights=np.ones(1),
+    )
+    ray = np.array([0.0, 0.0, 1.0])
+    placed = model.place(rigid(np.eye(3), 1000.0 * ray)[None])
+    view = Visible.of(placed)
+    # Points of the silhouette's area: lines along the ray that hit the 2-sigma ellipsoid.
+    precision = np.linalg.inv(4.0 * placed.covariances()[0])
+    lateral = np.column_stack([random.uniform(-0.25, 0.25, (400_000, 2)), np.zeros(400_000)])
+    a, b = ray @ precision @ ray, lateral @ precision @ ray
+    c = np.einsum("ni,ij,nj->n", lateral, precision, lateral) - 1.0
+    hit = b**2 - a * c > 0.0
+    depth = (-b[hit] - np.sqrt(b[hit] ** 2 - a * c[hit])) / a
+    surface = lateral[hit] + depth[:, None] * ray
+    np.testing.assert_allclose(view.means[0] - placed.centres[0], surface.mean(axis=0), atol=5e-4)
+    np.testing.assert_allclose(
+        view.areas()[0], hit.mean() * 0.25, rtol=1e-2
+    )  # Of a square of half a metre.
+    # The model keeps the volume's variance across the ray, and takes from it along the ray only.
+    along = ray @ view.covariances[0] @ ray
+    whole = ray @ placed.covariances()[0] @ ray
+    h = 2.0 / np.sqrt(ray @ np.linalg.inv(placed.covariances()[0]) @ ray)
+    assert along == pytest.approx(whole - 7.0 / 36.0 * h**2)
+
+
+def test_without_a_camera_the_whole_gaussians_count(linkage, random):
+    _, primitives, data = scene(linkage, random, GeneralizedSumOfGaussians(surface="visible"))
+    whole = GeneralizedSumOfGaussians().attach(linkage)
+    blind = Observation(data.points, data.weights, data.variances)
+    transforms = linkage.place(linkage.skeleton.rest(rigid(np.eye(3), data.points.mean(0))))
+    placed = primitives.place(transforms.transforms)
+    same = whole.place(transforms.transforms)
+    kernel = Likelihood()
+    seen, unseen = kernel.against(blind, placed)(placed), kernel.against(blind, same)(same)
+    assert seen.energy == unseen.energy
+    assert kernel.against(data, placed)(placed).energy != unseen.energy
+
+
+def test_gaussians_compete_for_points(random):
+    """A Gaussian on data that another explains already is not drawn to them as it is alone."""
+    both = Gaussians(
+        segments=np.zeros(2, dtype=np.intp),
+        centres=np.array([[0.0, 0.0, 0.0], [0.15, 0.0, 0.0]]),
+        axes=np.tile(np.eye(3), (2, 1, 1)),
+        scales=np.full((2, 3), 0.05),
+        weights=np.ones(2),
+    )
+    points = random.normal(scale=0.05, size=(300, 3))
+    data = Observation(points, np.ones(300), np.full(300, 1e-4))
+    alone = Gaussians(*(value[1:] for value in vars(both).values()))
+    pulls = []
+    for model in (both, alone):
+        placed = model.place(np.eye(4)[None])
+        pulls.append(Likelihood().against(data, placed)(placed).wrenches[-1, 0])
+    assert abs(pulls[0]) < 0.3 * abs(pulls[1])
