@@ -84,7 +84,7 @@ def test_stiffness_is_the_hessian_of_the_weighted_residuals(random, kernel, surf
     data = Observation(points, np.ones(40), np.full(40, 0.02**2), CAMERA)
     similarity = kernel.against(data, placed)
     blocks = similarity(placed, curvature=True).stiffness
-    view = similarity._view(placed)
+    view = similarity._seen_at_start
     group = similarity._groups[0]
     means = view.means - similarity._centre
     precisions = view.precisions(group.variance)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from dataclasses import dataclass
+from functools import reduce
 from typing import ClassVar
 
 import numpy as np
@@ -80,21 +81,23 @@ class GaussianSimilarity(Similarity):
 
     def __call__(self, placed: Placed[Gaussians], *, curvature: bool = False) -> Response:
         """The energy, the wrenches about the primitives' centres, and the Gauss-Newton blocks."""
-        view = self._view(placed)
-        means = view.means - self._centre
-        energy, wrenches = 0.0, np.zeros((len(means), 6))
-        stiffness = np.zeros((len(means), 6, 6)) if curvature else None
-        for group in self._groups:
-            precisions = view.precisions(group.variance)
-            log_scales = group.log_scales if view.rigid else self._log_scales(view, precisions)
-            densities = group.pairs.densities(means, precisions, log_scales)
-            weighed = self.weigh(densities, group.weights)
-            moments = group.pairs.moments(densities, precisions)
-            energy += -float(moments.mass.sum()) if weighed is None else weighed
-            wrenches += view.wrenches(moments, self.volume_power)
-            if stiffness is not None:
-                stiffness += moments.about(placed.centres - view.means).stiffness()
-        return Response(energy, wrenches, stiffness)
+        view = seen(placed, self._camera) if not self._frozen else self._moved(placed)
+        levers = placed.centres - view.means if curvature else None
+        parts = [self._part(group, view, levers) for group in self._groups]
+        return reduce(_together, parts)
+
+    def _part(self, group: _Group, view: Seen, levers: Array | None) -> Response:
+        """What the data of one variance contribute."""
+        precisions = view.precisions(group.variance)
+        log_scales = group.log_scales if view.rigid else self._log_scales(view, precisions)
+        densities = group.pairs.densities(view.means - self._centre, precisions, log_scales)
+        energy = self.weigh(densities, group.weights)
+        moments = group.pairs.moments(densities, precisions)
+        return Response(
+            energy=-float(moments.mass.sum()) if energy is None else energy,
+            wrenches=view.wrenches(moments, self.volume_power),
+            stiffness=None if levers is None else moments.stiffness(levers),
+        )
 
     def _group(self, variance: float, points: Array, weights: Array) -> _Group:
         precisions = self._seen_at_start.precisions(variance)
@@ -106,7 +109,13 @@ class GaussianSimilarity(Similarity):
         logarithms = np.log(np.linalg.det(precisions)) + log_volumes
         return np.asarray(self._log_weights + 0.5 * logarithms)
 
-    def _view(self, placed: Placed[Gaussians]) -> Seen:
-        if self._frozen:
-            return Frozen.of(self._seen_at_start, placed.centres - self._start.centres)
-        return seen(placed, self._camera)
+    def _moved(self, placed: Placed[Gaussians]) -> Seen:
+        return Frozen.of(self._seen_at_start, placed.centres - self._start.centres)
+
+
+def _together(one: Response, other: Response) -> Response:
+    """The sum of two energies."""
+    stiffness = None
+    if one.stiffness is not None and other.stiffness is not None:
+        stiffness = one.stiffness + other.stiffness
+    return Response(one.energy + other.energy, one.wrenches + other.wrenches, stiffness)

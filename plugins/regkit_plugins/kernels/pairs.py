@@ -28,10 +28,14 @@ class Pairs:
     def __init__(self, points: Array, weights: Array, count: int) -> None:
         x, y, z = points.T
         ones = np.ones(len(points))
-        features = [x * x, y * y, z * z, x * y, x * z, y * z, x, y, z, ones, np.log(weights)]
+        features = [x * x, y * y, z * z, x * y, x * z, y * z, x, y, z, ones]
+        # Equal weights are a constant; others are a feature more, whose coefficient is one.
+        self._log_weight = float(np.log(weights[0])) if np.ptp(weights) == 0.0 else 0.0
+        if np.ptp(weights) > 0.0:
+            features.append(np.log(weights))
         self._features = np.array(features)
         self._transposed = self._features[:10].T
-        self._coefficients = np.ones((count, 11))
+        self._coefficients = np.ones((count, len(features)))
         self._kernel = np.empty((count, len(points)))
         self._floor = np.full(len(points), _FLOOR)
         self._relative = np.zeros((count, 3, 4))
@@ -48,7 +52,7 @@ class Pairs:
         quadric = (turned @ (precisions @ self._relative)).reshape(-1, 16)
         coefficients = self._coefficients
         np.multiply(quadric.take(_ENTRIES, axis=1), _FACTORS, out=coefficients[:, :10])
-        coefficients[:, 9] += log_scales
+        coefficients[:, 9] += log_scales + self._log_weight
         np.matmul(coefficients, self._features, out=self._kernel)
         np.maximum(self._kernel, self._floor, out=self._kernel)
         np.exp(self._kernel, out=self._kernel)
@@ -57,9 +61,8 @@ class Pairs:
     def moments(self, shares: Array, precisions: Array) -> Moments:
         """The moments of the data about the means of ``densities``, under weights (K, N)."""
         flat = shares @ self._transposed
-        about = self._relative @ flat.take(_MATRIX, axis=1).reshape(-1, 4, 4)  # sum w q h^T
-        second = about @ self._relative.transpose(0, 2, 1)
-        return Moments(flat[:, 9], about[:, :, 3], second, precisions)
+        about = self._relative @ flat.take(_MATRIX, axis=1).reshape(-1, 4, 4)
+        return Moments(flat[:, 9], about, self._relative, precisions)
 
 
 @dataclass(frozen=True)
@@ -68,52 +71,46 @@ class Moments:
 
     Attributes:
         mass: sum w, (K,).
-        first: sum w q, (K, 3) [m].
-        second: sum w q q^T, (K, 3, 3) [m^2].
+        about: sum w q h^T, (K, 3, 4).
+        relative: Z, (K, 3, 4), so that q = Z h.
         precisions: P, (K, 3, 3), the inverse of model and data covariance together.
     """
 
     mass: Array
-    first: Array
-    second: Array
+    about: Array
+    relative: Array
     precisions: Array
 
-    def forces(self) -> Array:
-        """The derivative of 1/2 sum w q^T P q to the means, (K, 3)."""
-        return -(self.precisions @ self.first[:, :, None])[:, :, 0]
+    def pulls(self) -> tuple[Array, Array]:
+        """Sum w P q, (K, 3), and sum w P q q^T, (K, 3, 3)."""
+        pulled = self.precisions @ self.about
+        return pulled[:, :, 3], pulled @ self.relative.transpose(0, 2, 1)
 
-    def spreads(self) -> Array:
-        """Its derivative to the covariance P^-1, (K, 3, 3)."""
-        return -0.5 * self.precisions @ self.second @ self.precisions
-
-    def about(self, shift: Array) -> Moments:
-        """The same sums about other points, the means plus ``shift`` (K, 3)."""
-        mass = self.mass[:, None]
-        first = self.first - mass * shift
-        mixed = (self.first - 0.5 * mass * shift)[:, :, None] * shift[:, None, :]
-        second = self.second - mixed - mixed.transpose(0, 2, 1)
-        return Moments(self.mass, first, second, self.precisions)
-
-    def stiffness(self) -> Array:
+    def stiffness(self, shift: Array) -> Array:
         """The Gauss-Newton blocks (K, 6, 6): sum w J^T P J with J = [I, -[q]x].
 
         The residual turns with the segment, since the data are isotropic; so its derivative to a
         motion of the segment is that of the model's material at y.
+
+        Args:
+            shift: From the means to the points about which the motions turn, (K, 3) [m].
         """
-        blocks = np.empty((len(self.mass), 6, 6))
-        mixed = -self.precisions @ skew(self.first)
-        blocks[:, :3, :3] = self.mass[:, None, None] * self.precisions
-        blocks[:, :3, 3:] = mixed
-        blocks[:, 3:, :3] = mixed.transpose(0, 2, 1)
+        first = self.about[:, :, 3]
+        mixed = (first - 0.5 * self.mass[:, None] * shift)[:, :, None] * shift[:, None, :]
+        second = self.about @ self.relative.transpose(0, 2, 1) - mixed - mixed.transpose(0, 2, 1)
+        lever = -self.precisions @ skew(first - self.mass[:, None] * shift)
         turned = np.einsum("nij,ljb->nilb", self.precisions, _UNIT_SKEWS)
-        blocks[:, 3:, 3:] = np.einsum("kia,nilb,nkl->nab", _UNIT_SKEWS, turned, self.second)
+        blocks = np.empty((len(self.mass), 6, 6))
+        blocks[:, :3, :3] = self.mass[:, None, None] * self.precisions
+        blocks[:, :3, 3:] = lever
+        blocks[:, 3:, :3] = lever.transpose(0, 2, 1)
+        blocks[:, 3:, 3:] = np.einsum("kia,nilb,nkl->nab", _UNIT_SKEWS, turned, second)
         return blocks
 
 
 def axial(matrices: Array) -> Array:
     """The vectors (K, 3) with the components M_yz - M_zy, M_zx - M_xz, M_xy - M_yx."""
-    flat = matrices.reshape(-1, 9)
-    return np.asarray(flat.take(_AFTER, axis=1) - flat.take(_BEFORE, axis=1))
+    return np.asarray(matrices.reshape(-1, 9) @ _AXIAL)
 
 
 _FLOOR = -600.0
@@ -129,8 +126,8 @@ _FACTORS = np.array([-0.5, -0.5, -0.5, -1.0, -1.0, -1.0, -1.0, -1.0, -1.0, -0.5]
 _MATRIX = np.array([0, 3, 4, 6, 3, 1, 5, 7, 4, 5, 2, 8, 6, 7, 8, 9])
 """Where the ten moments stand in the flattened matrix sum w h h^T."""
 
-_AFTER, _BEFORE = np.array([5, 6, 1]), np.array([7, 2, 3])
-"""Entries of a flattened matrix whose differences are its axial vector."""
-
 _UNIT_SKEWS = skew(np.eye(3))
 """[e_k]x for the three unit vectors, (3, 3, 3)."""
+
+_AXIAL = -_UNIT_SKEWS.reshape(3, 9).T
+"""What makes of a flattened matrix its axial vector, (9, 3)."""

@@ -71,8 +71,8 @@ class Volume(Seen):
 
     def precisions(self, variance: float) -> Array:
         """P is diagonal in the Gaussian's own axes."""
-        inverse = 1.0 / (self.scales**2 + variance)
-        return np.asarray((self.axes * inverse[:, None, :]) @ self.axes.transpose(0, 2, 1))
+        spread = (self.scales**2 + variance)[:, None, :]
+        return np.asarray((self.axes / spread) @ self.axes.transpose(0, 2, 1))
 
     def log_volumes(self) -> Array:
         """Of the squared scales."""
@@ -89,9 +89,10 @@ class Volume(Seen):
         The exact derivative to the rotation applies them at the product's mean, m + C P q. But y
         lies on the same line of action, since q = C P q + sigma^2 P q.
         """
-        wrenches = np.empty((len(self.means), 6))
-        wrenches[:, :3] = moments.forces()
-        wrenches[:, 3:] = axial(moments.precisions @ moments.second)
+        pulls, levers = moments.pulls()
+        wrenches = np.empty((len(pulls), 6))
+        np.negative(pulls, out=wrenches[:, :3])
+        wrenches[:, 3:] = axial(levers)
         return wrenches
 
 
@@ -125,8 +126,8 @@ class Frozen(Seen):
 
     def wrenches(self, moments: Moments, volume_power: float) -> Array:
         """Forces alone."""
-        forces = moments.forces()
-        return np.concatenate([forces, np.zeros_like(forces)], axis=1)
+        pulls, _ = moments.pulls()
+        return np.concatenate([-pulls, np.zeros_like(pulls)], axis=1)
 
 
 @dataclass(frozen=True)
@@ -195,9 +196,10 @@ class Visible(Seen):
             dE = a.dm + <G, dC> + (-2/3 a.e - 2 k h e^T G e) dh + (-2/3 h a - 2 k h^2 G e).de,
             dh = -h^3/4 (b.de + w.(b x e)),    de = (I - e e^T) dm / |m|,    dC = [w]x C - C [w]x.
         """
-        forces = moments.forces()
+        pulls, levers = moments.pulls()
+        forces = -pulls
         mass = 0.5 * moments.mass[:, None, None]
-        spreads = moments.spreads() + mass * moments.precisions
+        spreads = mass * moments.precisions - 0.5 * levers @ moments.precisions
         if volume_power:
             spreads -= volume_power * mass * np.linalg.inv(self.covariances)
         e, h = self.rays, self.reaches
