@@ -83,7 +83,9 @@ class Document:
                         f"{'.'.join(keys[: depth + 1])} is not a mapping", place=option
                     )
             inner[keys[-1]] = _copied(_parsed(value, option))
-            places[tuple(keys)] = option
+            replaced = tuple(keys)
+            places = {at: place for at, place in places.items() if at[: len(keys)] != replaced}
+            places[replaced] = option
         return Document(data, places)
 
     def place(self, location: Location) -> str:

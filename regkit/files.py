@@ -12,18 +12,26 @@ from typing import Any
 import numpy as np
 
 from regkit.arrays import Array
+from regkit.errors import DataError
 
 
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
-    """A temporary name beside ``path`` to write to, renamed to ``path`` when all went well."""
-    path.parent.mkdir(parents=True, exist_ok=True)
+    """A temporary name beside ``path`` to write to, renamed to ``path`` when all went well.
+
+    Raises:
+        DataError: If the file cannot be written.
+    """
     temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp{path.suffix}")
     try:
-        yield temporary
-        temporary.replace(path)
-    finally:
-        temporary.unlink(missing_ok=True)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        try:
+            yield temporary
+            temporary.replace(path)
+        finally:
+            temporary.unlink(missing_ok=True)
+    except OSError as error:
+        raise DataError(f"cannot be written: {error.strerror or error}", place=str(path)) from None
 
 
 def write_text(path: Path, text: str) -> None:

@@ -14,8 +14,11 @@ from regkit.model import did_you_mean
 from regkit.observation import Truth
 from regkit.tracking import Track
 
-NEAR = 0.10
-"""A joint nearer to its reference than this counts as found [m]."""
+TEN_CM = 0.10
+"""The threshold of the literature on people [m]."""
+
+NEAR = 0.06
+"""A joint is near its reference within this part of the body's size: 10 cm on a tall person."""
 
 
 @dataclass(frozen=True)
@@ -28,8 +31,10 @@ class Measure:
             is subtracted; the displacement of even frames is fitted on odd ones and vice versa.
         within_10cm_percent: How many raw distances are below 10 cm.
         within_10cm_adjusted_percent: How many adjusted distances are below 10 cm.
+        near_percent: How many raw distances are below 6 % of the body's size.
         frames: Number of frames.
-        lost_frames: Frames in which less than half of the joints are within 10 cm.
+        lost_frames: Frames in which less than half of the joints are that near.
+        unconverged_frames: Frames in which the solver met no tolerance.
         surface_distance_mm: Median over frames of the median distance of the data to the surface.
         limit_violation_deg: Mean over frames of the largest violation of a joint limit.
         evaluations_per_frame: Mean number of energy evaluations.
@@ -40,8 +45,10 @@ class Measure:
     joint_error_adjusted_cm: float | None
     within_10cm_percent: float | None
     within_10cm_adjusted_percent: float | None
+    near_percent: float | None
     frames: float | None
     lost_frames: float | None
+    unconverged_frames: float | None
     surface_distance_mm: float | None
     limit_violation_deg: float | None
     evaluations_per_frame: float | None
@@ -68,15 +75,18 @@ def measured(track: Track, body: Body, truth: Truth | None, joints: Mapping[str,
     frames = len(track.seconds)
     limits = body.skeleton.limits
     violations = [limits.violation(track.pose(index)).max(initial=0.0) for index in range(frames)]
-    found = None if raw is None else _fraction_near(raw, axis=1)
+    near = NEAR * body.size
+    found = None if raw is None else _fraction_below(raw, near, axis=1)
     lost = None if found is None else int((found < 0.5).sum())
     return Measure(
         joint_error_raw_cm=_mean(raw, 100.0),
         joint_error_adjusted_cm=_mean(adjusted, 100.0),
-        within_10cm_percent=None if raw is None else _percent_near(raw),
-        within_10cm_adjusted_percent=None if adjusted is None else _percent_near(adjusted),
+        within_10cm_percent=_percent_below(raw, TEN_CM),
+        within_10cm_adjusted_percent=_percent_below(adjusted, TEN_CM),
+        near_percent=_percent_below(raw, near),
         frames=frames,
         lost_frames=lost,
+        unconverged_frames=float((track.converged == 0.0).sum()),
         surface_distance_mm=_finite(1000.0 * np.median(track.surface_distances)),
         limit_violation_deg=_finite(np.degrees(np.mean(violations))),
         evaluations_per_frame=float(track.evaluations.mean()),
@@ -154,21 +164,24 @@ def matched(body: Body, truth: Truth, joints: Mapping[str, str]) -> tuple[list[i
     if not pairs:
         raise ConfigError(
             f"no joint of the data ({', '.join(truth.joints)}) is a marker of '{body.name}' "
-            f"({', '.join(body.markers.names)}); map them by name",
+            f"({', '.join(body.markers.names)}); map them by name (dataset.joints), or leave them "
+            "out (dataset.compared=false)",
             place="dataset.joints",
         )
     return [column for column, _ in pairs], [marker for _, marker in pairs]
 
 
-def _fraction_near(distances: Array, axis: int | None = None) -> Array:
-    """How many of the known distances are below ``NEAR``; NaN where none is known."""
+def _fraction_below(distances: Array, threshold: float, axis: int | None = None) -> Array:
+    """How many of the known distances are below a threshold; NaN where none is known."""
     known = np.isfinite(distances).sum(axis=axis)
-    near = (distances < NEAR).sum(axis=axis)
-    return np.asarray(np.where(known > 0, near / np.maximum(known, 1), np.nan))
+    below = (distances < threshold).sum(axis=axis)
+    return np.asarray(np.where(known > 0, below / np.maximum(known, 1), np.nan))
 
 
-def _percent_near(distances: Array) -> float | None:
-    return _finite(100.0 * float(_fraction_near(distances)))
+def _percent_below(distances: Array | None, threshold: float) -> float | None:
+    if distances is None:
+        return None
+    return _finite(100.0 * float(_fraction_below(distances, threshold)))
 
 
 def _mean(distances: Array | None, factor: float) -> float | None:

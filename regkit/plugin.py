@@ -29,6 +29,9 @@ class Plugin(Model):
     group: ClassVar[str]
     """Entry-point group, set once by each slot."""
 
+    declared: ClassVar[tuple[str, ...]] = ()
+    """Class variables that each plug-in of a slot must declare."""
+
     kind: str
     """Name of the plug-in, equal to its entry-point name."""
 
@@ -77,7 +80,7 @@ class Plugin(Model):
             raise PluginError(
                 f"'{kind}' in {cls.group} is not a concrete {cls.__name__}: {plugin!r}"
             )
-        if plugin.model_fields["kind"].default != kind:
+        if _kind_of(plugin) != kind:
             raise PluginError(
                 f"plug-in '{kind}': {plugin.__qualname__}.kind must default to its entry-point name"
             )
@@ -136,8 +139,21 @@ _REGISTERED: dict[str, dict[str, type[Any]]] = {}
 
 def register(plugin: type[P]) -> type[P]:
     """Make a plug-in class available in this process: in notebooks, tests, ``--plugin`` files."""
-    _REGISTERED.setdefault(plugin.group, {})[plugin.model_fields["kind"].default] = plugin
+    _REGISTERED.setdefault(plugin.group, {})[_kind_of(plugin)] = plugin
     return plugin
+
+
+def _kind_of(plugin: type[Plugin]) -> str:
+    """The name of a plug-in, once it is known to declare all that its slot asks for."""
+    for name in plugin.declared:
+        if not any(name in vars(base) for base in plugin.__mro__):
+            raise PluginError(f"{plugin.__qualname__} must declare the class variable '{name}'")
+    kind = plugin.model_fields["kind"].default
+    if not isinstance(kind, str):
+        raise PluginError(
+            f'{plugin.__qualname__} must declare its name: kind: Literal["name"] = "name"'
+        )
+    return kind
 
 
 def run_plugin_file(path: Path) -> None:

@@ -62,6 +62,7 @@ class Track:
         surface_distances: Median distance of a frame's points to the body's surface, (T,) [m].
         energies: (T,) in the method's own units.
         evaluations: (T,).
+        converged: Whether the solver met a tolerance, (T,).
         seconds: (T,).
     """
 
@@ -72,6 +73,7 @@ class Track:
     surface_distances: Array
     energies: Array
     evaluations: Array
+    converged: Array
     seconds: Array
 
     def pose(self, index: int) -> Pose:
@@ -100,5 +102,6 @@ class Track:
             surface_distances=np.array(distances),
             energies=np.array([frame.registered.energy for frame in frames]),
             evaluations=np.array([float(frame.registered.evaluations) for frame in frames]),
+            converged=np.array([float(frame.registered.converged) for frame in frames]),
             seconds=np.array([frame.seconds for frame in frames]),
         )

@@ -41,7 +41,7 @@ class Stance:
 
     Attributes:
         name: What a person would call it.
-        pose: A pose of the body, whose root is the identity.
+        pose: A pose of the body; of its root only the rotation counts, before it faces the camera.
     """
 
     name: str

@@ -6,7 +6,7 @@ import sys
 
 import typer
 
-from regkit.cli.console import errors
+from regkit.cli.console import print_error
 from regkit.cli.doctor import doctor
 from regkit.cli.plugins import plugins
 from regkit.cli.run import run
@@ -29,5 +29,5 @@ def main() -> None:
     try:
         app()
     except RegkitError as error:
-        errors.print(f"error: {error}", style="red", markup=False, highlight=False, soft_wrap=True)
+        print_error(error)
         sys.exit(1)

@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
+from regkit.errors import RegkitError
 from regkit.plugin import run_plugin_file
 
 output = Console()
@@ -26,3 +27,9 @@ def run_plugin_files(files: Iterable[Path] | None) -> None:
     """Make the plug-ins of ``--plugin`` files available."""
     for file in files or ():
         run_plugin_file(file)
+
+
+def print_error(error: RegkitError) -> None:
+    """Print an error, each of its lines as one."""
+    for line in str(error).splitlines():
+        errors.print(f"error: {line}", style="red", markup=False, highlight=False, soft_wrap=True)

@@ -10,6 +10,7 @@ from importlib.metadata import version
 from typing import Any
 
 import typer
+from rich.markup import escape
 from rich.table import Table
 
 from regkit import optional
@@ -25,7 +26,7 @@ def doctor() -> None:
     findings += [_optional("open3d", optional.open3d), _optional("casadi", optional.casadi)]
     findings += [_plugins()]
     for what, state, cure in findings:
-        table.add_row(what, state, cure, style="red" if cure else None)
+        table.add_row(what, escape(state), escape(cure), style="red" if cure else None)
     output.print(table)
     if any(cure for _, _, cure in findings):
         raise typer.Exit(1)
@@ -65,4 +66,4 @@ def _plugins() -> tuple[str, str, str]:
                 broken.append(str(error))
     if broken:
         return "plug-ins", "\n".join(broken), "reinstall or uninstall what brings them"
-    return "plug-ins", f"{total} of {len(SLOTS)} groups", ""
+    return "plug-ins", f"{total} in {len(SLOTS)} groups", ""

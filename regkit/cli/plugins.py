@@ -2,30 +2,60 @@
 
 from __future__ import annotations
 
+import inspect
 from importlib.metadata import EntryPoint
+from typing import Annotated
 
+import typer
+from rich.markup import escape
 from rich.table import Table
 
 from regkit.cli.console import PluginFiles, output, run_plugin_files
 from regkit.errors import PluginError
 from regkit.interfaces import SLOTS
+from regkit.model import did_you_mean
 from regkit.plugin import Plugin
 
 
-def plugins(plugin: PluginFiles = None) -> None:
-    """List what is installed, by group, with the distribution that brings it."""
+def plugins(
+    kind: Annotated[
+        str | None, typer.Argument(help="Show the fields of this plug-in, in every group.")
+    ] = None,
+    plugin: PluginFiles = None,
+) -> None:
+    """List what is installed, by group, with the distribution that brings it; or one's fields."""
     run_plugin_files(plugin)
+    if kind is not None:
+        _print_fields(kind)
+        return
     table = Table("group", "kind", "what it is", "from")
     for slot in SLOTS:
-        for index, (kind, origin) in enumerate(slot.available().items()):
+        for index, (name, origin) in enumerate(slot.available().items()):
             table.add_row(
                 slot.group.removeprefix("regkit.") if not index else "",
-                kind,
-                _summary(slot, kind),
+                name,
+                escape(_summary(slot, name)),
                 _distribution(origin),
             )
         table.add_section()
     output.print(table)
+
+
+def _print_fields(kind: str) -> None:
+    named = [slot for slot in SLOTS if kind in slot.available()]
+    if not named:
+        kinds = [name for slot in SLOTS for name in slot.available()]
+        raise PluginError(f"no plug-in '{kind}' in any group" + did_you_mean(kind, kinds))
+    for slot in named:
+        found = slot.load(kind)
+        table = Table("field", "default", "what it is", title=f"{slot.group}: {kind}")
+        for name, field in found.model_fields.items():
+            default = "required" if field.is_required() else str(field.get_default())
+            table.add_row(
+                name, escape(default), escape(" ".join((field.description or "").split()))
+            )
+        output.print(table)
+        output.print(inspect.cleandoc(found.__doc__ or ""), markup=False, highlight=False)
 
 
 def _summary(slot: type[Plugin], kind: str) -> str:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from rich.markup import escape
 from rich.progress import (
     BarColumn,
     MofNCompleteColumn,
@@ -69,7 +70,7 @@ def _table(measures: dict[str, dict[str, Measure]]) -> Table:
 
     table = Table("method", "sequences")
     for title in COLUMNS.values():
-        table.add_column(title, justify="right")
+        table.add_column(escape(title), justify="right")
     for row in rows(measures):
         table.add_row(*row)
     return table

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from regkit.cli.console import PluginFiles, errors, output, run_plugin_files
+from regkit.cli.console import PluginFiles, output, print_error, run_plugin_files
 from regkit.document import Document
 from regkit.errors import ConfigError, RegkitError
 
@@ -24,9 +24,7 @@ def validate(
             output.print(f"{file}: a valid {_checked(file)}", highlight=False, soft_wrap=True)
         except RegkitError as error:
             failed = True
-            errors.print(
-                f"error: {error}", style="red", markup=False, highlight=False, soft_wrap=True
-            )
+            print_error(error)
     if failed:
         raise typer.Exit(1)
 

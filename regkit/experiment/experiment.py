@@ -7,12 +7,14 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated
 
-from pydantic import AfterValidator, Field
+from pydantic import AfterValidator, Field, ValidationInfo, field_validator
 
 from regkit.document import Document
+from regkit.errors import ConfigError
 from regkit.interfaces import Dataset, Method, Observer, Template, Tracker
 from regkit.model import Model
 from regkit.skeleton import PoseDescription
+from regkit.start import given_start
 
 
 def _fit_for_a_folder(name: str) -> str:
@@ -45,6 +47,19 @@ class Experiment(Model):
     template's size."""
     methods: dict[Name, Method] = Field(min_length=1)
     """What is compared, by a name of your own."""
+
+    @field_validator("start")
+    @classmethod
+    def _start_fits_template(
+        cls, start: PoseDescription | None, others: ValidationInfo
+    ) -> PoseDescription | None:
+        template = others.data.get("template")
+        if start is not None and isinstance(template, Template):
+            try:
+                given_start(template, start)
+            except ConfigError as error:
+                raise ValueError(error.message) from None
+        return start
 
     @classmethod
     def read(cls, path: Path, settings: Iterable[str] = ()) -> Experiment:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import traceback
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
@@ -11,7 +12,7 @@ import numpy as np
 
 from regkit.body import Body
 from regkit.document import yaml_text
-from regkit.errors import ConfigError, DataError
+from regkit.errors import ConfigError, DataError, PluginError, RegkitError
 from regkit.experiment.environment import environment
 from regkit.experiment.experiment import Experiment
 from regkit.files import write_arrays, write_json, write_text
@@ -96,6 +97,17 @@ class Results:
         arrays |= {name: np.array(values, dtype=np.str_) for name, values in names.items()}
         write_arrays(folder / "poses.npz", arrays | {"size": np.array(body.size)})
         write_json(folder / "measure.json", measure.to_dict())
+
+    def failed(self, method: str, sequence: str, error: Exception) -> RegkitError:
+        """The error as one that can be told; of a programming error the traceback is kept."""
+        if isinstance(error, RegkitError):
+            return error
+        file = self.sequence_folder(method, sequence) / "error.txt"
+        write_text(file, "".join(traceback.format_exception(error)))
+        return PluginError(
+            f"{type(error).__name__}: {error}; this is a fault of the program or of a plug-in, and "
+            f"{file} says where"
+        )
 
     def write_report(self, text: str) -> None:
         """Write ``report.md``."""

@@ -73,9 +73,10 @@ def run(
                 progress.begin(name, sequence.name, sequence.length)
                 try:
                     measure = task.measure(name, method, progress)
-                except RegkitError as error:
-                    outcome.failures[name][sequence.name] = str(error)
-                    progress.end(name, sequence.name, error)
+                except Exception as error:
+                    failure = results.failed(name, sequence.name, error)
+                    outcome.failures[name][sequence.name] = str(failure)
+                    progress.end(name, sequence.name, failure)
                 else:
                     outcome.measures[name][sequence.name] = measure
                     progress.end(name, sequence.name, measure)
@@ -122,8 +123,8 @@ class _Task:
 
     @cached_property
     def truth(self) -> Truth | None:
-        """The reference joints, if there are any."""
-        return self.sequence.truth()
+        """The reference joints, if there are any and they are to be compared."""
+        return self.sequence.truth() if self.experiment.dataset.compared else None
 
     @cached_property
     def start(self) -> Start:

@@ -55,6 +55,8 @@ class Dataset(Plugin, ABC):
     """Names of the sequences to use; all that there are without it."""
     frames: Annotated[int, Field(ge=1)] | None = None
     """Use only so many frames from the start of each sequence."""
+    compared: bool = True
+    """Whether poses are compared with the reference joints, where there are any."""
     joints: dict[str, str] = Field(default_factory=dict)
     """Names of the data's reference joints to the template's markers, where they differ."""
 
@@ -65,6 +67,10 @@ class Dataset(Plugin, ABC):
         Raises:
             DataError: If there is none, or one is damaged.
         """
+
+    def wanted(self, name: str) -> bool:
+        """Whether a sequence is used; what is not need not even be read."""
+        return self.sequences is None or name in self.sequences
 
     def chosen(self) -> list[Sequence]:
         """The sequences to use.

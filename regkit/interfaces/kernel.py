@@ -41,6 +41,7 @@ class Kernel(Plugin, ABC):
     """Compares primitives with data; it never sees a skeleton."""
 
     group = "regkit.kernels"
+    declared = ("accepts",)
 
     accepts: ClassVar[type[Primitives]]
     """The primitives that it can compare."""

@@ -14,6 +14,7 @@ class ShapeModel(Plugin, ABC):
     """Turns a body into primitives that its segments carry; it never sees a joint."""
 
     group = "regkit.shapes"
+    declared = ("makes",)
 
     makes: ClassVar[type[Primitives]]
     """The type of the primitives."""

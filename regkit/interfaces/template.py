@@ -35,6 +35,10 @@ class Template(Plugin, ABC):
         smallest, largest = self.description().size.range
         return tuple(float(size) for size in np.geomspace(smallest, largest, count))
 
+    def name(self) -> str:
+        """What the body is called in messages."""
+        return self.kind
+
     def body(self, size: float) -> Body:
         """The body whose size is ``size`` [m]."""
-        return self.description().body(self.kind, size)
+        return self.description().body(self.name(), size)

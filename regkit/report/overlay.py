@@ -44,8 +44,10 @@ def draw_overlay(
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    worst = int(np.argmax(track.surface_distances)) if len(frames) > 1 else 0
-    chosen = {0: "first", len(frames) - 1: "last", worst: "worst"}
+    chosen = {0: "first", len(frames) - 1: "last"}
+    if np.isfinite(track.surface_distances).all():
+        worst = int(np.argmax(track.surface_distances))
+        chosen[worst] = f"{chosen[worst]}, worst" if worst in chosen else "worst"
     figure = Figure(figsize=(2.9 * len(chosen), 7.2), layout="constrained", facecolor="white")
     FigureCanvasAgg(figure)
     figure.suptitle(title)

@@ -9,7 +9,7 @@ from regkit.metrics import Measure, mean_of
 COLUMNS = {
     "joint_error_raw_cm": "raw [cm]",
     "joint_error_adjusted_cm": "adj. [cm]",
-    "within_10cm_percent": "<10cm [%]",
+    "near_percent": "near [%]",
     "lost_frames": "lost",
     "surface_distance_mm": "surf. [mm]",
     "fps": "fps",
@@ -46,10 +46,11 @@ def report(
     parts.append(
         "*Raw* and *adj.* (adjusted) are mean distances of the body's markers to the reference "
         "joints, adjusted after each marker's constant displacement in its segment is subtracted; "
-        "*<10cm* is how many raw distances are below 10 cm. A frame is *lost* when less than half "
-        "of its joints are that near. *Surf.* is the median distance of the measured points to the "
-        "body's surface, *fps* the frames observed and registered in a second. A dash is a figure "
-        "that cannot be had."
+        "*near* is how many raw distances are below 6 % of the body's size (10 cm on a person). A "
+        "frame is *lost* when less than half of its joints are that near. *Surf.* is the median "
+        "distance of the observed points (after averaging in voxels or leaves) to the body's "
+        "surface, *fps* the frames observed and registered in a second. A dash is a figure that "
+        "cannot be had."
     )
     failed = [(m, s, why) for m, by in failures.items() for s, why in by.items()]
     if failed:

@@ -7,7 +7,7 @@ from typing import Annotated
 from pydantic import Field, model_validator
 
 from regkit.model import Model
-from regkit.skeleton.joints import FixedJoint, FreeJoint, Joint, Vector
+from regkit.skeleton.joints import FreeJoint, Joint, Vector
 
 Radius = Annotated[float, Field(gt=0.0)]
 
@@ -32,8 +32,8 @@ class SegmentDescription(Model):
     """Position of the joint in the parent's frame [m]."""
     rotation_deg: Vector = (0.0, 0.0, 0.0)
     """Rotation vector of the joint's frame in the parent's at rest [deg]; zero: parallel."""
-    joint: Joint = Field(default_factory=FixedJoint)
-    """How the segment moves relative to its parent."""
+    joint: Joint | None = None
+    """How the segment moves relative to its parent; it is fixed to it without. A root must say."""
     capsules: tuple[CapsuleDescription, ...] = ()
     """The segment's surface."""
     markers: dict[str, Vector] = Field(default_factory=dict)
@@ -74,6 +74,11 @@ def parents_first(segments: dict[str, SegmentDescription]) -> list[str]:
             )
         if segment.parent is not None and isinstance(segment.joint, FreeJoint):
             raise ValueError(f"segment '{name}' has a free joint; only the root may")
+    for name in roots:
+        if segments[name].joint is None:
+            raise ValueError(
+                f"the root '{name}' has no joint; write joint: {{type: free}}, or fixed if it rests"
+            )
     if len(roots) > 1:
         raise ValueError(
             f"several segments have no parent ({', '.join(roots)}); one root is needed"

@@ -18,6 +18,8 @@ def _from_letter(value: Any) -> Any:
     if isinstance(value, str) and value.lstrip("-") in _LETTERS:
         sign = -1.0 if value.startswith("-") else 1.0
         return tuple(sign * part for part in _LETTERS[value.lstrip("-")])
+    if isinstance(value, str):
+        raise ValueError(f"an axis is x, y, z, -x, -y, -z or three numbers; it is {value!r}")
     return value
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from regkit.arrays import Array, Indices
 from regkit.errors import ConfigError
+from regkit.model import did_you_mean
 from regkit.rigid import rigid
 from regkit.rotation import (
     conjugate,
@@ -121,6 +122,7 @@ class Skeleton:
             if name not in angles_of:
                 raise ConfigError(
                     f"a pose turns '{name}', which has no joint (there are: {', '.join(angles_of)})"
+                    + did_you_mean(name, list(angles_of))
                 )
             values = np.radians(np.atleast_1d(angles))
             where = angles_of[name]

@@ -51,7 +51,7 @@ def given_start(template: Template, description: PoseDescription) -> Start:
     """
     size = template.given_size()
     if size is None:
-        raise ConfigError("a given start needs a template of given size", place="start")
+        raise ConfigError("a given start needs the template's size too")
     body = template.body(size)
     return Start(body, body.skeleton.pose(description))
 
@@ -67,7 +67,17 @@ def found_start(template: Template, observation: Observation) -> Start:
     Args:
         template: What is seen, perhaps of unknown size.
         observation: The first frame.
+
+    Raises:
+        ConfigError: If the template has no capsules, or a root that does not move freely.
     """
+    smallest = template.body(template.candidate_sizes()[0])
+    if not smallest.skeleton.free or not len(smallest.capsules):
+        lack = "free root" if not smallest.skeleton.free else "capsules"
+        raise ConfigError(
+            f"the template '{smallest.name}' has no {lack}, without which no start can be found; "
+            "give one (start:), and the template's size"
+        )
     with one_blas_thread():
         return _found_start(template, Scan(observation.points))
 

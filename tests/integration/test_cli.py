@@ -184,7 +184,7 @@ def test_validate_tells_every_file_and_fails_if_one_is_wrong(regkit, tmp_path, l
         ("name: [\n", "FILE:2: not valid YAML"),
         ('name: "\x01"\n', "FILE: not valid YAML: unacceptable character"),
         (b"\xff\xfe\xfd", "FILE: cannot be read as text"),
-        ("segments: {a: {}}\nstances: {odd: {joints: {b: 1}}}\ntitle: x\n"
+        ("segments: {a: {joint: {type: free}}}\nstances: {odd: {joints: {b: 1}}}\ntitle: x\n"
          "size: {name: y, value: 1, range: [1, 2]}\n",
          "stances.odd of wrong: a pose turns 'b', which has no joint"),
     ],

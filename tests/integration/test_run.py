@@ -587,3 +587,84 @@ def test_resolved_configuration_can_be_run_again(regkit, files, tmp_path):
     again = tmp_path / "again"
     assert regkit("run", files.out / "config.yaml", "--out", again).code == 0
     assert (again / "config.yaml").read_text() == (files.out / "config.yaml").read_text()
+
+
+def test_fault_of_a_plugin_stops_only_its_own_method(regkit, files, tmp_path):
+    path = tmp_path / "faulty.py"
+    path.write_text(FAULTY.replace("pass  # Here it fails.", "raise KeyError('left_wing')"))
+    add_method(files.experiment, "faulty", "faulty")
+    ended = regkit("run", files.experiment, "--out", files.out, "--plugin", path, *QUICK)
+    assert ended.code == 1
+    assert "KeyError: 'left_wing'; this is a fault of the program or of a plug-in" in ended.err
+    assert "left_wing" in (files.out / "faulty" / "first" / "error.txt").read_text()
+    assert files.metrics()["gsog"]["sequences"]["first"]["frames"] == 1
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ('    kind: Literal["faulty"] = "faulty"\n', "", "must declare its name"),
+        ("    makes: ClassVar[type[Primitives]] = Gaussians\n", "", "class variable 'makes'"),
+    ],
+)
+def test_plugin_that_declares_too_little_is_refused(regkit, files, tmp_path, old, new, expected):
+    path = tmp_path / "faulty.py"
+    path.write_text(FAULTY.replace(old, new))
+    ended = regkit("run", files.experiment, "--out", files.out, "--plugin", path)
+    assert ended.code == 1
+    assert ended.err.startswith(f"error: {path}: ")
+    assert expected in ended.err
+
+
+FAULTY = """\
+from typing import ClassVar, Literal
+
+from regkit.interfaces import ShapeModel
+from regkit.plugin import register
+from regkit.primitives import Gaussians, Primitives
+
+
+@register
+class Faulty(ShapeModel):
+    kind: Literal["faulty"] = "faulty"
+    makes: ClassVar[type[Primitives]] = Gaussians
+
+    def attach(self, body):
+        pass  # Here it fails.
+"""
+
+
+def test_folder_that_cannot_be_written_is_told(regkit, files):
+    ended = regkit("run", files.experiment, "--out", "/proc/nowhere")
+    assert ended.code == 1
+    assert ended.err.startswith("error: /proc/nowhere")
+    assert "cannot be written" in ended.err
+
+
+def test_table_names_the_units(regkit, files):
+    ended = regkit("run", files.experiment, "--out", files.out, *QUICK)
+    for unit in ("raw [cm]", "near [%]", "surf. [mm]"):
+        assert unit in ended.out
+
+
+def test_start_that_does_not_fit_the_template_is_told_before_the_run(regkit, files):
+    text = files.experiment.read_text().replace(
+        "rotation_deg: [180, 0, 0]}", "rotation_deg: [180, 0, 0]}, joints: {left_shinn: 3}"
+    )
+    files.experiment.write_text(text)
+    ended = regkit("run", files.experiment, "--out", files.out)
+    assert ended.err.startswith(f"error: {files.experiment}:5: start: a pose turns 'left_shinn'")
+    assert "did you mean 'left_shin'?" in ended.err
+    assert not files.out.exists()
+
+
+def test_damaged_sequence_that_is_not_used_is_not_read(regkit, files):
+    (files.data / "second" / "sequence.yaml").write_text("fsp: 3\n")
+    assert regkit("run", files.experiment, "--out", files.out, *QUICK).code == 0
+
+
+def test_sequences_without_reference_are_not_compared(regkit, files):
+    ended = regkit("run", files.experiment, "--out", files.out, *QUICK, "--set",
+                   "dataset.compared=false")  # fmt: skip
+    assert ended.code == 0
+    assert files.metrics()["gsog"]["mean"]["joint_error_raw_cm"] is None

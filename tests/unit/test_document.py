@@ -60,7 +60,7 @@ def test_valid_experiment_is_read(file):
         ("height: 1.7", "height: .nan", "FILE:5: template.height: input should be a finite number; "
          "it is nan"),
         ("kind: correlation", "covariance: exact", "FILE:10: methods.gsog.kernel: expected a name "
-         "or a mapping with a 'kind' (installed: correlation)"),
+         "or a mapping with a 'kind' (installed: correlation, likelihood)"),
         ("    shape: gsog\n", "", "FILE:7: methods.gsog.shape: field required"),
         ("name: test", "name: a/b", "FILE:1: name: 'a/b' names a folder: use letters, digits, '-', "
          "'_' and '.', and begin with a letter or digit"),
@@ -177,3 +177,9 @@ def test_unknown_joint_of_a_stance_is_refused(file, linkage_text):
         ConfigError, match=r"stances.odd of thing: a pose turns 'elbow', which has no"
     ):
         Document.read(file).validated(BodyDescription).body("thing", 1.0)
+
+
+def test_setting_that_replaces_a_mapping_is_blamed_for_what_is_in_it(file):
+    setting = "methods.gsog.solver={kind: lbfgs, memory: -1}"
+    message = complaint(file, EXPERIMENT, Experiment, (setting,))
+    assert message.startswith(f"--set {setting}: methods.gsog.solver.memory: ")

@@ -27,6 +27,7 @@ def track_of(body: Body, poses: list[Pose]) -> Track:
         surface_distances=np.linspace(0.001, 0.003, len(poses)),
         energies=np.zeros(len(poses)),
         evaluations=np.arange(1.0, len(poses) + 1.0),
+        converged=np.ones(len(poses)),
         seconds=np.full(len(poses), 0.05),
     )
 
@@ -192,7 +193,8 @@ def test_joints_of_other_names_are_mapped(linkage, track):
     ("joints", "expected"),
     [
         ({}, "dataset.joints: no joint of the data (toe, nose) is a marker of 'linkage' (origin, "
-         "tip, foot); map them by name"),
+         "tip, foot); map them by name (dataset.joints), or leave them out "
+         "(dataset.compared=false)"),
         ({"toes": "foot"}, "dataset.joints: the data have no joint 'toes' (there are: toe, nose); "
          "did you mean 'toe'?"),
         ({"toe": "foots"}, "dataset.joints.toe: 'linkage' has no marker 'foots' (there are: "

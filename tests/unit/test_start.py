@@ -129,7 +129,7 @@ def test_given_start_is_taken_as_it_is(lamp):
 def test_given_start_without_a_size_is_refused(lamp):
     with pytest.raises(ConfigError) as caught:
         given_start(FileTemplate(path=lamp), PoseDescription())
-    assert str(caught.value) == "start: a given start needs a template of given size"
+    assert str(caught.value) == "a given start needs the template's size too"
 
 
 def test_given_start_of_an_unknown_joint_is_refused(lamp):
@@ -153,3 +153,10 @@ def test_start_of_the_samples_is_near_the_truth(name, worst_cm):
     errors = np.linalg.norm(truth.positions[0, columns] - markers(found)[rows], axis=1)
     assert len(errors) >= 20
     assert 100.0 * errors.mean() < worst_cm
+
+
+def test_template_without_capsules_or_free_root_has_no_start(lamp, tmp_path):
+    fixed = tmp_path / "fixed.yaml"
+    fixed.write_text(lamp.read_text().replace("type: free", "type: fixed"))
+    with pytest.raises(ConfigError, match="has no free root"):
+        found_start(FileTemplate(path=fixed), Observation(np.eye(3), np.ones(3), np.ones(3)))

@@ -14,7 +14,7 @@ from zipfile import BadZipFile
 import numpy as np
 
 from regkit.arrays import Array, checked_points
-from regkit.errors import DataError
+from regkit.errors import DataError, RegkitError
 from regkit.interfaces import Dataset, Sequence
 from regkit.model import InputPath
 from regkit.observation import Frame, Truth
@@ -44,7 +44,14 @@ class CloudFolders(Dataset):
 
     def found(self) -> list[Sequence]:
         """A sequence for each folder that has ``clouds/``."""
-        return [self._sequence(folder) for folder in sequence_folders(self.root, "clouds")]
+        found: list[Sequence] = []
+        for folder in sequence_folders(self.root, "clouds"):
+            try:
+                found.append(self._sequence(folder))
+            except RegkitError:
+                if self.wanted(folder.name):
+                    raise
+        return found
 
     def _sequence(self, folder: Path) -> CloudSequence:
         description = SequenceDescription.read(folder)

@@ -91,6 +91,8 @@ def read_truth(path: Path, length: int) -> Truth | None:
     """
     if not path.exists():
         return None
+    if not path.is_file():
+        raise DataError("this must be a file", place=str(path))
     rows: dict[tuple[int, str], list[float]] = {}
     # A spreadsheet begins UTF-8 with a mark; bytes that are no text make a row that is refused.
     with path.open(newline="", encoding="utf-8-sig", errors="replace") as stream:

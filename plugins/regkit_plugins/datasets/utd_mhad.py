@@ -50,11 +50,13 @@ class UtdMhad(Dataset):
                 "no sequence here: Depth/ must hold files like a1_s1_t1_depth.mat",
                 place=str(self.root),
             )
-        return [self._sequence(path) for path in files]
+        names = {path: path.stem.removesuffix("_depth") for path in files}
+        wanted = [path for path, name in names.items() if self.wanted(name)]
+        # If none is, all are told, so that a misspelt name can be set right.
+        return [self._sequence(path, names[path]) for path in wanted or files]
 
-    def _sequence(self, path: Path) -> UtdSequence:
+    def _sequence(self, path: Path, name: str) -> UtdSequence:
         length = _read(path, "d_depth").shape[2]
-        name = path.stem.removesuffix("_depth")
         return UtdSequence(
             name=name,
             fps=30.0,

@@ -76,7 +76,7 @@ def segment(value: SegmentDescription, rename: Callable[[str], str]) -> SegmentD
     return SegmentDescription(
         parent=None if value.parent is None else rename(value.parent),
         offset=point(value.offset),
-        joint=joint(value.joint),
+        joint=None if value.joint is None else joint(value.joint),
         capsules=tuple(capsule(one) for one in value.capsules),
         markers={rename(name): point(marker) for name, marker in value.markers.items()},
     )

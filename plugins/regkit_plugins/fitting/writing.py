@@ -84,7 +84,7 @@ def _segment(segment: SegmentDescription, comment: str) -> list[str]:
     lines = _comment(comment, "    ")
     if segment.parent is not None:
         lines += [f"    parent: {segment.parent}", f"    offset: {_row(segment.offset)}"]
-    lines.append(f"    joint: {_joint(segment.joint)}")
+    lines.append(f"    joint: {_joint(segment.joint or FixedJoint())}")
     lines.append("    capsules:")
     lines += [f"      - {_capsule(one)}" for one in segment.capsules]
     if segment.markers:

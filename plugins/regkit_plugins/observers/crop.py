@@ -24,7 +24,7 @@ class Crop(Model):
     """Drop what is farther away than this [m]."""
     behind_nearest: Distance | None = None
     """Keep only what is at most so far behind the nearest points [m]: a hand before its owner."""
-    connected: Distance | None = None
+    connected: Annotated[float, Field(ge=1e-3)] | None = None
     """Keep only the piece nearest to the camera, pieces being at least so far apart [m]."""
     min_points: Annotated[int, Field(ge=1)] = 20
     """Fewer points than this are an error: no pose can be told from them."""

@@ -22,7 +22,7 @@ class PointsObserver(Observer):
 
     sigma: Length = 0.02
     """Standard deviation of each Gaussian [m]."""
-    voxel: Length | None = None
+    voxel: Annotated[float, Field(ge=1e-4)] | None = None
     """Side of the cubes whose points are averaged to one [m]; every point counts without it."""
     crop: Crop = Crop()
     """What part of the frame is looked at."""

@@ -25,7 +25,7 @@ class LBFGS(Solver):
     max_iterations: Annotated[int, Field(ge=1)] = 100
     """Steps at most."""
     value_tolerance: Tolerance = 1e-6
-    """Stop when a step lowers the value by less than this part of the value at the start."""
+    """Stop when a step lowers the value by less than this part of it, or of that at the start."""
     gradient_tolerance: Tolerance = 1e-4
     """Stop when no part of the projected gradient exceeds this part of the value at the start."""
     memory: Annotated[int, Field(ge=1)] = 10

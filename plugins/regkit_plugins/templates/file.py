@@ -45,6 +45,10 @@ class FileTemplate(Template):
         """
         return description_in(self.path)
 
+    def name(self) -> str:
+        """The file's name."""
+        return self.path.stem
+
     def given_size(self) -> float | None:
         """The size [m], if it is given."""
         return self.size
