@@ -68,7 +68,7 @@ def run(
 def _table(measures: dict[str, dict[str, Measure]]) -> Table:
     from regkit.report.tables import COLUMNS, rows
 
-    table = Table("method", "sequences")
+    table = Table("method", "seq.")
     for title in COLUMNS.values():
         table.add_column(escape(title), justify="right")
     for row in rows(measures):

@@ -14,7 +14,7 @@ from zipfile import BadZipFile
 import numpy as np
 
 from regkit.arrays import Array, checked_points
-from regkit.errors import DataError, RegkitError
+from regkit.errors import DataError
 from regkit.interfaces import Dataset, Sequence
 from regkit.model import InputPath
 from regkit.observation import Frame, Truth
@@ -23,7 +23,7 @@ from regkit_plugins.datasets.folders import (
     SequenceDescription,
     numbered_files,
     read_truth,
-    sequence_folders,
+    sequences_in,
 )
 
 SUFFIXES = (".ply", ".pcd", ".xyz", ".npz")
@@ -44,14 +44,7 @@ class CloudFolders(Dataset):
 
     def found(self) -> list[Sequence]:
         """A sequence for each folder that has ``clouds/``."""
-        found: list[Sequence] = []
-        for folder in sequence_folders(self.root, "clouds"):
-            try:
-                found.append(self._sequence(folder))
-            except RegkitError:
-                if self.wanted(folder.name):
-                    raise
-        return found
+        return sequences_in(self.root, "clouds", self._sequence, self.wanted)
 
     def _sequence(self, folder: Path) -> CloudSequence:
         description = SequenceDescription.read(folder)

@@ -11,7 +11,7 @@ import numpy as np
 
 from regkit.arrays import Array
 from regkit.camera import Camera
-from regkit.errors import DataError, RegkitError
+from regkit.errors import DataError
 from regkit.interfaces import Dataset, Sequence
 from regkit.model import InputPath
 from regkit.observation import Frame, Truth
@@ -19,7 +19,7 @@ from regkit_plugins.datasets.folders import (
     SequenceDescription,
     numbered_files,
     read_truth,
-    sequence_folders,
+    sequences_in,
 )
 
 
@@ -33,14 +33,7 @@ class DepthFolders(Dataset):
 
     def found(self) -> list[Sequence]:
         """A sequence for each folder that has ``depth/``."""
-        found: list[Sequence] = []
-        for folder in sequence_folders(self.root, "depth"):
-            try:
-                found.append(self._sequence(folder))
-            except RegkitError:
-                if self.wanted(folder.name):
-                    raise
-        return found
+        return sequences_in(self.root, "depth", self._sequence, self.wanted)
 
     def _sequence(self, folder: Path) -> DepthSequence:
         description = SequenceDescription.read(folder)

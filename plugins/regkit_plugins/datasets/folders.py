@@ -10,6 +10,7 @@ truth.csv          optional: frame,joint,x,y,z [m] in the camera's frame
 from __future__ import annotations
 
 import csv
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated
 
@@ -17,7 +18,8 @@ import numpy as np
 from pydantic import Field
 
 from regkit.document import Document
-from regkit.errors import DataError
+from regkit.errors import DataError, RegkitError
+from regkit.interfaces import Sequence
 from regkit.model import Model
 from regkit.observation import Truth
 
@@ -62,6 +64,27 @@ def sequence_folders(root: Path, content: str) -> list[Path]:
             place=str(root),
         )
     return folders
+
+
+def sequences_in(
+    root: Path,
+    content: str,
+    read: Callable[[Path], Sequence],
+    wanted: Callable[[str], bool],
+) -> list[Sequence]:
+    """What ``read`` makes of each sequence's folder; a damaged one counts only if it is wanted.
+
+    Raises:
+        DataError: If there is none, or one that is wanted is damaged.
+    """
+    found = []
+    for folder in sequence_folders(root, content):
+        try:
+            found.append(read(folder))
+        except RegkitError:
+            if wanted(folder.name):
+                raise
+    return found
 
 
 def numbered_files(folder: Path, suffixes: tuple[str, ...]) -> list[Path]:
