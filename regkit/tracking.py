@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from regkit.arrays import Array
-from regkit.errors import RegkitError
+from regkit.body import Body
+from regkit.errors import DataError, RegkitError
 from regkit.interfaces import Observer, Registered, Registrar, Sequence, Tracker
 from regkit.observation import Observation
 from regkit.skeleton import Pose
@@ -44,10 +45,29 @@ def tracked(
         try:
             observation = observer.observe(frame)
             registered = tracker.step(registrar, observation, past)
+            _check_near(registrar.body, registered.pose, observation)
         except RegkitError as error:
             raise error.at(frame.place or f"{sequence.name}: frame {index}") from None
         past.append(registered.pose)
         yield TrackedFrame(observation, registered, time.perf_counter() - begun)
+
+
+def _check_near(body: Body, pose: Pose, observation: Observation) -> None:
+    """Refuse a body far from the data: what follows could only look like a track.
+
+    Raises:
+        DataError: If it is farther from all data than it is large.
+    """
+    if not len(body.capsules):
+        return
+    some = observation.points[:: max(1, len(observation.points) // 50)]
+    placed = body.capsules.place(body.place(pose).transforms)
+    distance = float(placed.surface_distance(some).min())
+    if distance > body.size:
+        raise DataError(
+            f"the registered body is {distance:.3g} m away from the data; the start or the "
+            "template's size is wrong, or the body was lost"
+        )
 
 
 @dataclass(frozen=True)

@@ -668,3 +668,12 @@ def test_sequences_without_reference_are_not_compared(regkit, files):
                    "dataset.compared=false")  # fmt: skip
     assert ended.code == 0
     assert files.metrics()["gsog"]["mean"]["joint_error_raw_cm"] is None
+
+
+def test_start_far_from_the_data_is_an_error_and_no_result(regkit, files):
+    text = files.experiment.read_text().replace("[-0.05, -0.05, 3.25]", "[0, 0, 900]")
+    files.experiment.write_text(text)
+    ended = regkit("run", files.experiment, "--out", files.out, *QUICK)
+    assert ended.code == 1
+    assert "m away from the data; the start or the template's size is wrong" in ended.err
+    assert files.metrics()["gsog"]["sequences"]["first"]["joint_error_raw_cm"] is None
