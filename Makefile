@@ -38,7 +38,7 @@ schemas: $(ready) ## Write the JSON Schemas again
 
 lock: $(ready) ## Resolve the dependencies again
 	@$(bin)/uv pip compile pyproject.toml --extra dev --universal --python-version 3.11 \
-		--generate-hashes --no-emit-index-url --no-header --quiet --upgrade \
+		--generate-hashes --no-emit-index-url --no-header --quiet --upgrade --fork-strategy fewest \
 		--output-file .ci/requirements.lock
 
 benchmarks: $(ready) ## Print how fast it is
