@@ -4,6 +4,7 @@ import sys
 from typing import NamedTuple
 
 import pytest
+from small_experiment import Files, small
 
 from regkit import plugin
 from regkit.cli import main
@@ -35,3 +36,8 @@ def regkit(monkeypatch, capsys):
         return Ended(int(caught.value.code or 0), told.out, told.err)
 
     return run
+
+
+@pytest.fixture
+def files(tmp_path) -> Files:
+    return small(tmp_path)

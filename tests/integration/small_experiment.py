@@ -1,0 +1,108 @@
+"""A small experiment on two sequences of two frames, and what tests do to it."""
+
+import json
+import shutil
+from pathlib import Path
+from typing import Literal, NamedTuple
+
+from regkit.experiment.runner import Progress
+from regkit.interfaces import Registered, Tracker
+from regkit.plugin import register
+
+EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
+FRAMES = 2
+EXPERIMENT = """\
+name: small
+dataset: {{kind: depth, root: {root}}}
+template: {{kind: human, height: 1.7}}
+observer: {{kind: points, voxel: 0.05, sigma: 0.03}}
+start: {{root: {{position: [-0.05, -0.05, 3.25], rotation_deg: [180, 0, 0]}}}}
+methods:
+  gsog: {{kind: direct, shape: gsog, kernel: correlation, \
+solver: {{kind: lbfgs, max_iterations: 4}}}}
+"""
+ANOTHER = """\
+  {name}: {{kind: direct, shape: {shape}, kernel: correlation, \
+solver: {{kind: lbfgs, max_iterations: 4}}}}
+"""
+QUICK = ("--set", "dataset.sequences=[first]", "--set", "dataset.frames=1")
+"""For runs of which it only matters that they take place."""
+
+
+class Files(NamedTuple):
+    """A small experiment on two sequences, and where its results go."""
+
+    experiment: Path
+    data: Path
+    out: Path
+
+    def metrics(self) -> dict:
+        return json.loads((self.out / "metrics.json").read_text())["methods"]
+
+    def written(self) -> dict[str, int]:
+        """When each file of the sequences was written."""
+        return {
+            str(path.relative_to(self.out)): path.stat().st_mtime_ns
+            for path in sorted(self.out.glob("*/*/*"))
+        }
+
+
+def copy_sequence(folder: Path) -> None:
+    source = EXAMPLES / "data" / "human_walk"
+    (folder / "depth").mkdir(parents=True)
+    for frame in range(FRAMES):
+        name = f"depth/{frame:06d}.png"
+        shutil.copy(source / name, folder / name)
+    for name in ("camera.json", "truth.csv"):
+        shutil.copy(source / name, folder / name)
+    (folder / "sequence.yaml").write_text(f"name: {folder.name}\n")
+
+
+def small(folder: Path) -> Files:
+    data = folder / "data"
+    for name in ("first", "second"):
+        copy_sequence(data / name)
+    experiment = folder / "small.yaml"
+    experiment.write_text(EXPERIMENT.format(root="data"))
+    return Files(experiment, data, folder / "out")
+
+
+def add_method(experiment: Path, name: str, shape: str) -> None:
+    with experiment.open("a") as stream:
+        stream.write(ANOTHER.format(name=name, shape=shape))
+
+
+def counting() -> list[str]:
+    """Register the tracker ``counting``, and return the list that grows with each of its steps."""
+    steps: list[str] = []
+
+    @register
+    class Counting(Tracker):
+        """Holds the last pose and counts."""
+
+        kind: Literal["counting"] = "counting"
+
+        def step(self, registrar, observation, past) -> Registered:
+            steps.append(type(registrar.method.shape).__name__)
+            return registrar.register(observation, past[-1])
+
+    return steps
+
+
+def damage(image: Path) -> bytes:
+    content = image.read_bytes()
+    image.write_bytes(content[: len(content) // 2])
+    return content
+
+
+class Silence(Progress):
+    """Wants to know nothing."""
+
+    def begin(self, method, sequence, frames) -> None:
+        pass
+
+    def advance(self) -> None:
+        pass
+
+    def end(self, method, sequence, outcome) -> None:
+        pass

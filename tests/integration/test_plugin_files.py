@@ -1,0 +1,118 @@
+"""Plug-ins of a user's own, in a file."""
+
+import pytest
+from small_experiment import (
+    QUICK,
+    add_method,
+)
+
+SHAPE = '''
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from regkit.interfaces import ShapeModel
+from regkit.plugin import register
+from regkit.primitives import Gaussians, Primitives
+
+
+@register
+class Beads(ShapeModel):
+    """One Gaussian in the middle of each capsule."""
+
+    kind: Literal["beads"] = "beads"
+    makes: ClassVar[type[Primitives]] = Gaussians
+
+    factor: float = 0.5
+    """Standard deviation over the capsule's radius."""
+
+    def attach(self, body):
+        capsules = body.capsules
+        count = len(capsules)
+        scales = self.factor * capsules.radii.mean(axis=1)
+        return Gaussians(
+            capsules.segments,
+            capsules.ends.mean(axis=1),
+            np.tile(np.eye(3), (count, 1, 1)),
+            np.repeat(scales[:, None], 3, axis=1),
+            np.ones(count),
+        )
+'''
+FAULTY = """\
+from typing import ClassVar, Literal
+
+from regkit.interfaces import ShapeModel
+from regkit.plugin import register
+from regkit.primitives import Gaussians, Primitives
+
+
+@register
+class Faulty(ShapeModel):
+    kind: Literal["faulty"] = "faulty"
+    makes: ClassVar[type[Primitives]] = Gaussians
+
+    def attach(self, body):
+        pass  # Here it fails.
+"""
+
+
+def test_shape_of_a_plugin_file_is_run(regkit, files, tmp_path):
+    file = tmp_path / "beads.py"
+    file.write_text(SHAPE)
+    add_method(files.experiment, "beads", "{kind: beads, factor: 0.7}")
+    refused = regkit("run", files.experiment, "--out", files.out)
+    assert refused.code == 1
+    assert "no plug-in 'beads' in regkit.shapes (installed: gsog, sog)" in refused.err
+    ended = regkit(
+        "run", files.experiment, "--out", files.out, "--plugin", file, "--only", "beads", *QUICK
+    )
+    assert ended.code == 0
+    assert files.metrics()["beads"]["mean"]["joint_error_raw_cm"] > 0.0
+    assert "factor: 0.7" in (files.out / "config.yaml").read_text()
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        (None, "FILE: there is no such Python file"),
+        ("x = 1\n", "FILE: the file registers no plug-in; decorate the class with @register"),
+        ("import no_such_module\n", "FILE: ModuleNotFoundError: No module named 'no_such_module'"),
+        ("def broken(:\n", "FILE: SyntaxError: invalid syntax"),
+        ("raise RuntimeError('by design')\n", "FILE: RuntimeError: by design"),
+    ],
+)
+def test_plugin_file_that_is_broken_is_told(regkit, files, tmp_path, text, expected):
+    file = tmp_path / "mine.py"
+    if text is not None:
+        file.write_text(text)
+    ended = regkit("run", files.experiment, "--out", files.out, "--plugin", file)
+    assert ended.code == 1
+    assert ended.err.replace(str(file), "FILE").startswith(f"error: {expected}")
+    assert not files.out.exists()
+
+
+def test_fault_of_a_plugin_stops_only_its_own_method(regkit, files, tmp_path):
+    path = tmp_path / "faulty.py"
+    path.write_text(FAULTY.replace("pass  # Here it fails.", "raise KeyError('left_wing')"))
+    add_method(files.experiment, "faulty", "faulty")
+    ended = regkit("run", files.experiment, "--out", files.out, "--plugin", path, *QUICK)
+    assert ended.code == 1
+    assert "KeyError: 'left_wing'; this is a fault of the program or of a plug-in" in ended.err
+    assert "left_wing" in (files.out / "faulty" / "first" / "error.txt").read_text()
+    assert files.metrics()["gsog"]["sequences"]["first"]["frames"] == 1
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ('    kind: Literal["faulty"] = "faulty"\n', "", "must declare its name"),
+        ("    makes: ClassVar[type[Primitives]] = Gaussians\n", "", "class variable 'makes'"),
+    ],
+)
+def test_plugin_that_declares_too_little_is_refused(regkit, files, tmp_path, old, new, expected):
+    path = tmp_path / "faulty.py"
+    path.write_text(FAULTY.replace(old, new))
+    ended = regkit("run", files.experiment, "--out", files.out, "--plugin", path)
+    assert ended.code == 1
+    assert ended.err.startswith(f"error: {path}: ")
+    assert expected in ended.err

@@ -1,0 +1,121 @@
+"""A run that is begun again does what is missing, and nothing is lost."""
+
+import json
+from typing import Literal
+
+import pytest
+from small_experiment import (
+    FRAMES,
+    QUICK,
+    add_method,
+    counting,
+)
+
+from regkit.interfaces import Registered, Tracker
+from regkit.plugin import register
+
+
+def test_finished_run_does_nothing_again(regkit, files):
+    steps = counting()
+    arguments = ("run", files.experiment, "--out", files.out, "--set", "tracker=counting")
+    assert regkit(*arguments).code == 0
+    assert len(steps) == 2 * FRAMES
+    before, metrics = files.written(), files.metrics()
+    assert regkit(*arguments).code == 0
+    assert len(steps) == 2 * FRAMES
+    assert files.written() == before
+    assert files.metrics() == metrics
+
+
+def test_resumed_run_does_only_what_is_missing(regkit, files):
+    steps = counting()
+    arguments = ("run", files.experiment, "--out", files.out, "--set", "tracker=counting")
+    regkit(*arguments)
+    before, metrics = files.written(), files.metrics()
+    (files.out / "gsog" / "second" / "measure.json").unlink()
+    steps.clear()
+    assert regkit(*arguments).code == 0
+    assert steps == FRAMES * ["GeneralizedSumOfGaussians"]
+    after = files.written()
+    changed = {name for name, when in after.items() if before[name] != when}
+    assert changed == {
+        "gsog/second/measure.json",
+        "gsog/second/poses.npz",
+        "gsog/second/overlay.png",
+    }
+    for method, figures in files.metrics().items():
+        for name in ("joint_error_raw_cm", "evaluations_per_frame"):
+            assert figures["mean"][name] == metrics[method]["mean"][name]
+
+
+def test_interrupted_run_is_completed_later(regkit, files):
+    """What is finished when the user interrupts is kept, and the rest is done the next time."""
+    steps = counting()
+
+    @register
+    class Impatient(Tracker):
+        """Is interrupted in the second sequence, once."""
+
+        kind: Literal["impatient"] = "impatient"
+
+        def step(self, registrar, observation, past) -> Registered:
+            steps.append("")
+            if len(steps) == FRAMES + 2:
+                raise KeyboardInterrupt
+            return registrar.register(observation, past[-1])
+
+    arguments = ("run", files.experiment, "--out", files.out, "--set", "tracker=impatient")
+    ended = regkit(*arguments)
+    assert ended.code == 130
+    assert ended.err == (f"interrupted; what was finished is kept: repeat with --out {files.out}\n")
+    assert {name.rsplit("/", 1)[0] for name in files.written()} == {"gsog/first"}
+    begun = len(steps)
+    assert regkit(*arguments).code == 0
+    assert len(steps) - begun == FRAMES
+    assert len(files.written()) == 6
+
+
+def test_damaged_measure_is_told_and_the_rest_is_kept(regkit, files):
+    regkit("run", files.experiment, "--out", files.out)
+    damaged = files.out / "gsog" / "first" / "measure.json"
+    damaged.write_text("{")
+    ended = regkit("run", files.experiment, "--out", files.out)
+    assert ended.code == 1
+    assert f"gsog on first failed: {damaged}: damaged" in ended.err
+    assert "delete the file to have the sequence done again" in ended.err
+    second = json.loads((files.out / "gsog" / "second" / "measure.json").read_text())
+    assert files.metrics()["gsog"]["mean"] == pytest.approx(second)
+
+
+def test_folder_of_another_configuration_is_refused(regkit, files):
+    regkit("run", files.experiment, "--out", files.out, *QUICK)
+    before = files.written()
+    ended = regkit(
+        "run", files.experiment, "--out", files.out, "--set", "methods.gsog.solver.memory=3"
+    )
+    assert ended.code == 1
+    assert ended.err.startswith(
+        f"error: --out {files.out}: the folder holds the results of another configuration"
+    )
+    assert files.written() == before
+
+
+def test_folder_with_other_files_is_refused_and_left_alone(regkit, files):
+    files.out.mkdir()
+    (files.out / "thesis.tex").write_text("precious")
+    ended = regkit("run", files.experiment, "--out", files.out)
+    assert ended.code == 1
+    assert ended.err == (
+        f"error: --out {files.out}: the folder holds other files; choose a new or an empty one\n"
+    )
+    assert [path.name for path in files.out.iterdir()] == ["thesis.tex"]
+
+
+def test_only_keeps_what_other_methods_have_finished(regkit, files):
+    add_method(files.experiment, "sog", "sog")
+    assert regkit("run", files.experiment, "--out", files.out, *QUICK).code == 0
+    before = files.metrics()
+    (files.out / "sog" / "first" / "measure.json").unlink()
+    assert regkit("run", files.experiment, "--out", files.out, "--only", "sog", *QUICK).code == 0
+    assert files.metrics()["gsog"] == before["gsog"]
+    assert set(files.metrics()["sog"]["sequences"]) == {"first"}
