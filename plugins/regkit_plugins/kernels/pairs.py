@@ -51,7 +51,7 @@ class Pairs:
         turned = self._relative.transpose(0, 2, 1)
         quadric = (turned @ (precisions @ self._relative)).reshape(-1, 16)
         coefficients = self._coefficients
-        np.multiply(quadric.take(_ENTRIES, axis=1), _FACTORS, out=coefficients[:, :10])
+        coefficients[:, :10] = quadric @ _COEFFICIENTS
         coefficients[:, 9] += log_scales + self._log_weight
         np.matmul(coefficients, self._features, out=self._kernel)
         np.maximum(self._kernel, self._floor, out=self._kernel)
@@ -117,12 +117,6 @@ _FLOOR = -600.0
 """Exponents below this are raised to it: such a density is nothing (1e-261), but numbers near
 underflow take the processor up to a hundred times as long."""
 
-_ENTRIES = np.array([0, 5, 10, 1, 2, 6, 3, 7, 11, 15])
-"""Where a flattened symmetric 4x4 matrix has its ten entries, in the order of the features."""
-
-_FACTORS = np.array([-0.5, -0.5, -0.5, -1.0, -1.0, -1.0, -1.0, -1.0, -1.0, -0.5])
-"""Factors of those entries in the exponent -1/2 h^T Q h."""
-
 _MATRIX = np.array([0, 3, 4, 6, 3, 1, 5, 7, 4, 5, 2, 8, 6, 7, 8, 9])
 """Where the ten moments stand in the flattened matrix sum w h h^T."""
 
@@ -131,3 +125,7 @@ _UNIT_SKEWS = skew(np.eye(3))
 
 _AXIAL = -_UNIT_SKEWS.reshape(3, 9).T
 """What makes of a flattened matrix its axial vector, (9, 3)."""
+
+_COEFFICIENTS = np.zeros((16, 10))
+_COEFFICIENTS[np.arange(16), _MATRIX] = -0.5
+"""From a flattened matrix Q (16,) to the coefficients of the ten features in -1/2 h^T Q h."""
