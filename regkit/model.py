@@ -41,6 +41,13 @@ class Model(BaseModel):
         return value
 
 
+def misplaced(model: type[Model], message: str, *location: str) -> ValidationError:
+    """An error of a whole model, told at the field in it that is to be mended."""
+    problem = PydanticCustomError("value_error", "{message}", {"message": message})
+    details = InitErrorDetails(type=problem, loc=location, input=None)
+    return ValidationError.from_exception_data(model.__name__, [details])
+
+
 def did_you_mean(name: str, known: list[str]) -> str:
     """A hint that ends a message: the nearest known name, or nothing."""
     close = difflib.get_close_matches(name, known, n=1)

@@ -111,6 +111,20 @@ def vector_to_matrix(vector: Array) -> Array:
     return to_matrix(from_vector(vector))
 
 
+def between(start: Array, goal: Array) -> Array:
+    """The smallest rotation matrix (3, 3) that turns the direction ``start`` (3,) into ``goal``.
+
+    Between opposite directions every axis at right angles to them will do.
+    """
+    a, b = start / np.linalg.norm(start), goal / np.linalg.norm(goal)
+    axis = np.cross(a, b)
+    sine = float(np.linalg.norm(axis))
+    if sine < 1e-9:
+        axis = np.cross(a, np.eye(3)[np.argmin(np.abs(a))])
+    angle = np.arctan2(sine, float(a @ b))
+    return vector_to_matrix(angle * axis / np.linalg.norm(axis))
+
+
 def right_jacobian(vector: Array) -> Array:
     """J with exp(v + dv) = exp(v) exp(J dv) to first order: (..., 3) -> (..., 3, 3).
 

@@ -11,7 +11,7 @@ from regkit.arrays import read_only
 from regkit.body.body import Body, Markers, Stance
 from regkit.capsules import Capsules
 from regkit.errors import ConfigError
-from regkit.model import Model
+from regkit.model import Model, did_you_mean, misplaced
 from regkit.primitives import Gaussians
 from regkit.rotation import vector_to_matrix
 from regkit.skeleton import PoseDescription, SkeletonDescription
@@ -72,7 +72,14 @@ class BodyDescription(SkeletonDescription):
         for kind, by_segment in self.gaussians.items():
             for name in by_segment:
                 if name not in self.segments:
-                    raise ValueError(f"gaussians.{kind} has '{name}', which is not a segment")
+                    raise misplaced(
+                        type(self),
+                        f"'{name}' is not a segment (there are: {', '.join(self.segments)})"
+                        + did_you_mean(name, list(self.segments)),
+                        "gaussians",
+                        kind,
+                        name,
+                    )
         return self
 
     def body(self, name: str, size: float) -> Body:

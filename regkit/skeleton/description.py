@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from pydantic import Field, model_validator
+from pydantic import Field, ValidationError, model_validator
 
-from regkit.model import Model
+from regkit.model import Model, did_you_mean, misplaced
 from regkit.skeleton.joints import FreeJoint, Joint, Vector
 
 Radius = Annotated[float, Field(gt=0.0)]
@@ -53,7 +53,12 @@ class SkeletonDescription(Model):
         for name, segment in self.segments.items():
             for marker in segment.markers:
                 if marker in owners:
-                    raise ValueError(f"marker '{marker}' is on '{owners[marker]}' and on '{name}'")
+                    raise _wrong(
+                        f"marker '{marker}' is on '{owners[marker]}' and on '{name}'",
+                        name,
+                        "markers",
+                        marker,
+                    )
                 owners[marker] = name
         return self
 
@@ -62,34 +67,45 @@ def parents_first(segments: dict[str, SegmentDescription]) -> list[str]:
     """The names ordered so that each parent comes before its children.
 
     Raises:
-        ValueError: If there is not exactly one root, a parent is unknown, the tree has a cycle, or
-            a joint other than the root's is free. (pydantic puts the place before it.)
+        ValidationError: If there is not exactly one root, a parent is unknown, the tree has a
+            cycle, the root has no joint, or another segment's joint is free.
     """
     roots = [name for name, segment in segments.items() if segment.parent is None]
     for name, segment in segments.items():
         if segment.parent is not None and segment.parent not in segments:
-            raise ValueError(
+            raise _wrong(
                 f"segment '{name}' is an orphan: its parent '{segment.parent}' is not a segment "
                 f"(there are: {', '.join(segments)})"
+                + did_you_mean(segment.parent, list(segments)),
+                name,
+                "parent",
             )
         if segment.parent is not None and isinstance(segment.joint, FreeJoint):
-            raise ValueError(f"segment '{name}' has a free joint; only the root may")
+            raise _wrong(f"segment '{name}' has a free joint; only the root may", name, "joint")
     for name in roots:
         if segments[name].joint is None:
-            raise ValueError(
-                f"the root '{name}' has no joint; write joint: {{type: free}}, or fixed if it rests"
+            raise _wrong(
+                f"the root '{name}' has no joint; write joint: {{type: free}}, or fixed if it "
+                "rests",
+                name,
             )
     if len(roots) > 1:
-        raise ValueError(
-            f"several segments have no parent ({', '.join(roots)}); one root is needed"
+        raise _wrong(
+            f"several segments have no parent ({', '.join(roots)}); one root is needed", roots[1]
         )
     ordered = list(roots)
     for name in ordered:
         ordered += [child for child, segment in segments.items() if segment.parent == name]
     cyclic = [name for name in segments if name not in ordered]
     if cyclic:
-        raise ValueError(
+        raise _wrong(
             f"the segments {', '.join(cyclic)} form a cycle; following their parents must end at "
-            "the root"
+            "the root",
+            cyclic[0],
+            "parent",
         )
     return ordered
+
+
+def _wrong(message: str, *location: str) -> ValidationError:
+    return misplaced(SkeletonDescription, message, "segments", *location)

@@ -182,7 +182,7 @@ def test_axis_points_are_close_enough_and_on_the_axes(random):
         ("value: 1.0", "value: 0", "FILE:3: size.value: input should be greater than 0; it is 0"),
         ("range: [0.5, 2.0]", "range: [2.0, 0.5]", "FILE:3: size.range: limits are reversed"),
         ("range: [0.5, 2.0]", "range: [0, 2.0]", "FILE:3: size.range: a length must be positive"),
-        ("{origin: [0, 0, 0]}", "{tip: [0, 0, 0]}", "FILE:1: marker 'tip' is on 'base' and on "
+        ("{origin: [0, 0, 0]}", "{tip: [0, 0, 0]}", "marker 'tip' is on 'base' and on "
          "'wrist'"),
         ("swing_deg: [60, 90]", "swing_deg: [60, 200]", "FILE:12: segments.arm.joint.swing_deg[1]: "
          "input should be less than or equal to 180; it is 200"),

@@ -137,12 +137,12 @@ segments:
 @pytest.mark.parametrize(
     ("old", "new", "expected"),
     [
-        ("parent: root", "parent: hand", "FILE:1: the segments arm, hand form a cycle; following "
-         "their parents must end at the root"),
-        ("parent: arm", "parent: amr", "FILE:1: segment 'hand' is an orphan: its parent 'amr' is "
-         "not a segment (there are: root, arm, hand)"),
-        ("parent: arm, ", "", "FILE:1: several segments have no parent (root, hand); one root is "
-         "needed"),
+        ("parent: root", "parent: hand", "FILE:3: segments.arm.parent: the segments "
+         "arm, hand form a cycle; following their parents must end at the root"),
+        ("parent: arm", "parent: amr", "FILE:4: segments.hand.parent: segment "
+         "'hand' is an orphan: its parent 'amr' is not a segment (there are: root, arm, hand)"),
+        ("parent: arm, ", "", "FILE:4: segments.hand: several segments have no parent "
+         "(root, hand); one root is needed"),
         ("  hand:", "  arm:", "FILE:4: not valid YAML: found duplicate key \"arm\""),
         ("[0, 90]", "[90, 0]", "FILE:3: segments.arm.joint.limits_deg: limits are reversed: "
          "[90.0, 0.0]; write [0.0, 90.0]"),
@@ -150,7 +150,8 @@ segments:
         ("type: hinge", "type: hing", "FILE:3: segments.arm.joint: input tag 'hing' found using "
          "'type' does not match any of the expected tags: 'free', 'fixed', 'hinge', 'universal', "
          "'ball'"),
-        ("type: fixed", "type: free", "FILE:1: segment 'hand' has a free joint; only the root may"),
+        ("type: fixed", "type: free", "FILE:4: segments.hand.joint: segment 'hand' has "
+         "a free joint; only the root may"),
     ],
 )  # fmt: skip
 def test_skeleton_error_names_the_place(file, old, new, expected):
@@ -164,7 +165,7 @@ def test_skeleton_error_names_the_place(file, old, new, expected):
         ("gaussians: {gsog: {base: [{centre: [0, 0, 0], sigma: [0.1, 0, 0.1]}]}}",
          "gaussians.gsog.base[0].sigma"),
         ("gaussians: {sog: {nothing: [{centre: [0, 0, 0], sigma: 0.1}]}}",
-         "gaussians.sog has 'nothing', which is not a segment"),
+         "gaussians.sog.nothing: 'nothing' is not a segment (there are: base, arm,"),
     ],
 )  # fmt: skip
 def test_template_error_names_the_place(file, linkage_text, more, expected):

@@ -139,3 +139,15 @@ def test_conversions_agree_with_golden_values(reference_data: Path, name: str):
 def test_inverse_undoes_a_motion(turn, shift):
     transform = rigid.rigid(rotation.vector_to_matrix(turn), shift)
     np.testing.assert_allclose(rigid.inverse(transform) @ transform, np.eye(4), atol=1e-13)
+
+
+@pytest.mark.parametrize("goal", [[0.3, -0.5, 0.8], [1.0, 2.0, 3.0], [-1.0, -2.0, -3.0]])
+def test_between_turns_one_direction_into_another_the_shortest_way(goal):
+    start, goal = np.array([1.0, 2.0, 3.0]), np.array(goal)
+    turn = rotation.between(start, goal)
+    found = turn @ start / np.linalg.norm(start)
+    np.testing.assert_allclose(found, goal / np.linalg.norm(goal), atol=1e-9)
+    np.testing.assert_allclose(turn @ turn.T, np.eye(3), atol=1e-12)
+    angle = np.arccos(np.clip(start @ goal / np.linalg.norm(start) / np.linalg.norm(goal), -1, 1))
+    turned = np.linalg.norm(rotation.to_vector(rotation.from_matrix(turn)))
+    assert turned == pytest.approx(angle, abs=1e-6)

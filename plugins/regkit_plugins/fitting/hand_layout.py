@@ -9,8 +9,8 @@ import numpy as np
 
 from regkit.arrays import Array
 from regkit.rigid import moved
-from regkit.rotation import vector_to_matrix
-from regkit_plugins.fitting.straight import FORWARD, Layout, SegmentFrame, mesh_axes, shortest, unit
+from regkit.rotation import between, vector_to_matrix
+from regkit_plugins.fitting.straight import FORWARD, Layout, SegmentFrame, mesh_axes, unit
 from regkit_plugins.synthesis.landmarks import hand_landmarks
 from regkit_plugins.synthesis.skinned_mesh import SkinnedMesh
 
@@ -66,7 +66,7 @@ def hand_layout(mesh: SkinnedMesh) -> HandLayout:
             label, name = f"finger{number}-{part}.R", f"{finger}_{part}"
             bone = joints[part] - joints[part - 1]
             if finger != "thumb":
-                turn = shortest(turn @ bone, direction) @ turn
+                turn = between(turn @ bone, direction) @ turn
                 bend = unit(np.cross(direction, FORWARD))
             else:
                 # A bone of the mesh bends about its own x axis.

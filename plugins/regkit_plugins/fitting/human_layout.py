@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from regkit.rigid import moved
+from regkit.rotation import between
 from regkit_plugins.fitting.capsules import Piece
 from regkit_plugins.fitting.straight import (
     DOWN,
@@ -14,7 +15,6 @@ from regkit_plugins.fitting.straight import (
     SegmentFrame,
     aligned,
     mesh_axes,
-    shortest,
     unit,
 )
 from regkit_plugins.synthesis.skinned_mesh import SkinnedMesh
@@ -139,11 +139,11 @@ def human_layout(mesh: SkinnedMesh) -> Layout:
         turns[f"{side}_upper_arm"] = aligned(upper, bend, DOWN, -LEFT)
         turns[f"{side}_forearm"] = turns[f"{side}_hand"] = aligned(fore, bend, DOWN, -LEFT)
         hip, knee, ankle = (at[prefix + bone] for bone in ("UpLeg", "Leg", "Foot"))
-        thigh = shortest(knee - hip, DOWN)
+        thigh = between(knee - hip, DOWN)
         turns[f"{side}_thigh"] = thigh
-        turns[f"{side}_shin"] = shortest(thigh @ (ankle - knee), DOWN) @ thigh
+        turns[f"{side}_shin"] = between(thigh @ (ankle - knee), DOWN) @ thigh
         foot = (at[prefix + "ToeBase"] - ankle) * [1.0, 0.0, 1.0]
-        turns[f"{side}_foot"] = shortest(foot, FORWARD)
+        turns[f"{side}_foot"] = between(foot, FORWARD)
     owners: dict[str, str] = {}
     frames: dict[str, SegmentFrame] = {}
     for name, bones in BONES.items():

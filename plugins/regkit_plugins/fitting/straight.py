@@ -9,7 +9,6 @@ import numpy as np
 
 from regkit.arrays import Array
 from regkit.rigid import moved, rigid
-from regkit.rotation import IDENTITY, to_matrix, vector_to_matrix
 from regkit_plugins.synthesis.skinned_mesh import SkinnedMesh
 
 LEFT = np.array([1.0, 0.0, 0.0])
@@ -65,16 +64,6 @@ def mesh_axes(columns: Array, origin: Array) -> Array:
 def unit(vector: Array) -> Array:
     """A vector (3,) of the length one."""
     return np.asarray(vector / np.linalg.norm(vector))
-
-
-def shortest(start: Array, goal: Array) -> Array:
-    """The smallest rotation (3, 3) that turns the direction ``start`` into ``goal``."""
-    a, b = unit(start), unit(goal)
-    axis = np.cross(a, b)
-    sine, cosine = float(np.linalg.norm(axis)), float(a @ b)
-    if sine < 1e-9:
-        return to_matrix(IDENTITY)
-    return vector_to_matrix(axis / sine * np.arctan2(sine, cosine))
 
 
 def aligned(bone: Array, axis: Array, goal_bone: Array, goal_axis: Array) -> Array:

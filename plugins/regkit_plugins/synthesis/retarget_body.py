@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from regkit.arrays import Array
-from regkit.rotation import IDENTITY, from_matrix, to_matrix, vector_to_matrix
+from regkit.rotation import between, from_matrix, to_matrix
 from regkit_plugins.synthesis.motion_clip import ClipPose, interpolated
 from regkit_plugins.synthesis.skinned_mesh import SkinnedMesh
 
@@ -115,25 +115,15 @@ def _straight(mesh: SkinnedMesh) -> Array:
     turns = np.tile(np.eye(3), (len(mesh.labels), 1, 1))
     for side in ("Left", "Right"):
         for upper, lower, end in (("Arm", "ForeArm", "Hand"), ("UpLeg", "Leg", "Foot")):
-            first = _shortest(mesh.origin(side + lower) - mesh.origin(side + upper), _DOWN)
+            first = between(mesh.origin(side + lower) - mesh.origin(side + upper), _DOWN)
             forearm = first @ (mesh.origin(side + end) - mesh.origin(side + lower))
             turns[mesh.bone(side + upper)] = first
-            turns[mesh.bone(side + lower)] = _shortest(forearm, _DOWN) @ first
+            turns[mesh.bone(side + lower)] = between(forearm, _DOWN) @ first
         # The sole stays level: the foot only turns about the vertical until it points forward.
         foot = (mesh.origin(side + "ToeBase") - mesh.origin(side + "Foot")) * [1.0, 1.0, 0.0]
         for bone in ("Foot", "ToeBase"):
-            turns[mesh.bone(side + bone)] = _shortest(foot, np.array([0.0, -1.0, 0.0]))
+            turns[mesh.bone(side + bone)] = between(foot, np.array([0.0, -1.0, 0.0]))
         hand = turns[mesh.bone(side + "ForeArm")]
         for bone in (side + "Hand", side + "FingerBase", side + "HandFinger1", side[0] + "Thumb"):
             turns[mesh.bone(bone)] = hand
     return turns
-
-
-def _shortest(start: Array, goal: Array) -> Array:
-    """The smallest rotation (3, 3) that turns the direction ``start`` into ``goal``."""
-    a, b = start / np.linalg.norm(start), goal / np.linalg.norm(goal)
-    axis = np.cross(a, b)
-    sine, cosine = float(np.linalg.norm(axis)), float(a @ b)
-    if sine < 1e-9:
-        return to_matrix(IDENTITY)
-    return vector_to_matrix(axis / sine * np.arctan2(sine, cosine))
