@@ -45,11 +45,12 @@ def tracked(
         try:
             observation = observer.observe(frame)
             registered = tracker.step(registrar, observation, past)
+            seconds = time.perf_counter() - begun
             _check_near(registrar.body, registered.pose, observation)
         except RegkitError as error:
             raise error.at(frame.place or f"{sequence.name}: frame {index}") from None
         past.append(registered.pose)
-        yield TrackedFrame(observation, registered, time.perf_counter() - begun)
+        yield TrackedFrame(observation, registered, seconds)
 
 
 def _check_near(body: Body, pose: Pose, observation: Observation) -> None:

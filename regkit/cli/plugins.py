@@ -50,7 +50,9 @@ def _print_fields(kind: str) -> None:
         found = slot.load(kind)
         table = Table("field", "default", "what it is", title=f"{slot.group}: {kind}")
         for name, field in found.model_fields.items():
-            default = "required" if field.is_required() else str(field.get_default())
+            default = "required"
+            if not field.is_required():
+                default = str(field.get_default(call_default_factory=True, validated_data={}))
             table.add_row(
                 name, escape(default), escape(" ".join((field.description or "").split()))
             )

@@ -96,6 +96,7 @@ class Results:
         }
         arrays |= {name: np.array(values, dtype=np.str_) for name, values in names.items()}
         write_arrays(folder / "poses.npz", arrays | {"size": np.array(body.size)})
+        (folder / "error.txt").unlink(missing_ok=True)
         write_json(folder / "measure.json", measure.to_dict())
 
     def failed(self, method: str, sequence: str, error: Exception) -> RegkitError:
