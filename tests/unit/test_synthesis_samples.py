@@ -16,7 +16,8 @@ from regkit.camera import Camera
 from regkit.errors import DataError, DependencyError
 from regkit_plugins.synthesis.__main__ import main
 from regkit_plugins.synthesis.raycast import measured, ray_cast
-from regkit_plugins.synthesis.samples import CAMERA, NOISE, hand_gestures, human_walk
+from regkit_plugins.synthesis.samples import hand_gestures, human_walk
+from regkit_plugins.synthesis.scene import SR4000
 from regkit_plugins.synthesis.sequence import DepthSequence
 
 SHIPPED = Path(__file__).resolve().parents[2] / "docs" / "examples" / "data"
@@ -150,7 +151,7 @@ def test_sample_stays_inside_the_image(sample):
 def test_sample_joints_lie_in_the_body(sample):
     behind, inside = [], 0
     for image, joints in zip(sample.depth, sample.truth, strict=True):
-        columns, rows = np.rint(CAMERA.projected(joints)).astype(int).T
+        columns, rows = np.rint(SR4000.camera.projected(joints)).astype(int).T
         hit = image[rows, columns] > 0
         inside += int(hit.sum())
         behind.append((joints[:, 2] - image[rows, columns] / sample.depth_scale)[hit])
@@ -158,8 +159,8 @@ def test_sample_joints_lie_in_the_body(sample):
     # A finger tip is a point of the skin: it may miss the silhouette by a pixel, and that pixel may
     # show what is behind it.
     assert inside > 0.9 * sample.truth[:, :, 0].size
-    assert depths.mean() > NOISE
-    assert np.quantile(depths, 0.02) > -3.0 * NOISE
+    assert depths.mean() > SR4000.noise
+    assert np.quantile(depths, 0.02) > -3.0 * SR4000.noise
 
 
 def test_sample_moves_without_jumps(sample):
@@ -176,7 +177,7 @@ def test_sample_differs_only_in_noise_for_another_seed(sample):
     seen = sample.depth > 0
     assert np.array_equal(other.depth > 0, seen)
     difference = (other.depth.astype(float) - sample.depth)[seen] / sample.depth_scale
-    assert difference.std() == pytest.approx(np.sqrt(2.0) * NOISE, rel=0.02)
+    assert difference.std() == pytest.approx(np.sqrt(2.0) * SR4000.noise, rel=0.02)
 
 
 def test_walker_faces_the_camera():

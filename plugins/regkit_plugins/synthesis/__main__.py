@@ -1,4 +1,4 @@
-"""Makes the sample sequences: ``python -m regkit_plugins.synthesis OUT``."""
+"""Makes depth sequences: ``python -m regkit_plugins.synthesis OUT [--suite]``."""
 
 from __future__ import annotations
 
@@ -7,35 +7,62 @@ import sys
 from pathlib import Path
 
 from regkit.errors import RegkitError
+from regkit.files import write_text
 from regkit_plugins.synthesis.samples import hand_gestures, human_walk
+from regkit_plugins.synthesis.sequence import DepthSequence
+from regkit_plugins.synthesis.suite import SUITE, rendered
 
 
 def main() -> int:
-    """Make the samples that the command line asks for, and print what was written."""
+    """Make the sequences that the command line asks for, and print what was written."""
     parser = argparse.ArgumentParser(
         prog="python -m regkit_plugins.synthesis",
-        description="Make the sample depth sequences human_walk and hand_gestures.",
+        description="Make the sample depth sequences human_walk and hand_gestures, or a suite.",
     )
     parser.add_argument("out", type=Path, help="folder that the sequences go into")
     parser.add_argument("--seed", type=int, default=0, help="seed of the noise (default: 0)")
+    parser.add_argument(
+        "--suite",
+        action="store_true",
+        help="make the evaluation suite instead: sequences of several bodies, and their templates",
+    )
     arguments = parser.parse_args()
     out: Path = arguments.out
     try:
-        print(f"{'sequence':<32}{'frames':>8}{'joints':>8}{'pixels/frame':>14}{'kB':>8}")
-        for make in (human_walk, hand_gestures):
-            sequence = make(arguments.seed)
-            folder = out / sequence.name
-            sequence.write(folder)
-            size = sum(file.stat().st_size for file in folder.rglob("*") if file.is_file())
-            pixels = (sequence.depth > 0).sum() / len(sequence.depth)
-            print(
-                f"{folder!s:<32}{len(sequence.depth):>8}{len(sequence.joints):>8}"
-                f"{pixels:>14.0f}{size / 1000:>8.0f}"
-            )
+        print(
+            f"{'sequence':<32}{'frames':>8}{'joints':>8}{'pixels/frame':>14}{'kB':>8}", flush=True
+        )
+        if arguments.suite:
+            _write_suite(out, arguments.seed)
+        else:
+            for make in (human_walk, hand_gestures):
+                sequence = make(arguments.seed)
+                _write(sequence, out / sequence.name)
     except RegkitError as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
     return 0
+
+
+def _write_suite(out: Path, seed: int) -> None:
+    for name, body in SUITE.items():
+        for take in body.takes:
+            _write(rendered(name, take, seed), out / name / take)
+        template = out / f"{name}.yaml"
+        write_text(template, body.template(body.mesh()))
+        print(template, flush=True)
+
+
+def _write(sequence: DepthSequence, folder: Path) -> None:
+    """Write a sequence and print a row about it."""
+    sequence.write(folder)
+    size = sum(file.stat().st_size for file in folder.rglob("*") if file.is_file())
+    pixels = (sequence.depth > 0).sum() / len(sequence.depth)
+    print(
+        f"{folder!s:<32}{len(sequence.depth):>8}{len(sequence.joints):>8}"
+        f"{pixels:>14.0f}{size / 1000:>8.0f}",
+        flush=True,
+    )
 
 
 if __name__ == "__main__":

@@ -1,17 +1,15 @@
-"""Recorded hand poses in the JavaScript files of iwer, and gestures that run through them."""
+"""Poses of a right hand with the joints of WebXR."""
 
 from __future__ import annotations
 
-import re
+from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
 from regkit.arrays import Array
-from regkit.errors import DataError
-from regkit.rotation import conjugate, from_matrix, product, to_matrix
-from regkit_plugins.synthesis.motion_clip import interpolated
+from regkit.rotation import conjugate, from_matrix, from_vector, product, to_matrix
+from regkit_plugins.synthesis.mending import interpolated
 
 WRIST = "wrist"
 
@@ -33,7 +31,7 @@ PARENTS = {
 }
 """Every joint but the wrist, and the one that it turns against."""
 
-_JOINT = re.compile(r"'?([a-z-]+)'?:\s*\{\s*offsetMatrix:\s*\[([^\]]*)\]")
+_OF_THUMB = np.array([joint in CHAINS["thumb"] for joint in PARENTS])
 
 
 @dataclass(frozen=True)
@@ -49,31 +47,15 @@ class HandPose:
     joints: Array
 
     @classmethod
-    def read(cls, path: Path) -> HandPose:
-        """Read one of iwer's poses, which are of a left hand, as that of a right hand.
-
-        Raises:
-            DataError: If the file is missing or does not have the 25 joints of WebXR.
-        """
-        try:
-            text = path.read_text(encoding="utf-8")
-        except FileNotFoundError:
-            raise DataError("the file is missing; it holds a hand pose", place=str(path)) from None
-        matrices = {name: _matrix(numbers, path) for name, numbers in _JOINT.findall(text)}
-        missing = [joint for joint in (WRIST, *PARENTS) if joint not in matrices]
-        if missing:
-            raise DataError(
-                f"no offsetMatrix for {', '.join(missing)}; all 25 joints of WebXR must be there",
-                place=str(path),
-            )
-        mirror = np.diag([-1.0, 1.0, 1.0])
+    def of(cls, matrices: Mapping[str, Array]) -> HandPose:
+        """The pose of a right hand whose joints are at ``T_world_joint`` (4, 4) [m], by name."""
         wrist = matrices[WRIST]
         turns = {
-            joint: from_matrix(mirror @ wrist[:3, :3].T @ matrix[:3, :3] @ mirror)
+            joint: from_matrix(wrist[:3, :3].T @ matrix[:3, :3])
             for joint, matrix in matrices.items()
         }
         origins = {
-            joint: mirror @ wrist[:3, :3].T @ (matrix[:3, 3] - wrist[:3, 3])
+            joint: wrist[:3, :3].T @ (matrix[:3, 3] - wrist[:3, 3])
             for joint, matrix in matrices.items()
         }
         joints = [
@@ -81,33 +63,40 @@ class HandPose:
         ]
         return cls(origins, np.array(joints))
 
+    def with_thumb_of(self, other: HandPose) -> HandPose:
+        """The pose with the thumb turned as in another pose."""
+        return self._with(np.where(_OF_THUMB[:, None], other.joints, self.joints))
+
+    def with_thumb_lifted(self, angle: float) -> HandPose:
+        """The pose with the thumb turned about its base, out of the palm, by ``angle`` [rad]."""
+        base, tip = CHAINS["thumb"][0], CHAINS["thumb"][-1]
+        axis = np.cross(self.origins[tip] - self.origins[base], [0.0, -1.0, 0.0])
+        lift = from_vector(angle * axis / np.linalg.norm(axis))
+        at_base = np.array([joint == base for joint in PARENTS])
+        return self._with(np.where(at_base[:, None], product(lift, self.joints), self.joints))
+
+    def with_fingers_towards(self, other: HandPose, share: float) -> HandPose:
+        """The pose with the fingers, but not the thumb, turned part of the way to another pose.
+
+        Args:
+            other: The other pose.
+            share: Which part of the way: 0 is this pose, 1 the other.
+        """
+        turned = interpolated(self.joints, other.joints, share)
+        return self._with(np.where(_OF_THUMB[:, None], self.joints, turned))
+
     def rotations(self) -> dict[str, Array]:
         """``R_wrist_joint`` (3, 3) of every joint: -z along the bone, y out of the back."""
         return chained(self.joints)
 
-
-@dataclass(frozen=True)
-class Gestures:
-    """A hand that goes smoothly from pose to pose, and rests in each at its time.
-
-    Attributes:
-        times: (K,) when each pose is reached [s], increasing.
-        poses: The K poses.
-    """
-
-    times: Array
-    poses: tuple[HandPose, ...]
-
-    def at(self, time: float) -> dict[str, Array]:
-        """The rotation (3, 3) ``R_wrist_joint`` of every joint at ``time`` [s]."""
-        right = int(
-            np.clip(np.searchsorted(self.times, time, side="right"), 1, len(self.times) - 1)
-        )
-        begin, end = float(self.times[right - 1]), float(self.times[right])
-        share = float(np.clip((time - begin) / (end - begin), 0.0, 1.0))
-        smooth = share * share * (3.0 - 2.0 * share)
-        start, goal = self.poses[right - 1], self.poses[right]
-        return chained(interpolated(start.joints, goal.joints, smooth))
+    def _with(self, joints: Array) -> HandPose:
+        """The same hand with its joints turned otherwise (24, 4)."""
+        old, new = chained(self.joints), chained(joints)
+        origins = {WRIST: self.origins[WRIST]}
+        for joint, parent in PARENTS.items():
+            bone = old[parent].T @ (self.origins[joint] - self.origins[parent])
+            origins[joint] = origins[parent] + new[parent] @ bone
+        return HandPose(origins, joints)
 
 
 def chained(joints: Array) -> dict[str, Array]:
@@ -116,12 +105,3 @@ def chained(joints: Array) -> dict[str, Array]:
     for (joint, parent), matrix in zip(PARENTS.items(), to_matrix(joints), strict=True):
         rotations[joint] = rotations[parent] @ matrix
     return rotations
-
-
-def _matrix(numbers: str, path: Path) -> Array:
-    """The 4x4 matrix of 16 numbers, stored by columns."""
-    try:
-        values = np.array([float(number) for number in numbers.split(",") if number.strip()])
-        return values.reshape(4, 4, order="F")
-    except ValueError as error:
-        raise DataError(f"an offsetMatrix is not 16 numbers ({error})", place=str(path)) from None

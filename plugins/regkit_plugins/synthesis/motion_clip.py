@@ -10,15 +10,9 @@ import numpy as np
 
 from regkit.arrays import Array
 from regkit.errors import DataError
-from regkit.rotation import (
-    IDENTITY,
-    conjugate,
-    from_vector,
-    normalized,
-    product,
-    to_matrix,
-    to_vector,
-)
+from regkit.rotation import IDENTITY, from_vector, normalized, product, to_matrix
+from regkit_plugins.synthesis import mending
+from regkit_plugins.synthesis.mending import interpolated
 
 SEGMENTS = {
     "root": "",
@@ -42,12 +36,6 @@ _HINGES = frozenset({"right_knee", "right_elbow", "left_knee", "left_elbow"})
 
 _ROW = 44
 """Numbers in a row: duration, root position, then the rotations."""
-
-_CLOSING = 1.0 / 3.0
-"""The last part of a looping clip that is bent so that its end meets its beginning."""
-
-_BRIDGE = 0.35
-"""How far to both sides of a jump a clip is bent to bridge it [s]."""
 
 
 @dataclass(frozen=True)
@@ -108,7 +96,7 @@ class MotionClip:
             )
         times = np.concatenate([[0.0], np.cumsum(rows[:-1, 0])])
         joints = _joints(rows[:, 4:])
-        return cls(times, rows[:, 1:4], _closed(times, joints) if loops else joints, loops)
+        return cls(times, rows[:, 1:4], mending.closed(times, joints) if loops else joints, loops)
 
     def bridged(self, row: int) -> MotionClip:
         """The clip without the jump between ``row`` and the next.
@@ -116,13 +104,33 @@ class MotionClip:
         Some clips are joined from parts that do not quite meet. Both sides are bent towards each
         other, so that this step becomes the mean of its neighbours.
         """
-        steps = to_vector(product(conjugate(self.joints[:-1]), self.joints[1:]))
-        jump = steps[row] - (steps[row - 1] + steps[row + 1]) / 2
-        middle = (self.times[row] + self.times[row + 1]) / 2
-        share = _smooth(1.0 - np.abs(self.times - middle) / _BRIDGE) / 2
-        signed = np.where(np.arange(len(self.times)) <= row, share, -share)
-        bent = product(self.joints, from_vector(signed[:, None, None] * jump))
-        return replace(self, joints=bent)
+        return replace(self, joints=mending.bridged(self.times, self.joints, row))
+
+    def smoothed(self) -> MotionClip:
+        """The clip with every rotation drawn halfway to the mean of those before and after it."""
+        return replace(self, joints=mending.smoothed(self.joints))
+
+    def with_arms_turned_out(self, angle: float) -> MotionClip:
+        """The clip with both upper arms turned outward about themselves by ``angle`` [rad].
+
+        The clips' character is slim: the bent arms of another body may go through its trunk.
+        """
+        joints = self.joints.copy()
+        for segment, sense in (("right_shoulder", -1.0), ("left_shoulder", 1.0)):
+            index = list(SEGMENTS).index(segment)
+            turn = from_vector(np.array([0.0, sense * angle, 0.0]))
+            joints[:, index] = product(joints[:, index], turn)
+        return replace(self, joints=joints)
+
+    def looped(self) -> MotionClip:
+        """The clip bent so that it ends as it begins, at the same height, and goes on from there.
+
+        For a clip that was not recorded to loop, but comes back to nearly its first pose.
+        """
+        roots = self.roots.copy()
+        roots[:, 1] += mending.closing(self.times) * (roots[0, 1] - roots[-1, 1])
+        joints = mending.closed(self.times, self.joints)
+        return replace(self, roots=roots, joints=joints, loops=True)
 
     @property
     def velocity(self) -> Array:
@@ -151,14 +159,6 @@ class MotionClip:
         return ClipPose(root + cycle * period * self.velocity, rotations)
 
 
-def interpolated(start: Array, end: Array, share: float | Array) -> Array:
-    """Unit quaternions (..., 4) on the shortest way from ``start`` to ``end`` (slerp).
-
-    Source: Shoemake, Animating Rotation with Quaternion Curves, SIGGRAPH 1985.
-    """
-    return product(start, from_vector(share * to_vector(product(conjugate(start), end))))
-
-
 def _joints(numbers: Array) -> Array:
     """The rotations (F, 13, 4) of the columns (F, 40) that follow the root's position."""
     joints = np.tile(IDENTITY, (len(numbers), len(SEGMENTS), 1))
@@ -171,16 +171,3 @@ def _joints(numbers: Array) -> Array:
             joints[:, index] = np.roll(numbers[:, column : column + 4], -1, axis=1)
             column += 4
     return normalized(joints)
-
-
-def _closed(times: Array, joints: Array) -> Array:
-    """The rotations bent smoothly over the last part of the clip, so that it ends as it begins."""
-    share = _smooth((times / times[-1] - 1.0) / _CLOSING + 1.0)
-    gap = to_vector(product(conjugate(joints[-1]), joints[0]))
-    return product(joints, from_vector(share[:, None, None] * gap))
-
-
-def _smooth(phase: Array) -> Array:
-    """From 0 to 1 as the phase (...) does, without a jump in its rate of change."""
-    within = np.clip(phase, 0.0, 1.0)
-    return np.asarray(within * within * (3.0 - 2.0 * within))

@@ -51,7 +51,7 @@ class DepthSequence:
         """Write the folder, all of it or nothing; a sequence that was there before is replaced.
 
         Raises:
-            DataError: If something else is there.
+            DataError: If something else is there, or the folder cannot be written.
         """
         if folder.exists() and not (folder / _HEADER).is_file():
             raise DataError(
@@ -59,7 +59,16 @@ class DepthSequence:
                 "folder or remove it",
                 place=str(folder),
             )
-        folder.parent.mkdir(parents=True, exist_ok=True)
+        try:
+            folder.parent.mkdir(parents=True, exist_ok=True)
+            self._replace(folder)
+        except OSError as error:
+            raise DataError(
+                f"cannot be written: {error.strerror or error}", place=str(folder)
+            ) from None
+
+    def _replace(self, folder: Path) -> None:
+        """Write the files beside the folder, and rename them when they are complete."""
         with tempfile.TemporaryDirectory(dir=folder.parent, prefix=f".{folder.name}-") as scratch:
             new, old = Path(scratch) / "new", Path(scratch) / "old"
             self._write_into(new)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import zipfile
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -23,6 +24,9 @@ KEYS = (
     "skin_weights",
 )
 """The arrays of a mesh file, in the order of the fields of ``SkinnedMesh``."""
+
+SHAPE_KEYS = ("rest_vertices", "rest_bone_poses")
+"""The arrays in which the shapes of one mesh differ."""
 
 
 @dataclass(frozen=True)
@@ -54,18 +58,7 @@ class SkinnedMesh:
         Raises:
             DataError: If the file is missing, is not an ``.npz`` file, or lacks one of the arrays.
         """
-        try:
-            with np.load(path) as file:
-                arrays: dict[str, NDArray[np.generic]] = {key: file[key] for key in KEYS}
-        except FileNotFoundError:
-            raise DataError(
-                "the file is missing; it holds a skinned mesh", place=str(path)
-            ) from None
-        except (KeyError, ValueError, zipfile.BadZipFile) as error:
-            raise DataError(
-                f"not a skinned mesh ({error}); it must be an .npz file with {', '.join(KEYS)}",
-                place=str(path),
-            ) from None
+        arrays = _arrays(path, KEYS)
         return cls(
             read_only(arrays["rest_vertices"]),
             arrays["faces"].astype(np.intp),
@@ -74,6 +67,27 @@ class SkinnedMesh:
             read_only(arrays["rest_bone_poses"]),
             arrays["skin_indices"].astype(np.intp),
             read_only(arrays["skin_weights"]),
+        )
+
+    def reshaped(self, path: Path) -> SkinnedMesh:
+        """The same mesh in the shape of another person, from an ``.npz`` file with ``SHAPE_KEYS``.
+
+        Raises:
+            DataError: If the file is missing, is not an ``.npz`` file, lacks one of the arrays, or
+                is of another mesh.
+        """
+        arrays = _arrays(path, SHAPE_KEYS)
+        own = {"rest_vertices": self.vertices, "rest_bone_poses": self.rest}
+        for key, array in arrays.items():
+            if array.shape != own[key].shape:
+                raise DataError(
+                    f"{key} has the shape {array.shape}; for this mesh it must be {own[key].shape}",
+                    place=str(path),
+                )
+        return replace(
+            self,
+            vertices=read_only(arrays["rest_vertices"]),
+            rest=read_only(arrays["rest_bone_poses"]),
         )
 
     def bone(self, label: str) -> int:
@@ -123,3 +137,17 @@ class SkinnedMesh:
             parent = self.parents[bone]
             origins[bone] = origins[parent] + rotations[parent] @ offsets[bone]
         return rigid(rotations @ self.rest[:, :3, :3], origins)
+
+
+def _arrays(path: Path, keys: Sequence[str]) -> dict[str, NDArray[np.generic]]:
+    """The arrays named ``keys`` of an ``.npz`` file."""
+    try:
+        with np.load(path) as file:
+            return {key: file[key] for key in keys}
+    except FileNotFoundError:
+        raise DataError("the file is missing; it holds a skinned mesh", place=str(path)) from None
+    except (KeyError, ValueError, zipfile.BadZipFile) as error:
+        raise DataError(
+            f"not a skinned mesh ({error}); it must be an .npz file with {', '.join(keys)}",
+            place=str(path),
+        ) from None

@@ -1,0 +1,86 @@
+"""A person who moves before a camera as in a recorded clip."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from math import radians
+
+import numpy as np
+
+from regkit.arrays import Array
+from regkit.rigid import rigid
+from regkit.rotation import vector_to_matrix
+from regkit_plugins.synthesis import assets
+from regkit_plugins.synthesis.landmarks import human_landmarks
+from regkit_plugins.synthesis.motion_clip import ClipPose, MotionClip
+from regkit_plugins.synthesis.retarget_body import BodyMotion
+from regkit_plugins.synthesis.scene import SR4000, Scene
+from regkit_plugins.synthesis.skinned_mesh import SkinnedMesh
+
+_R_CAMERA_BODY = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
+"""From x left, y backward, z up to x right, y down, z forward: the body looks into the camera."""
+
+
+@dataclass(frozen=True)
+class PersonTake:
+    """How a person moves, and from where that is seen.
+
+    Attributes:
+        clip: Name of the recorded clip.
+        heading: How far the clip's forward direction is turned from the camera, to its right [deg].
+        place: (3,) where the clip begins on the ground, from a level camera: to the right, down and
+            forward [m].
+        frames: How many images are taken.
+        way: The share of the clip's mean velocity that is kept; the rest is taken out, as on a
+            treadmill, so that the body stays in the image.
+        start: Where in the clip the first image is taken [s].
+        speed: How fast the clip is played; 1 is as recorded.
+        repeated: Whether the clip is bent to go on from its beginning, although it was not recorded
+            so.
+        tilt: How far the camera looks down [deg].
+        noise: Standard deviation of the depth [m].
+    """
+
+    clip: str
+    heading: float
+    place: tuple[float, float, float]
+    frames: int = 60
+    way: float = 0.2
+    start: float = 0.0
+    speed: float = 1.0
+    repeated: bool = False
+    tilt: float = 0.0
+    noise: float = SR4000.noise
+
+    def scene(self, name: str, body: str, mesh: SkinnedMesh) -> Scene:
+        """The scene, which is called ``name``, with a mesh that is ``body`` of anny."""
+        clip = assets.clip(self.clip)
+        return Scene(
+            name=name,
+            source=(
+                f"Rendered by regkit_plugins.synthesis: {body} of anny (MakeHuman and MPFB2), moved"
+                f" by humanoid3d_{self.clip} of DeepMimic, as shipped with pybullet"
+            ),
+            licence="CC0-1.0 (body), MIT and zlib (motion)",
+            mesh=mesh,
+            landmarks=human_landmarks(mesh),
+            bone_poses=self._bone_poses(clip.looped() if self.repeated else clip, mesh),
+            sensor=replace(SR4000, noise=self.noise),
+            frames=self.frames,
+        )
+
+    def _bone_poses(self, clip: MotionClip, mesh: SkinnedMesh) -> Callable[[float], Array]:
+        """The bone poses ``T_camera_bone`` (J, 4, 4) at a time [s]."""
+        motion = BodyMotion.of(mesh)
+        tilt = rigid(vector_to_matrix(np.array([radians(self.tilt), 0.0, 0.0])), np.zeros(3))
+        turn = vector_to_matrix(np.array([0.0, 0.0, radians(self.heading)]))
+        T_camera_ground = tilt @ rigid(_R_CAMERA_BODY @ turn, np.array(self.place))
+
+        def bone_poses(time: float) -> Array:
+            played = self.speed * time
+            pose = clip.at(self.start + played)
+            root = pose.root - (1.0 - self.way) * played * clip.velocity
+            return np.asarray(T_camera_ground @ motion.bone_poses(ClipPose(root, pose.rotations)))
+
+        return bone_poses
