@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from regkit.arrays import Array, Indices
 
@@ -32,6 +33,10 @@ class Capsules:
         carriers = transforms[self.segments]
         ends = self.ends @ np.swapaxes(carriers[:, :3, :3], 1, 2) + carriers[:, None, :3, 3]
         return Capsules(self.segments, ends, self.radii)
+
+    def some(self, chosen: NDArray[np.bool_]) -> Capsules:
+        """The capsules where ``chosen`` (C,) is true."""
+        return Capsules(self.segments[chosen], self.ends[chosen], self.radii[chosen])
 
     def scaled(self, factor: float) -> Capsules:
         """The capsules of a body whose lengths are multiplied by ``factor``."""
@@ -109,3 +114,9 @@ class AxisPoints:
     segments: Indices
     points: Array
     radii: Array
+
+    def place(self, transforms: Array) -> Array:
+        """Positions in the world, (..., M, 3) [m], for T_world_segment (..., S, 4, 4)."""
+        carriers = transforms[..., self.segments, :, :]
+        turned = (carriers[..., :3, :3] @ self.points[:, :, None])[..., 0]
+        return np.asarray(turned + carriers[..., :3, 3])

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 from regkit.arrays import Array
 from regkit.camera import Camera
+from regkit.silhouette import Silhouette
 
 
 @dataclass(frozen=True)
@@ -35,12 +37,22 @@ class Observation:
         variances: sigma^2 of each, (N,) [m^2]. A kernel's time grows with the number of different
             values, so an observer that has many rounds them.
         camera: The camera, if it is known; it looks along z from the origin.
+        depth: The depth image (H, W) [m] that the points come from, zero where nothing was
+            measured, if there is one.
     """
 
     points: Array
     weights: Array
     variances: Array
     camera: Camera | None = None
+    depth: Array | None = None
+
+    @cached_property
+    def silhouette(self) -> Silhouette | None:
+        """What the depth image says of free space, if there is one."""
+        if self.camera is None or self.depth is None:
+            return None
+        return Silhouette(self.camera, self.depth)
 
 
 @dataclass(frozen=True)

@@ -19,8 +19,9 @@ from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from regkit.errors import PluginError
+from regkit.errors import PluginError, RegkitError
 from regkit.model import Model, did_you_mean
+from regkit.preset import presets_of, with_preset
 
 
 class Plugin(Model):
@@ -103,6 +104,13 @@ class Plugin(Model):
             return value
         if isinstance(value, str):
             value = {"kind": value}
+        if isinstance(value, dict) and isinstance(value.get("preset"), str):
+            try:
+                value = with_preset(cls.group, value)
+            except RegkitError as error:
+                raise PydanticCustomError(
+                    "plugin_error", "{error}", {"error": str(error)}
+                ) from error
         kind = value.get("kind") if isinstance(value, dict) else None
         if not isinstance(kind, str):
             raise PydanticCustomError(
@@ -125,12 +133,17 @@ class Plugin(Model):
             except PluginError:
                 continue  # A broken plug-in must not harm those who never name it.
             kinds.append(kind)
-        return {
-            "anyOf": [
-                {"type": "string", "enum": kinds},
-                {"type": "object", "required": ["kind"], "oneOf": options},
-            ]
-        }
+        forms: list[JsonSchemaValue] = [
+            {"type": "string", "enum": kinds},
+            {"type": "object", "required": ["kind"], "oneOf": options},
+        ]
+        if presets_of(cls.group):
+            forms.append({
+                "type": "object",
+                "required": ["preset"],
+                "properties": {"preset": {"type": "string", "examples": [*presets_of(cls.group)]}},
+            })  # fmt: skip
+        return {"anyOf": forms}
 
 
 P = TypeVar("P", bound=Plugin)

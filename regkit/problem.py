@@ -2,51 +2,65 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from functools import reduce
+
 from regkit.arrays import Array
 from regkit.coordinates import Coordinates
-from regkit.interfaces import Problem, Response, Similarity
+from regkit.interfaces import JointEnergy, Problem, Response, Similarity, Strain
 from regkit.primitives import Placed, Primitives
 from regkit.skeleton import Placement
 
 
 class RegistrationProblem(Problem):
-    """Everything is forces on bones: the one chain rule for all shapes, kernels and solvers.
+    """Everything is forces on bones: the one chain rule for all shapes, kernels, terms and solvers.
 
     coordinates -> pose -> segments -> primitives -> energy and wrenches, and back: the wrenches are
     gathered on the segments, pulled back to the degrees of freedom, and from these to the
-    coordinates.
+    coordinates. Energies of the joints join at the degrees of freedom.
 
     Args:
         coordinates: Around the start pose.
         primitives: In the frames of the segments.
-        similarity: The kernel, bound to the data.
+        similarities: The kernel, bound to the data, and the terms that look at the primitives.
+        joints: The terms that look at the joints.
     """
 
     def __init__(
-        self, coordinates: Coordinates, primitives: Primitives, similarity: Similarity
+        self,
+        coordinates: Coordinates,
+        primitives: Primitives,
+        similarities: Sequence[Similarity],
+        joints: Sequence[JointEnergy] = (),
     ) -> None:
         self._coordinates = coordinates
         self._primitives = primitives
-        self._similarity = similarity
+        self._similarities = tuple(similarities)
+        self._joints = tuple(joints)
         self.start = coordinates.origin()
         self.lower, self.upper = coordinates.bounds()
 
     def value_and_gradient(self, x: Array) -> tuple[float, Array]:
         """The energy at coordinates x (m,) and its gradient (m,), eqs. 11 to 13."""
         placement, placed = self._placed(x)
-        response = self._similarity(placed)
-        return response.energy, self._gradient(x, placement, placed, response)
+        response = self._response(placed, curvature=False)
+        value, force = self._value_and_force(placement, placed, response, self._strains(placement))
+        return value, self._coordinates.differential(x).T @ force
 
     def normal_equations(self, x: Array) -> tuple[float, Array, Array] | None:
         """The energy, its gradient (m,) and Gauss-Newton matrix (m, m), if the kernel has one."""
         placement, placed = self._placed(x)
-        response = self._similarity(placed, curvature=True)
+        response = self._response(placed, curvature=True)
         if response.stiffness is None:
             return None
+        strains = self._strains(placement)
         stiffness = placed.gather_stiffness(response.stiffness, len(placement.skeleton.names))
+        matrix = placement.normal_matrix(stiffness)
+        for strain in strains:
+            matrix += strain.stiffness
         differential = self._coordinates.differential(x)
-        matrix = differential.T @ placement.normal_matrix(stiffness) @ differential
-        return response.energy, self._gradient(x, placement, placed, response), matrix
+        value, force = self._value_and_force(placement, placed, response, strains)
+        return value, differential.T @ force, differential.T @ matrix @ differential
 
     def projected(self, x: Array) -> Array:
         """The pose's hinges and balls brought back within their limits."""
@@ -58,8 +72,24 @@ class RegistrationProblem(Problem):
         placement = Placement.of(self._coordinates.skeleton, self._coordinates.pose(x))
         return placement, self._primitives.place(placement.transforms)
 
-    def _gradient(
-        self, x: Array, placement: Placement, placed: Placed[Primitives], response: Response
-    ) -> Array:
+    def _response(self, placed: Placed[Primitives], *, curvature: bool) -> Response:
+        parts = [similarity(placed, curvature=curvature) for similarity in self._similarities]
+        return reduce(Response.__add__, parts)
+
+    def _strains(self, placement: Placement) -> list[Strain]:
+        return [energy(placement.pose) for energy in self._joints]
+
+    def _value_and_force(
+        self,
+        placement: Placement,
+        placed: Placed[Primitives],
+        response: Response,
+        strains: list[Strain],
+    ) -> tuple[float, Array]:
         wrenches = placed.gather(response.wrenches, segments=len(placement.skeleton.names))
-        return self._coordinates.differential(x).T @ placement.pull_back(wrenches)
+        force = placement.pull_back(wrenches)
+        value = response.energy
+        for strain in strains:
+            force = force + strain.force
+            value += strain.energy
+        return value, force

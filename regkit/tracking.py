@@ -39,17 +39,18 @@ def tracked(
     Raises:
         RegkitError: If a frame cannot be read or registered; it says which.
     """
-    past = [start]
+    past = [Registered.given(start)]
+    follower = tracker.follow(registrar)
     for index, frame in enumerate(sequence.frames()):
         begun = time.perf_counter()
         try:
             observation = observer.observe(frame)
-            registered = tracker.step(registrar, observation, past)
+            registered = follower.step(observation, past)
             seconds = time.perf_counter() - begun
             _check_near(registrar.body, registered.pose, observation)
         except RegkitError as error:
             raise error.at(frame.place or f"{sequence.name}: frame {index}") from None
-        past.append(registered.pose)
+        past.append(registered)
         yield TrackedFrame(observation, registered, seconds)
 
 

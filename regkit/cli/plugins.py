@@ -15,11 +15,13 @@ from regkit.errors import PluginError
 from regkit.interfaces import SLOTS
 from regkit.model import did_you_mean
 from regkit.plugin import Plugin
+from regkit.preset import preset_file, presets_of
 
 
 def plugins(
     kind: Annotated[
-        str | None, typer.Argument(help="Show the fields of this plug-in, in every group.")
+        str | None,
+        typer.Argument(help="Show the fields of this plug-in, or the file of this preset."),
     ] = None,
     plugin: PluginFiles = None,
 ) -> None:
@@ -38,13 +40,22 @@ def plugins(
                 _distribution(origin),
             )
         table.add_section()
+        for name, point in presets_of(slot.group).items():
+            table.add_row("presets", name, _preset_summary(slot.group, name), _distribution(point))
+            table.add_section()
     output.print(table)
 
 
 def _print_fields(kind: str) -> None:
     named = [slot for slot in SLOTS if kind in slot.available()]
-    if not named:
-        kinds = [name for slot in SLOTS for name in slot.available()]
+    presets = [slot for slot in SLOTS if kind in presets_of(slot.group)]
+    for slot in presets:
+        file = preset_file(slot.group, kind)
+        output.print(f"# {file}", markup=False, highlight=False, soft_wrap=True)
+        text = file.read_text(encoding="utf-8")
+        output.print(text, markup=False, highlight=False, soft_wrap=True)
+    if not named and not presets:
+        kinds = [name for slot in SLOTS for name in (*slot.available(), *presets_of(slot.group))]
         raise PluginError(f"no plug-in '{kind}' in any group" + did_you_mean(kind, kinds))
     for slot in named:
         found = slot.load(kind)
@@ -65,6 +76,12 @@ def _summary(slot: type[Plugin], kind: str) -> str:
         return (slot.load(kind).__doc__ or "").strip().splitlines()[0]
     except PluginError as error:
         return f"broken: {error}"
+
+
+def _preset_summary(group: str, name: str) -> str:
+    """The first line of the comment at the top of a preset's file."""
+    first = preset_file(group, name).read_text(encoding="utf-8").splitlines()[0]
+    return escape(first.removeprefix("#").strip())
 
 
 def _distribution(origin: EntryPoint | type[Plugin]) -> str:

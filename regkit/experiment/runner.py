@@ -108,7 +108,7 @@ class _Task:
             self.sequence,
             self.experiment.observer,
             registrar,
-            self.experiment.tracker,
+            method.tracker or self.experiment.tracker,
             self.start.pose,
         ):
             frames.append(frame)

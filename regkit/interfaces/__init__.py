@@ -2,19 +2,24 @@
 
 from regkit.interfaces.dataset import Dataset, Sequence
 from regkit.interfaces.kernel import Kernel, Response, Similarity
-from regkit.interfaces.method import Method, Registered, Registrar
+from regkit.interfaces.method import Method
 from regkit.interfaces.observer import Observer
+from regkit.interfaces.registrar import Fit, Registered, Registrar
 from regkit.interfaces.shape import ShapeModel
 from regkit.interfaces.solver import Problem, Solution, Solver
 from regkit.interfaces.template import Template
-from regkit.interfaces.tracker import Tracker
+from regkit.interfaces.term import JointEnergy, Scene, Shares, Strain, Term
+from regkit.interfaces.tracker import Follower, Tracker
 
-SLOTS = (Dataset, Template, Observer, ShapeModel, Kernel, Solver, Method, Tracker)
+SLOTS = (Dataset, Template, Observer, ShapeModel, Kernel, Term, Solver, Tracker, Method)
 """Every group of plug-ins, in the order in which data passes them."""
 
 __all__ = [
     "SLOTS",
     "Dataset",
+    "Fit",
+    "Follower",
+    "JointEnergy",
     "Kernel",
     "Method",
     "Observer",
@@ -22,11 +27,15 @@ __all__ = [
     "Registered",
     "Registrar",
     "Response",
+    "Scene",
     "Sequence",
     "ShapeModel",
+    "Shares",
     "Similarity",
     "Solution",
     "Solver",
+    "Strain",
     "Template",
+    "Term",
     "Tracker",
 ]

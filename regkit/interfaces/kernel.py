@@ -28,6 +28,13 @@ class Response:
     wrenches: Array
     stiffness: Array | None = None
 
+    def __add__(self, other: Response) -> Response:
+        """The sum of two energies of the same primitives; it has blocks if both have."""
+        stiffness = None
+        if self.stiffness is not None and other.stiffness is not None:
+            stiffness = self.stiffness + other.stiffness
+        return Response(self.energy + other.energy, self.wrenches + other.wrenches, stiffness)
+
 
 class Similarity(ABC):
     """A kernel bound to the data of one frame."""
@@ -35,6 +42,10 @@ class Similarity(ABC):
     @abstractmethod
     def __call__(self, placed: Placed[Any], *, curvature: bool = False) -> Response:
         """The energy of primitives in the world, its derivative, and the stiffness if asked for."""
+
+    def explained(self, placed: Placed[Any]) -> Array | None:
+        """How far the primitives explain each point, (N,), from 0 to 1; None if it cannot tell."""
+        return None
 
 
 class Kernel(Plugin, ABC):

@@ -5,19 +5,29 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 
-from regkit.interfaces.method import Registered, Registrar
+from regkit.interfaces.registrar import Registered, Registrar
 from regkit.observation import Observation
 from regkit.plugin import Plugin
-from regkit.skeleton import Pose
+
+
+class Follower(ABC):
+    """A tracker made ready for one registrar."""
+
+    @abstractmethod
+    def step(self, observation: Observation, past: Sequence[Registered]) -> Registered:
+        """The pose in the next frame.
+
+        Args:
+            observation: The frame's data.
+            past: What was found before; it begins with the start, and is an argument, not a state.
+        """
 
 
 class Tracker(Plugin, ABC):
-    """Registers a frame with what the past frames tell; the past is an argument, not a state."""
+    """A way from frame to frame."""
 
     group = "regkit.trackers"
 
     @abstractmethod
-    def step(
-        self, registrar: Registrar, observation: Observation, past: Sequence[Pose]
-    ) -> Registered:
-        """The pose in the next frame; ``past`` ends with the last pose, at first the start."""
+    def follow(self, registrar: Registrar) -> Follower:
+        """Do once what does not depend on the frame."""

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from regkit.arrays import Array
-from regkit.rotation import skew, to_matrix, vector_to_matrix
+from regkit.rotation import cross, from_vector, skew, to_matrix
 from regkit.skeleton.pose import Pose
 from regkit.skeleton.skeleton import Skeleton
 
@@ -32,23 +33,26 @@ class Placement:
 
     @classmethod
     def of(cls, skeleton: Skeleton, pose: Pose) -> Placement:
-        """Where a pose puts every link, eq. 4: T_l = T_par(l) R_l, level by level of the tree."""
-        local = skeleton.link_offsets.copy()
-        hinges = vector_to_matrix(pose.hinges[:, None] * skeleton.hinge_axes)
-        turned = np.concatenate([skeleton.ball_links, skeleton.hinge_links])
-        local[turned, :3, :3] = local[turned, :3, :3] @ np.concatenate(
-            [to_matrix(pose.balls), hinges]
+        """Where a pose puts every link, eq. 4: T_l = T_par(l) R_l, level by level of the tree.
+
+        The joints of the pose may have leading dimensions, for many poses at once; so have then the
+        links and the transforms.
+        """
+        local = np.tile(skeleton.link_offsets, (*pose.hinges.shape[:-1], 1, 1, 1))
+        turns = np.concatenate(
+            [pose.balls, from_vector(pose.hinges[..., None] * skeleton.hinge_axes)], axis=-2
         )
+        local[..., skeleton.turned_links, :3, :3] @= to_matrix(turns)
         links = np.empty_like(local)
-        links[0] = pose.root @ local[0]
-        for level in skeleton.levels:
-            links[level] = links[skeleton.link_parents[level]] @ local[level]
+        links[..., 0, :, :] = pose.root @ local[..., 0, :, :]
+        for level, parents in zip(skeleton.levels, skeleton.level_parents, strict=True):
+            links[..., level, :, :] = links[..., parents, :, :] @ local[..., level, :, :]
         return cls(skeleton, pose, links)
 
     @property
     def transforms(self) -> Array:
         """T_world_segment, (S, 4, 4)."""
-        return self.links[self.skeleton.segment_links]
+        return self.links[..., self.skeleton.segment_links, :, :]
 
     def twists(self) -> Array:
         """The world twist about the reference of each degree of freedom at unit rate, (n, 6)."""
@@ -63,7 +67,7 @@ class Placement:
             (hinges[:, :3, :3] @ bones.hinge_axes[:, :, None])[:, :, 0],
         ])  # fmt: skip
         centres = np.concatenate([np.repeat(balls[:, :3, 3], 3, axis=0), hinges[:, :3, 3]])
-        twists[bones.ball_freedoms.start :, :3] = np.cross(centres - self._reference, axes)
+        twists[bones.ball_freedoms.start :, :3] = cross(centres - self._reference, axes)
         twists[bones.ball_freedoms.start :, 3:] = axes
         return twists
 
@@ -73,25 +77,20 @@ class Placement:
         If the wrenches are an energy's derivative to the segments' motion, this is its derivative
         to the steps that ``Skeleton.retract`` takes, at a zero step.
         """
-        about_reference = wrenches.copy()
-        about_reference[:, 3:] += np.cross(self._arms, wrenches[:, :3])
-        # A degree of freedom feels all the segments that it moves: one masked matrix product.
-        felt = self.skeleton.moves @ about_reference
-        return np.asarray((self.twists() * felt).sum(axis=1))
+        return np.asarray(wrenches.ravel() @ self.jacobian.reshape(-1, self.skeleton.freedoms))
 
     def normal_matrix(self, stiffness: Array) -> Array:
         """The Gauss-Newton matrix (n, n) of (S, 6, 6) blocks about the segments' origins."""
-        jacobian = self.jacobian()
-        loaded = stiffness @ jacobian
         freedoms = self.skeleton.freedoms
-        return np.asarray(jacobian.reshape(-1, freedoms).T @ loaded.reshape(-1, freedoms))
+        loaded = stiffness @ self.jacobian
+        return np.asarray(self.jacobian.reshape(-1, freedoms).T @ loaded.reshape(-1, freedoms))
 
+    @cached_property
     def jacobian(self) -> Array:
         """The twist about its own origin of each segment, by each degree of freedom, (S, 6, n)."""
         twists = self.twists()
-        about_reference = twists.T[None] * self.skeleton.moves.T[:, None, :]
-        jacobian = about_reference.copy()
-        jacobian[:, :3] -= skew(self._arms) @ about_reference[:, 3:]
+        jacobian = twists.T[None] * self.skeleton.moves.T[:, None, :]
+        jacobian[:, :3] -= skew(self._arms) @ jacobian[:, 3:]
         return jacobian
 
     @property

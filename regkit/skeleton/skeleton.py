@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -63,6 +64,16 @@ class Skeleton:
     moves: Array
     limits: Limits
 
+    @cached_property
+    def turned_links(self) -> Indices:
+        """The links of all ball joints, then those of all hinges."""
+        return np.concatenate([self.ball_links, self.hinge_links])
+
+    @cached_property
+    def level_parents(self) -> tuple[Indices, ...]:
+        """The parents of the links at each of ``levels``."""
+        return tuple(self.link_parents[level] for level in self.levels)
+
     @property
     def freedoms(self) -> int:
         """Number n of degrees of freedom."""
@@ -106,6 +117,41 @@ class Skeleton:
         ]
         return np.concatenate([*(root if self.free else []), turns, end.hinges - start.hinges])
 
+    def violations(self, pose: Pose) -> tuple[Array, Array]:
+        """How far each limit is violated, (R,) [rad], and the derivative to the freedoms (R, n)."""
+        violations, balls, hinges = self.limits.slopes(pose)
+        jacobian = np.zeros((len(violations), self.freedoms))
+        count = len(self.ball_links)
+        columns = self.ball_freedoms.start + np.arange(3 * count).reshape(count, 3)
+        rows = np.arange(count)
+        jacobian[rows[:, None], columns] = balls[0]
+        jacobian[count + rows[:, None], columns] = balls[1]
+        own = np.arange(len(hinges))
+        jacobian[2 * count + own, self.hinge_freedoms.start + own] = hinges
+        return violations, jacobian
+
+    def rigid_groups(self) -> Indices:
+        """For each segment the first one that it is rigidly tied to, (S,): itself if it moves."""
+        groups = np.arange(len(self.names))
+        for segment, name in enumerate(self.names):
+            if self.parents[segment] >= 0 and name not in self.joint_freedoms:
+                groups[segment] = groups[self.parents[segment]]
+        return groups
+
+    def freedoms_of(self, joint: str) -> Indices:
+        """The degrees of freedom of a segment's own joint.
+
+        Raises:
+            ConfigError: If there is no such joint, or it does not move.
+        """
+        if joint not in self.joint_freedoms:
+            known = list(self.joint_freedoms)
+            raise ConfigError(
+                f"there is no joint '{joint}' (there are: {', '.join(known)})"
+                + did_you_mean(joint, known)
+            )
+        return self.joint_freedoms[joint]
+
     def pose(self, description: PoseDescription) -> Pose:
         """The pose that a person wrote down in degrees.
 
@@ -117,15 +163,9 @@ class Skeleton:
             np.array(description.root.position),
         )
         pose = self.rest(root)
-        angles_of = self.joint_freedoms
         for name, angles in description.joints.items():
-            if name not in angles_of:
-                raise ConfigError(
-                    f"a pose turns '{name}', which has no joint (there are: {', '.join(angles_of)})"
-                    + did_you_mean(name, list(angles_of))
-                )
             values = np.radians(np.atleast_1d(angles))
-            where = angles_of[name]
+            where = self.freedoms_of(name)
             if len(values) != len(where):
                 raise ConfigError(
                     f"a pose gives {len(values)} angles for '{name}', which has {len(where)}"

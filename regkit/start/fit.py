@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -10,6 +11,7 @@ from scipy.optimize import least_squares
 from regkit.arrays import Array
 from regkit.body import Body
 from regkit.coordinates import TangentCoordinates
+from regkit.rotation import cross
 from regkit.skeleton import Placement, Pose
 from regkit.start.scan import Gaps, Scan
 
@@ -17,29 +19,41 @@ STIFFNESS = 0.05
 """Weight of a joint's turn [rad] against a gap [reach]: what nothing pulls keeps its stance."""
 
 
-def fitted(
-    scan: Scan, body: Body, pose: Pose, reaches: Sequence[float], *, evaluations: int = 10
-) -> Pose:
+@dataclass(frozen=True)
+class Stage:
+    """One fit of several, from far to near and from stiff to loose.
+
+    Attributes:
+        reach: Gaps much larger than this [m] hardly count.
+        stiffness: Weight of a joint's turn [rad] against a gap [reach].
+        evaluations: How often the gaps are looked at, at most.
+    """
+
+    reach: float
+    stiffness: float = STIFFNESS
+    evaluations: int = 10
+
+
+def fitted(scan: Scan, body: Body, pose: Pose, stages: Iterable[Stage]) -> Pose:
     """The pose of least gaps near ``pose``, its hinges within their limits.
 
     Args:
         scan: The cloud.
         body: What is fitted.
         pose: Where to begin.
-        reaches: Gaps much larger than this [m] hardly count; annealing takes several, falling ones.
-        evaluations: How often the gaps are looked at, at most, for each reach.
+        stages: One fit after the other, each from where the last one ended.
     """
-    for reach in reaches:
-        pose = _fitted(scan, body, pose, reach, evaluations)
+    for stage in stages:
+        pose = _fitted(scan, body, pose, stage)
     return pose
 
 
-def _fitted(scan: Scan, body: Body, pose: Pose, reach: float, evaluations: int) -> Pose:
+def _fitted(scan: Scan, body: Body, pose: Pose, stage: Stage) -> Pose:
     coordinates = TangentCoordinates(body.skeleton, pose)
     lower, upper = coordinates.bounds()
     # SciPy wants some room between the bounds, even for a hinge that is not to move.
     room = np.where(upper - lower < 1e-9, 1e-9, 0.0)
-    gaps = _GapsAt(scan, body, coordinates, reach)
+    gaps = _GapsAt(scan, body, coordinates, stage)
     solution = least_squares(
         gaps.residuals,
         coordinates.origin(),
@@ -48,7 +62,7 @@ def _fitted(scan: Scan, body: Body, pose: Pose, reach: float, evaluations: int) 
         # The default method leaves a bound on which it starts by tiny steps only.
         method="dogbox",
         loss="soft_l1",
-        max_nfev=evaluations,
+        max_nfev=stage.evaluations,
     )
     return coordinates.pose(solution.x)
 
@@ -57,11 +71,12 @@ class _GapsAt:
     """Residuals and their Jacobian, which SciPy asks for one after the other at the same point."""
 
     def __init__(
-        self, scan: Scan, body: Body, coordinates: TangentCoordinates, reach: float
+        self, scan: Scan, body: Body, coordinates: TangentCoordinates, stage: Stage
     ) -> None:
-        self._scan, self._body, self._coordinates, self._reach = scan, body, coordinates, reach
+        self._scan, self._body, self._coordinates = scan, body, coordinates
+        self._reach = stage.reach
         joints = slice(6 if body.skeleton.free else 0, None)
-        self._spring = (STIFFNESS * np.eye(body.skeleton.freedoms))[joints]
+        self._spring = (stage.stiffness * np.eye(body.skeleton.freedoms))[joints]
         self._last: tuple[Array, tuple[Array, Array]] | None = None
 
     def residuals(self, x: Array) -> Array:
@@ -99,7 +114,7 @@ def _weight(side: Gaps) -> float:
 
 def _rows(side: Gaps, placement: Placement) -> Array:
     """The derivative (R, n) of the gaps to the degrees of freedom."""
-    jacobian = placement.jacobian()[side.segments]
+    jacobian = placement.jacobian[side.segments]
     arms = side.points - placement.transforms[side.segments, :3, 3]
-    wrenches = np.concatenate([side.directions, np.cross(arms, side.directions)], axis=1)
+    wrenches = np.concatenate([side.directions, cross(arms, side.directions)], axis=1)
     return np.asarray((wrenches[:, None, :] @ jacobian)[:, 0])

@@ -12,7 +12,7 @@ from regkit.interfaces import Template
 from regkit.observation import Observation
 from regkit.optional import one_blas_thread
 from regkit.skeleton import Pose, PoseDescription
-from regkit.start.fit import fitted
+from regkit.start.fit import STIFFNESS, Stage, fitted
 from regkit.start.guesses import Candidate, guesses
 from regkit.start.scan import Scan
 
@@ -23,11 +23,21 @@ FAR, NEAR = 3.0, 0.4
 """Parts of the reach: the far one sees limbs in the wrong place, the near one a wrong shape, unless
 noise hides it."""
 
+COARSE = ((FAR, 5.0), (1.0, 5.0), (1.0, 1.0), (1.0, 0.2), (1.0, STIFFNESS))
+"""Reach and stiffness of the first fits: as a whole at first, then joint by joint, for parallel
+fingers are taken for one another if they move before the hand lies right."""
+
+FINE = ((1.0, STIFFNESS), (NEAR, STIFFNESS))
+"""Reach and stiffness of the last fits."""
+
 LIKELY = 12
 """How many guesses are fitted, in a middle size."""
 
 FINALISTS = 3
 """How many of these are fitted in every candidate size."""
+
+REFINEMENTS = 2
+"""How often the steps between sizes are halved about the best one."""
 
 
 @dataclass(frozen=True)
@@ -61,8 +71,8 @@ def found_start(template: Template, observation: Observation) -> Start:
 
     Every likely stance is placed at the cloud's centre, facing the camera, in every turn. The best
     of these guesses are fitted to the cloud; those that then fit best are fitted in every
-    candidate size, annealed from far to near, and the best fit is kept. Shape models, kernels and
-    solvers play no part, so that all methods begin alike.
+    candidate size, annealed from far to near, and from the best fit on in sizes between these.
+    Shape models, kernels and solvers play no part, so that all methods begin alike.
 
     Args:
         template: What is seen, perhaps of unknown size.
@@ -86,26 +96,48 @@ def _found_start(template: Template, scan: Scan) -> Start:
     bodies = [template.body(size) for size in template.candidate_sizes()]
     usual = bodies[len(bodies) // 2]
     rough = sorted(guesses(scan, usual, FAR * REACH * usual.size), key=_misfit)[:LIKELY]
-    coarse = sorted((_fit(scan, usual, guess.pose, (FAR, 1.0)) for guess in rough), key=_misfit)
+    coarse = [_fit(scan, usual, guess.pose, usual.size, COARSE) for guess in rough]
     fine = [
-        _fit(scan, body, finalist.pose, (1.0, NEAR))
-        for finalist in coarse[:FINALISTS]
+        _fit(scan, body, finalist.pose, usual.size, FINE)
+        for finalist in sorted(coarse, key=_misfit)[:FINALISTS]
         for body in bodies
     ]
-    # An unusual size has to fit a little better, for noise makes every cloud somewhat larger.
-    best = min(fine, key=lambda c: c.misfit + np.log(c.body.size / usual.size) ** 2)
+    best = min(fine, key=_misfit)
+    if len(bodies) > 1:
+        best = _resized(scan, template, best, [body.size for body in bodies])
     return Start(best.body, best.pose)
 
 
-def _fit(scan: Scan, body: Body, pose: Pose, annealing: tuple[float, ...]) -> Candidate:
-    """A body fitted from a pose; it is judged from far to near, and by its joints."""
-    reach = REACH * body.size
-    found = fitted(scan, body, pose, [part * reach for part in annealing])
+def _resized(scan: Scan, template: Template, best: Candidate, sizes: list[float]) -> Candidate:
+    """The best fit of sizes between the candidates', halving their distance again and again."""
+    ratio = sizes[1] / sizes[0]
+    for _ in range(REFINEMENTS):
+        ratio = np.sqrt(ratio)
+        near = np.clip([best.body.size / ratio, best.body.size * ratio], sizes[0], sizes[-1])
+        bodies = [template.body(float(size)) for size in near]
+        usual = sizes[len(sizes) // 2]
+        best = min(
+            [best, *(_fit(scan, body, best.pose, usual, FINE) for body in bodies)], key=_misfit
+        )
+    return best
+
+
+def _fit(
+    scan: Scan, body: Body, pose: Pose, usual: float, annealing: tuple[tuple[float, float], ...]
+) -> Candidate:
+    """A body fitted from a pose; it is judged from far to near, by its joints and by its size.
+
+    All sizes are judged by the reach of the usual one, for a longer reach forgives more. A cloud
+    that does not tell the size, of a person who sits, say, is taken to be of the usual one.
+    """
+    reach = REACH * usual
+    found = fitted(scan, body, pose, [Stage(part * reach, stiff) for part, stiff in annealing])
     placement = body.place(found)
     misfits = [scan.misfit(body, placement, part * reach) for part in (FAR, 1.0, NEAR)]
     # A body of the wrong size fits as well as the right one if its joints may bend as they cannot.
     strain = float(body.skeleton.limits.violation(found).max(initial=0.0))
-    return Candidate(body, found, float(np.mean(misfits)) + strain)
+    unusual = float(np.log(body.size / usual) ** 2)
+    return Candidate(body, found, float(np.mean(misfits)) + strain + unusual)
 
 
 def _misfit(candidate: Candidate) -> float:

@@ -2,11 +2,13 @@
 
 import json
 import shutil
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, NamedTuple
 
 from regkit.experiment.runner import Progress
-from regkit.interfaces import Registered, Tracker
+from regkit.interfaces import Follower, Registered, Registrar, Tracker
 from regkit.plugin import register
 
 EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
@@ -72,6 +74,18 @@ def add_method(experiment: Path, name: str, shape: str) -> None:
         stream.write(ANOTHER.format(name=name, shape=shape))
 
 
+@dataclass(frozen=True)
+class Stepping(Follower):
+    """Holds the last pose, after something was done."""
+
+    registrar: Registrar
+    before: Callable[[], object]
+
+    def step(self, observation, past) -> Registered:
+        self.before()
+        return self.registrar.register(observation, past[-1].pose)
+
+
 def counting() -> list[str]:
     """Register the tracker ``counting``, and return the list that grows with each of its steps."""
     steps: list[str] = []
@@ -82,9 +96,8 @@ def counting() -> list[str]:
 
         kind: Literal["counting"] = "counting"
 
-        def step(self, registrar, observation, past) -> Registered:
-            steps.append(type(registrar.method.shape).__name__)
-            return registrar.register(observation, past[-1])
+        def follow(self, registrar) -> Follower:
+            return Stepping(registrar, lambda: steps.append(type(registrar.method.shape).__name__))
 
     return steps
 

@@ -75,8 +75,15 @@ def test_plugins_lists_those_of_a_file(regkit, tmp_path):
 MINE = '''
 from typing import Literal
 
-from regkit.interfaces import Registered, Tracker
+from regkit.interfaces import Follower, Registered, Tracker
 from regkit.plugin import register
+
+
+class Staying(Follower):
+    """Gives back the start."""
+
+    def step(self, observation, past):
+        return Registered.given(past[0].pose)
 
 
 @register
@@ -85,8 +92,8 @@ class Stay(Tracker):
 
     kind: Literal["stay"] = "stay"
 
-    def step(self, registrar, observation, past):
-        return Registered(past[0], 0.0, True, 0, 0, "stayed")
+    def follow(self, registrar):
+        return Staying()
 '''
 
 
@@ -186,7 +193,7 @@ def test_validate_tells_every_file_and_fails_if_one_is_wrong(regkit, tmp_path, l
         (b"\xff\xfe\xfd", "FILE: cannot be read as text"),
         ("segments: {a: {joint: {type: free}}}\nstances: {odd: {joints: {b: 1}}}\ntitle: x\n"
          "size: {name: y, value: 1, range: [1, 2]}\n",
-         "stances.odd of wrong: a pose turns 'b', which has no joint"),
+         "stances.odd of wrong: there is no joint 'b'"),
     ],
 )  # fmt: skip
 def test_file_that_is_wrong_is_told(regkit, tmp_path, text, expected):

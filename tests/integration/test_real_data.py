@@ -41,8 +41,8 @@ def test_start_of_people_is_found_within_the_reference_accuracy(reference_data: 
         start = found_start(Human(), observation)
         markers = start.body.markers.place(start.body.place(start.pose).transforms)
         truth = sequence.truth()
-        columns = [truth.joints.index(name) for name in start.body.markers.names]
-        distances = np.linalg.norm(markers - truth.positions[0, columns], axis=1)
+        chosen = [start.body.markers.names.index(name) for name in truth.joints]
+        distances = np.linalg.norm(markers[chosen] - truth.positions[0], axis=1)
         errors[sequence.name] = float(distances.mean())
         assert median_to_surface(start.body, start.pose, observation) < 0.02
     print("mean distance to the reference joints [m]:", errors)
@@ -87,13 +87,14 @@ def test_person_is_tracked_through_real_sequences(regkit, reference_data: Path, 
     )
     assert ended.code == 0
     metrics = json.loads((tmp_path / "out" / "metrics.json").read_text())
-    sequences = metrics["methods"]["gsog"]["sequences"]
+    sequences = metrics["methods"]["best"]["sequences"]
     assert sorted(sequences) == ["a1_s1_t1", "a6_s2_t1"]
     for name, figures in sequences.items():
         print(name, figures)
         assert figures["frames"] == 20
-        assert 0.0 < figures["within_10cm_percent"] <= 100.0
-        assert figures["surface_distance_mm"] < 100.0
+        assert figures["within_10cm_percent"] > 70.0
+        assert figures["within_10cm_adjusted_percent"] > 90.0
+        assert figures["surface_distance_mm"] < 20.0
 
 
 @pytest.mark.slow

@@ -7,11 +7,12 @@ import pytest
 from small_experiment import (
     FRAMES,
     QUICK,
+    Stepping,
     add_method,
     counting,
 )
 
-from regkit.interfaces import Registered, Tracker
+from regkit.interfaces import Follower, Tracker
 from regkit.plugin import register
 
 
@@ -58,11 +59,13 @@ def test_interrupted_run_is_completed_later(regkit, files):
 
         kind: Literal["impatient"] = "impatient"
 
-        def step(self, registrar, observation, past) -> Registered:
-            steps.append("")
-            if len(steps) == FRAMES + 2:
-                raise KeyboardInterrupt
-            return registrar.register(observation, past[-1])
+        def follow(self, registrar) -> Follower:
+            def grow_impatient() -> None:
+                steps.append("")
+                if len(steps) == FRAMES + 2:
+                    raise KeyboardInterrupt
+
+            return Stepping(registrar, grow_impatient)
 
     arguments = ("run", files.experiment, "--out", files.out, "--set", "tracker=impatient")
     ended = regkit(*arguments)

@@ -2,10 +2,10 @@
 
 from typing import Literal
 
-from small_experiment import QUICK, add_method, counting, damage
+from small_experiment import QUICK, Stepping, add_method, counting, damage
 
 from regkit.errors import DataError
-from regkit.interfaces import Registered, Tracker
+from regkit.interfaces import Follower, Tracker
 from regkit.plugin import register
 
 
@@ -58,10 +58,12 @@ def test_method_that_fails_does_not_stop_the_others(regkit, files):
 
         kind: Literal["picky"] = "picky"
 
-        def step(self, registrar, observation, past) -> Registered:
-            if registrar.method.shape.kind == "gsog":
-                raise DataError("not to my taste")
-            return registrar.register(observation, past[-1])
+        def follow(self, registrar) -> Follower:
+            def taste() -> None:
+                if registrar.method.shape.kind == "gsog":
+                    raise DataError("not to my taste")
+
+            return Stepping(registrar, taste)
 
     add_method(files.experiment, "sog", "sog")
     ended = regkit("run", files.experiment, "--out", files.out, "--set", "tracker=picky", *QUICK)
@@ -127,7 +129,9 @@ def test_start_that_does_not_fit_the_template_is_told_before_the_run(regkit, fil
     )
     files.experiment.write_text(text)
     ended = regkit("run", files.experiment, "--out", files.out)
-    assert ended.err.startswith(f"error: {files.experiment}:5: start: a pose turns 'left_shinn'")
+    assert ended.err.startswith(
+        f"error: {files.experiment}:5: start: there is no joint 'left_shinn'"
+    )
     assert "did you mean 'left_shin'?" in ended.err
     assert not files.out.exists()
 

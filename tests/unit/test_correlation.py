@@ -108,7 +108,7 @@ def test_gradient_agrees_with_finite_differences(linkage, random, shape, name, b
     data = Observation(data.points + start.root[:3, 3], data.weights, data.variances)
     coordinates = COORDINATES[name](bones, start)
     problem = RegistrationProblem(
-        coordinates, primitives, Correlation().against(data, placed, blur=blur)
+        coordinates, primitives, [Correlation().against(data, placed, blur=blur)]
     )
     x = problem.start + 0.3 * random.normal(size=len(problem.start))
     _, gradient = problem.value_and_gradient(x)

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from PIL import Image
 from scipy.io import savemat
+from scipy.spatial import KDTree
 
 from regkit.camera import Camera
 from regkit.errors import ConfigError, DataError, RegkitError
@@ -399,8 +400,33 @@ def test_utd_is_turned_round_as_a_whole(tmp_path):
     assert (pixels[:, 1].min(), pixels[:, 1].max()) == pytest.approx((100, 119))
     truth = found.truth()
     assert truth.joints == JOINTS
+    # The skeletons are one and a half frames ahead, so that both images have the first one.
     for index in range(2):
-        np.testing.assert_allclose(truth.positions[index], joints[:, :, index] * [-1, -1, 1])
+        np.testing.assert_allclose(truth.positions[index], joints[:, :, 0] * [-1, -1, 1])
+    (plain,) = UtdMhad(root=tmp_path, skeleton_lead=0.0).chosen()
+    (half,) = UtdMhad(root=tmp_path, skeleton_lead=0.5).chosen()
+    stored = np.moveaxis(joints, 2, 0) * [-1, -1, 1]
+    np.testing.assert_allclose(plain.truth().positions, stored)
+    np.testing.assert_allclose(half.truth().positions[1], stored.mean(axis=0))
+
+
+def test_utd_joints_of_moving_arms_fit_the_images_best_with_the_lead(utd):
+    """Measured on the images alone: how far wrists and hands are from the nearest point."""
+    arms = [JOINTS.index(name) for name in ("left_wrist", "left_hand", "right_wrist", "right_hand")]
+
+    def gap(sequence) -> float:
+        distances = [
+            KDTree(frame.points).query(joints[arms])[0].mean()
+            for frame, joints in zip(sequence.frames(), sequence.truth().positions, strict=True)
+        ]
+        return float(np.mean(distances))
+
+    for name in ("a7_s1_t1", "a9_s2_t1"):
+        gaps = {
+            lead: gap(UtdMhad(root=utd, sequences=(name,), skeleton_lead=lead).chosen()[0])
+            for lead in (0.0, 1.5, 3.0)
+        }
+        assert gaps[1.5] < 0.85 * min(gaps[0.0], gaps[3.0])
 
 
 def test_utd_joints_are_twenty_in_the_order_of_the_kinect():

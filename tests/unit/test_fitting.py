@@ -8,12 +8,11 @@ import pytest
 from regkit.body import BodyDescription
 from regkit.document import Document
 from regkit.rotation import vector_to_matrix
-from regkit_plugins.fitting import human_limits
 from regkit_plugins.fitting.__main__ import texts
 from regkit_plugins.fitting.capsules import Piece, fitted
 from regkit_plugins.fitting.flesh import Flesh, closed, interior_points
 from regkit_plugins.fitting.moments import balls, gaussian, symmetric_balls
-from regkit_plugins.fitting.writing import template_text
+from regkit_plugins.fitting.texts import human_text
 from regkit_plugins.templates.reading import FOLDER
 
 CUBE = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
@@ -85,10 +84,10 @@ def test_fitted_capsule_finds_a_capsule() -> None:
     np.testing.assert_allclose(found.radius, [0.05, 0.05], atol=1e-3)
 
 
-def test_template_text_reads_back_as_the_same_template(tmp_path: Path) -> None:
+def test_human_text_reads_back_as_the_same_template(tmp_path: Path) -> None:
     body = Document.read(FOLDER / "human.yaml").validated(BodyDescription)
     path = tmp_path / "again.yaml"
-    path.write_text(template_text(body, human_limits.OPENING, human_limits.COMMENTS))
+    path.write_text(human_text(body))
     assert path.read_text() == (FOLDER / "human.yaml").read_text()
     assert Document.read(path).validated(BodyDescription) == body
 

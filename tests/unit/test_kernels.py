@@ -51,7 +51,7 @@ def test_gradient_agrees_with_finite_differences(linkage, random, kernel, shape,
     placed = primitives.place(linkage.place(start).transforms)
     chart = COORDINATES[coordinates](linkage.skeleton, start)
     similarity = kernel.against(data, placed, blur=0.01)
-    problem = RegistrationProblem(chart, primitives, similarity)
+    problem = RegistrationProblem(chart, primitives, [similarity])
     x = problem.start + 0.2 * random.normal(size=len(problem.start))
     value, gradient = problem.value_and_gradient(x)
     numerical = [

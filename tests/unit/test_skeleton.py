@@ -65,7 +65,7 @@ def test_universal_joint_turns_the_second_axis_with_the_first(linkage):
 def test_jacobian_is_the_derivative_of_place(linkage, random):
     bones = linkage.skeleton
     pose = random_pose(linkage, random)
-    jacobian = linkage.place(pose).jacobian()
+    jacobian = linkage.place(pose).jacobian
     step = 1e-6
     for column, direction in enumerate(np.eye(bones.freedoms)):
         ahead = linkage.place(bones.retract(pose, step * direction)).transforms
@@ -80,7 +80,7 @@ def test_jacobian_is_the_derivative_of_place(linkage, random):
 def test_pull_back_is_the_transposed_jacobian(linkage, random):
     placement = linkage.place(random_pose(linkage, random))
     wrenches = random.normal(size=(len(linkage.skeleton.names), 6))
-    expected = np.einsum("sin,si->n", placement.jacobian(), wrenches)
+    expected = np.einsum("sin,si->n", placement.jacobian, wrenches)
     np.testing.assert_allclose(placement.pull_back(wrenches), expected, atol=1e-12)
 
 
@@ -88,7 +88,7 @@ def test_normal_matrix_sums_the_blocks(linkage, random):
     placement = linkage.place(random_pose(linkage, random))
     factors = random.normal(size=(len(linkage.skeleton.names), 6, 6))
     stiffness = factors @ np.swapaxes(factors, 1, 2)
-    jacobian = placement.jacobian()
+    jacobian = placement.jacobian
     expected = np.einsum("sin,sij,sjm->nm", jacobian, stiffness, jacobian)
     np.testing.assert_allclose(placement.normal_matrix(stiffness), expected, atol=1e-10)
 

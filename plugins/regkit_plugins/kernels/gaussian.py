@@ -9,7 +9,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from regkit.arrays import Array
+from regkit.arrays import Array, Indices
 from regkit.interfaces import Response, Similarity
 from regkit.observation import Observation
 from regkit.primitives import Gaussians, Placed
@@ -65,10 +65,10 @@ class GaussianSimilarity(Similarity):
         # The features of pairs cancel badly far from the origin.
         self._centre = observation.points.mean(axis=0)
         points = observation.points - self._centre
-        variances, group = np.unique(observation.variances, return_inverse=True)
+        variances, self._group_of = _distinct(observation.variances)
         self._groups = [
             self._group(float(variance) + blur**2, points[own], data_weights[own])
-            for variance, own in ((v, group == g) for g, v in enumerate(variances))
+            for variance, own in ((v, self._group_of == g) for g, v in enumerate(variances))
         ]
 
     @abstractmethod
@@ -79,18 +79,33 @@ class GaussianSimilarity(Similarity):
         which the moments hold anyway.
         """
 
+    @abstractmethod
+    def explains(self, densities: Array, data_weights: Array) -> Array:
+        """How far densities (K, N), which hold the data weights (N,) already, explain each point.
+
+        Returns:
+            (N,), from 0 to 1.
+        """
+
+    def explained(self, placed: Placed[Gaussians]) -> Array:
+        """How far the primitives explain each point, (N,), from 0 to 1."""
+        view = self._view(placed)
+        explained = np.empty(len(self._group_of))
+        for index, group in enumerate(self._groups):
+            densities, _ = self._densities(group, view)
+            explained[self._group_of == index] = self.explains(densities, group.weights)
+        return explained
+
     def __call__(self, placed: Placed[Gaussians], *, curvature: bool = False) -> Response:
         """The energy, the wrenches about the primitives' centres, and the Gauss-Newton blocks."""
-        view = seen(placed, self._camera) if not self._frozen else self._moved(placed)
+        view = self._view(placed)
         levers = placed.centres - view.means if curvature else None
         parts = [self._part(group, view, levers) for group in self._groups]
-        return reduce(_together, parts)
+        return reduce(Response.__add__, parts)
 
     def _part(self, group: _Group, view: Seen, levers: Array | None) -> Response:
         """What the data of one variance contribute."""
-        precisions = view.precisions(group.variance)
-        log_scales = group.log_scales if view.rigid else self._log_scales(view, precisions)
-        densities = group.pairs.densities(view.means - self._centre, precisions, log_scales)
+        densities, precisions = self._densities(group, view)
         energy = self.weigh(densities, group.weights)
         moments = group.pairs.moments(densities, precisions)
         return Response(
@@ -98,6 +113,13 @@ class GaussianSimilarity(Similarity):
             wrenches=view.wrenches(moments, self.volume_power),
             stiffness=None if levers is None else moments.stiffness(levers),
         )
+
+    def _densities(self, group: _Group, view: Seen) -> tuple[Array, Array]:
+        """Densities (K, N) of the data of one variance, and the precisions (K, 3, 3) they have."""
+        precisions = view.precisions(group.variance)
+        log_scales = group.log_scales if view.rigid else self._log_scales(view, precisions)
+        means = view.means - self._centre
+        return group.pairs.densities(means, precisions, log_scales), precisions
 
     def _group(self, variance: float, points: Array, weights: Array) -> _Group:
         precisions = self._seen_at_start.precisions(variance)
@@ -109,13 +131,15 @@ class GaussianSimilarity(Similarity):
         logarithms = np.log(np.linalg.det(precisions)) + log_volumes
         return np.asarray(self._log_weights + 0.5 * logarithms)
 
-    def _moved(self, placed: Placed[Gaussians]) -> Seen:
-        return Frozen.of(self._seen_at_start, placed.centres - self._start.centres)
+    def _view(self, placed: Placed[Gaussians]) -> Seen:
+        if self._frozen:
+            return Frozen.of(self._seen_at_start, placed.centres - self._start.centres)
+        return seen(placed, self._camera)
 
 
-def _together(one: Response, other: Response) -> Response:
-    """The sum of two energies."""
-    stiffness = None
-    if one.stiffness is not None and other.stiffness is not None:
-        stiffness = one.stiffness + other.stiffness
-    return Response(one.energy + other.energy, one.wrenches + other.wrenches, stiffness)
+def _distinct(values: Array) -> tuple[Array, Indices]:
+    """The distinct values, and which of them each value (N,) is; equal ones need no sorting."""
+    if (values == values[0]).all():
+        return values[:1], np.zeros(len(values), dtype=np.intp)
+    distinct, which = np.unique(values, return_inverse=True)
+    return distinct, which

@@ -64,6 +64,11 @@ class LikelihoodSimilarity(GaussianSimilarity):
         densities *= data_weights / total
         return -float(data_weights @ np.log(total / data_weights))
 
+    def explains(self, densities: Array, data_weights: Array) -> Array:
+        """The share of each point that is no outlier's."""
+        total = densities.sum(axis=0)
+        return np.asarray(total / (total + self._background * data_weights))
+
 
 def _box_volume(observation: Observation) -> float:
     """Volume [m^3] of the data's box; a flat cloud is taken to be a tenth as deep as long."""

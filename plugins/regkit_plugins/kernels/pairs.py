@@ -99,18 +99,32 @@ class Moments:
         mixed = (first - 0.5 * self.mass[:, None] * shift)[:, :, None] * shift[:, None, :]
         second = self.about @ self.relative.transpose(0, 2, 1) - mixed - mixed.transpose(0, 2, 1)
         lever = -self.precisions @ skew(first - self.mass[:, None] * shift)
-        turned = np.einsum("nij,ljb->nilb", self.precisions, _UNIT_SKEWS)
         blocks = np.empty((len(self.mass), 6, 6))
         blocks[:, :3, :3] = self.mass[:, None, None] * self.precisions
         blocks[:, :3, 3:] = lever
         blocks[:, 3:, :3] = lever.transpose(0, 2, 1)
-        blocks[:, 3:, 3:] = np.einsum("kia,nilb,nkl->nab", _UNIT_SKEWS, turned, second)
+        blocks[:, 3:, 3:] = _turning(self.precisions, second)
         return blocks
 
 
-def axial(matrices: Array) -> Array:
-    """The vectors (K, 3) with the components M_yz - M_zy, M_zx - M_xz, M_xy - M_yx."""
-    return np.asarray(matrices.reshape(-1, 9) @ _AXIAL)
+def _turning(precisions: Array, second: Array) -> Array:
+    """Sum w [q]x^T P [q]x, (K, 3, 3), from P and sum w q q^T = M.
+
+    Both being symmetric, it is (tr P tr M - tr PM) I + PM + MP - tr(P) M - tr(M) P.
+    """
+    both = precisions @ second
+    first_trace, second_trace, trace = (
+        matrix.reshape(-1, 9)[:, ::4].sum(axis=1)[:, None, None]
+        for matrix in (precisions, second, both)
+    )
+    rest = first_trace * second_trace - trace
+    return np.asarray(
+        rest * np.eye(3)
+        + both
+        + both.transpose(0, 2, 1)
+        - first_trace * second
+        - second_trace * precisions
+    )
 
 
 _FLOOR = -600.0
@@ -119,12 +133,6 @@ underflow take the processor up to a hundred times as long."""
 
 _MATRIX = np.array([0, 3, 4, 6, 3, 1, 5, 7, 4, 5, 2, 8, 6, 7, 8, 9])
 """Where the ten moments stand in the flattened matrix sum w h h^T."""
-
-_UNIT_SKEWS = skew(np.eye(3))
-"""[e_k]x for the three unit vectors, (3, 3, 3)."""
-
-_AXIAL = -_UNIT_SKEWS.reshape(3, 9).T
-"""What makes of a flattened matrix its axial vector, (9, 3)."""
 
 _COEFFICIENTS = np.zeros((16, 10))
 _COEFFICIENTS[np.arange(16), _MATRIX] = -0.5

@@ -14,7 +14,8 @@ import numpy as np
 from regkit.arrays import Array
 from regkit.camera import Camera
 from regkit.primitives import Gaussians, Placed, SurfaceGaussians
-from regkit_plugins.kernels.pairs import Moments, axial
+from regkit.rotation import axial, cross
+from regkit_plugins.kernels.pairs import Moments
 
 
 @dataclass(frozen=True)
@@ -208,7 +209,7 @@ class Visible(Seen):
         to_reach *= -0.25 * h**3
         to_ray = -_DEPTH * h * forces - 2.0 * _FLATTENING * h**2 * across + to_reach * self.pulled
         forces = forces + (to_ray - _dot(to_ray, e) * e) / self.distances
-        torques = 2.0 * axial(self.whole @ spreads) + to_reach * np.cross(self.pulled, e)
+        torques = 2.0 * axial(self.whole @ spreads) + to_reach * cross(self.pulled, e)
         return np.concatenate([forces, torques], axis=1)
 
 

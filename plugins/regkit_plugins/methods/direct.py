@@ -3,14 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Literal
 
+import numpy as np
 from pydantic import Field, model_validator
 
+from regkit.arrays import Array
 from regkit.body import Body
-from regkit.coordinates import COORDINATES, CoordinatesName
-from regkit.interfaces import Kernel, Method, Registered, Registrar, ShapeModel, Solver
+from regkit.coordinates import COORDINATES, Coordinates, CoordinatesName
+from regkit.interfaces import (
+    Fit,
+    JointEnergy,
+    Kernel,
+    Method,
+    Registered,
+    Registrar,
+    Scene,
+    ShapeModel,
+    Shares,
+    Similarity,
+    Solver,
+    Term,
+)
 from regkit.observation import Observation
 from regkit.primitives import Primitives
 from regkit.problem import RegistrationProblem
@@ -30,6 +45,8 @@ class Direct(Method):
     """What compares it with the data."""
     solver: Solver
     """What makes the energy small."""
+    terms: tuple[Term, ...] = ()
+    """What is asked of a pose beyond explaining the data."""
     coordinates: CoordinatesName = "tangent"
     """What the solver moves: steps on the tangent space, or the paper's un-normalised
     quaternions."""
@@ -66,20 +83,89 @@ class DirectRegistrar(Registrar):
     primitives: Primitives
 
     def register(
-        self, observation: Observation, start: Pose, *, blurs: Sequence[float] | None = None
+        self,
+        observation: Observation,
+        expected: Pose,
+        *others: Pose,
+        blurs: Sequence[float] | None = None,
     ) -> Registered:
-        """The pose of least energy near ``start``, through one or more blurs."""
+        """The pose of least energy near the best of the given ones, through one or more blurs."""
         iterations = evaluations = 0
-        pose = start
+        pose = expected
         for blur in blurs or self.method.blur:
-            placed = self.primitives.place(self.body.place(pose).transforms)
-            similarity = self.method.kernel.against(observation, placed, blur=blur)
+            bound = self._bound(observation, pose, expected, blur)
+            if others:
+                pose = min((pose, *others), key=lambda start: bound.misfit(self.body, start))
+                evaluations += 1 + len(others)
+                others = ()
             coordinates = COORDINATES[self.method.coordinates](self.body.skeleton, pose)
-            problem = RegistrationProblem(coordinates, self.primitives, similarity)
+            problem = bound.problem(coordinates)
             solution = self.method.solver.minimize(problem)
             pose = coordinates.pose(solution.x)
             iterations += solution.iterations
             evaluations += solution.evaluations
+        fit = Fit(solution.value, bound.explained(self.body, pose))
         return Registered(
-            pose, solution.value, solution.converged, iterations, evaluations, solution.message
+            pose=pose,
+            energy=fit.energy,
+            explained=fit.share,
+            converged=solution.converged,
+            iterations=iterations,
+            evaluations=evaluations,
+            message=solution.message,
         )
+
+    def fit(self, observation: Observation, pose: Pose) -> Fit:
+        """The energy in a pose, with everything bound to the frame there."""
+        bound = self._bound(observation, pose, pose, 0.0)
+        placed = bound.primitives.place(self.body.place(pose).transforms)
+        energy = sum(similarity(placed).energy for similarity in bound.similarities)
+        return Fit(energy, bound.explained(self.body, pose))
+
+    def _bound(self, observation: Observation, pose: Pose, expected: Pose, blur: float) -> _Bound:
+        """The kernel and all terms bound to a frame at a pose."""
+        placed = self.primitives.place(self.body.place(pose).transforms)
+        scene = Scene(self.body, observation, expected, placed)
+        effects = [term.against(scene) for term in self.method.terms]
+        primitives = self.primitives
+        for effect in effects:
+            if isinstance(effect, Shares):
+                primitives = replace(primitives, weights=primitives.weights * effect.factors)
+        placed = replace(placed, primitives=primitives)
+        kernel = self.method.kernel.against(observation, placed, blur=blur)
+        return _Bound(
+            primitives,
+            (kernel, *(effect for effect in effects if isinstance(effect, Similarity))),
+            tuple(effect for effect in effects if isinstance(effect, JointEnergy)),
+        )
+
+
+@dataclass(frozen=True)
+class _Bound:
+    """What is minimised in one frame.
+
+    Attributes:
+        primitives: With the weights that they have in this frame.
+        similarities: The kernel, and the terms that look at primitives.
+        joints: The terms that look at joints.
+    """
+
+    primitives: Primitives
+    similarities: tuple[Similarity, ...]
+    joints: tuple[JointEnergy, ...]
+
+    def misfit(self, body: Body, pose: Pose) -> float:
+        """The kernel's energy in a pose."""
+        placed = self.primitives.place(body.place(pose).transforms)
+        return self.similarities[0](placed).energy
+
+    def explained(self, body: Body, pose: Pose) -> Array:
+        """How far the kernel finds each point explained in a pose, (N,)."""
+        explained = self.similarities[0].explained(
+            self.primitives.place(body.place(pose).transforms)
+        )
+        return np.array([np.nan]) if explained is None else explained
+
+    def problem(self, coordinates: Coordinates) -> RegistrationProblem:
+        """The problem in some coordinates of the pose."""
+        return RegistrationProblem(coordinates, self.primitives, self.similarities, self.joints)

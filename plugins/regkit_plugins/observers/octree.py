@@ -51,7 +51,9 @@ class OctreeObserver(Observer):
             if not len(pending):
                 break
         variances = np.concatenate(deviations) ** 2
-        return Observation(np.concatenate(means), np.concatenate(weights), variances, frame.camera)
+        return Observation(
+            np.concatenate(means), np.concatenate(weights), variances, frame.camera, frame.depth
+        )
 
 
 def _means(points: Array, cell: Indices, counts: Indices) -> Array:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Literal
 
-from regkit.interfaces import Registered, Registrar, Tracker
+from regkit.interfaces import Follower, Registered, Registrar, Tracker
 from regkit.observation import Observation
-from regkit.skeleton import Pose
 
 
 class Hold(Tracker):
@@ -15,8 +15,17 @@ class Hold(Tracker):
 
     kind: Literal["hold"] = "hold"
 
-    def step(
-        self, registrar: Registrar, observation: Observation, past: Sequence[Pose]
-    ) -> Registered:
+    def follow(self, registrar: Registrar) -> Holding:
+        """Nothing is to be prepared."""
+        return Holding(registrar)
+
+
+@dataclass(frozen=True)
+class Holding(Follower):
+    """``Hold`` for one registrar."""
+
+    registrar: Registrar
+
+    def step(self, observation: Observation, past: Sequence[Registered]) -> Registered:
         """Register the frame from the last pose."""
-        return registrar.register(observation, past[-1])
+        return self.registrar.register(observation, past[-1].pose)

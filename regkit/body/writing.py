@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
-from regkit.body import BodyDescription
-from regkit.body.description import GaussianDescription
-from regkit.skeleton import SegmentDescription
+from regkit.body.description import BodyDescription, GaussianDescription, SizeDescription
+from regkit.skeleton import PoseDescription, SegmentDescription
 from regkit.skeleton.description import CapsuleDescription
 from regkit.skeleton.joints import (
     BallJoint,
@@ -19,6 +19,7 @@ from regkit.skeleton.joints import (
     Joint,
     UniversalJoint,
 )
+from regkit.skeleton.pose import RootDescription
 
 _LETTERS = {
     tuple(float(number) for number in sign * axis): text + letter
@@ -27,70 +28,88 @@ _LETTERS = {
 }
 
 
+_RESERVED = ("true", "false", "null")
+
 _UPRIGHT = "In the first frame y points up and the front to the camera; a hand may be anyhow."
 
 
 def template_text(body: BodyDescription, opening: str, comments: Mapping[str, str]) -> str:
-    """The YAML of a template.
+    """The YAML of a template; lengths have four decimals [m] and angles one [deg].
 
     Args:
         body: The template.
         opening: What to say at its top.
         comments: What to say of the joint of a segment, by the segment's name.
     """
-    size = body.size
-    lines = [
-        *_comment(opening),
-        "",
-        f"title: {json.dumps(body.title)}",
-        "",
-        "sources:",
-        *(f"  - {json.dumps(source)}" for source in body.sources),
-        "",
-        f"size: {{name: {size.name}, value: {size.value:.4f}, range: {_row(size.range, 2)}}}",
-        *(["", *_comment(_UPRIGHT), "upright: true"] if body.upright else []),
+    lines = [*_comment(opening), "", f"title: {json.dumps(body.title)}"]
+    if body.sources:
+        lines += ["", "sources:", *(f"  - {json.dumps(source)}" for source in body.sources)]
+    lines += ["", f"size: {_size(body.size)}"]
+    if body.upright:
+        lines += ["", *_comment(_UPRIGHT), "upright: true"]
+    lines += [
         "",
         "# Each segment's origin is its joint; `offset` is where that lies in the parent's frame.",
         "segments:",
     ]
     for name, segment in body.segments.items():
-        lines += ["", f"  {name}:", *_segment(segment, comments.get(name, ""))]
-    lines += [
-        "",
-        "# Likely poses of the first frame, in degrees; the rest pose is always tried.",
-        "stances:",
-    ]
+        lines += ["", f"  {_key(name)}", *_segment(segment, comments.get(name, ""))]
+    if body.stances:
+        lines += [
+            "",
+            "# Likely poses of the first frame, in degrees; the rest pose is always tried.",
+            "stances:",
+        ]
     for name, pose in body.stances.items():
-        lines.append(f"  {name}:")
-        lines.append("    joints:")
-        width = max(len(joint) for joint in pose.joints) + 1
-        for joint, angles in pose.joints.items():
-            value = _number(angles, 1) if isinstance(angles, float) else _row(angles, 1)
-            lines.append(f"      {joint + ':':<{width}} {value.strip()}")
-    lines += [
-        "",
-        "# Standard deviations [m]; the surface lies at about twice as much.",
-        "gaussians:",
-    ]
+        lines += [f"  {_key(name)}", *_stance(pose)]
+    if body.gaussians:
+        lines += [
+            "",
+            "# Standard deviations [m]; the surface lies at about twice as much.",
+            "gaussians:",
+        ]
     for kind, by_segment in body.gaussians.items():
-        lines.append(f"  {kind}: # {sum(map(len, by_segment.values()))} in all")
+        lines.append(f"  {_key(kind)} # {sum(map(len, by_segment.values()))} in all")
         for name, several in by_segment.items():
-            lines.append(f"    {name}:")
+            lines.append(f"    {_key(name)}")
             lines += [f"      - {_gaussian(one)}" for one in several]
     return "\n".join(lines) + "\n"
+
+
+def _size(size: SizeDescription) -> str:
+    ends = ", ".join(f"{round(end, 4):g}" for end in size.range)
+    return f"{{name: {_word(size.name)}, value: {size.value:.4f}, range: [{ends}]}}"
+
+
+def _stance(pose: PoseDescription) -> list[str]:
+    lines = []
+    if pose.root != RootDescription():
+        position, rotation = _row(pose.root.position), _row(pose.root.rotation_deg, 1)
+        lines.append(f"    root: {{position: {position}, rotation_deg: {rotation}}}")
+    lines.append("    joints:" if pose.joints else "    joints: {}")
+    width = max((len(_key(joint)) for joint in pose.joints), default=0)
+    for joint, angles in pose.joints.items():
+        value = _number(angles, 1) if isinstance(angles, float) else _row(angles, 1)
+        lines.append(f"      {_key(joint):<{width}} {value.strip()}")
+    return lines
 
 
 def _segment(segment: SegmentDescription, comment: str) -> list[str]:
     lines = _comment(comment, "    ")
     if segment.parent is not None:
-        lines += [f"    parent: {segment.parent}", f"    offset: {_row(segment.offset)}"]
+        lines.append(f"    parent: {_word(segment.parent)}")
+    if segment.parent is not None or any(segment.offset):
+        lines.append(f"    offset: {_row(segment.offset)}")
+    if any(segment.rotation_deg):
+        lines.append(f"    rotation_deg: {_row(segment.rotation_deg, 1)}")
     lines.append(f"    joint: {_joint(segment.joint or FixedJoint())}")
-    lines.append("    capsules:")
-    lines += [f"      - {_capsule(one)}" for one in segment.capsules]
+    if segment.capsules:
+        lines.append("    capsules:")
+        lines += [f"      - {_capsule(one)}" for one in segment.capsules]
     if segment.markers:
-        width = max(map(len, segment.markers)) + 1
+        width = max(len(_key(name)) for name in segment.markers)
         lines.append("    markers:")
-        lines += [f"      {name + ':':<{width}} {_row(at)}" for name, at in segment.markers.items()]
+        lines += [f"      {_key(name):<{width}} {_row(at)}" for name, at in segment.markers.items()]
     return lines
 
 
@@ -108,14 +127,24 @@ def _joint(joint: Joint) -> str:
                 ranges = ", ".join(_row(limits, 1) for limits in joint.limits_deg)
                 fields.append(f"limits_deg: [{ranges}]")
         case BallJoint():
-            fields = [f"twist_axis: {_axis(joint.twist_axis)}"]
-            fields.append(f"swing_axis: {_axis(joint.swing_axis)}")
+            twist, swing = _axes_at_right_angles(joint)
+            fields = [f"twist_axis: {twist}", f"swing_axis: {swing}"]
             fields.append(f"centre_deg: {_row(joint.centre_deg, 1)}")
             if joint.swing_deg is not None:
                 fields.append(f"swing_deg: {_row(joint.swing_deg, 1)}")
             if joint.twist_deg is not None:
                 fields.append(f"twist_deg: {_row(joint.twist_deg, 1)}")
     return f"{{type: {joint.type}, {', '.join(fields)}}}"
+
+
+def _axes_at_right_angles(joint: BallJoint) -> tuple[str, str]:
+    """The twist and swing axes, in full where rounding would turn them to one another."""
+    axes = (joint.twist_axis, joint.swing_axis)
+    twist, swing = np.round(axes, 4)
+    if abs(float(twist @ swing)) < 1e-7:
+        return _axis(joint.twist_axis), _axis(joint.swing_axis)
+    first, second = (f"[{', '.join(map(repr, axis))}]" for axis in axes)
+    return first, second
 
 
 def _capsule(capsule: CapsuleDescription) -> str:
@@ -137,6 +166,16 @@ def _gaussian(gaussian: GaussianDescription) -> str:
 def _axis(axis: Sequence[float]) -> str:
     """A letter where there is one, else four decimals of the unit vector."""
     return _LETTERS.get(tuple(axis)) or _row(axis)
+
+
+def _key(name: str) -> str:
+    return f"{_word(name)}:"
+
+
+def _word(text: str) -> str:
+    """A name as it is, if YAML takes it for no number, truth value or structure."""
+    plain = re.fullmatch(r"[A-Za-z_]\w*", text) and text.lower() not in _RESERVED
+    return text if plain else json.dumps(text)
 
 
 def _row(values: Iterable[float], decimals: int = 4) -> str:

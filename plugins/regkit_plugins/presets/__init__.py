@@ -1,0 +1,8 @@
+"""Presets: whole methods as YAML files, to use by name or to copy."""
+
+from pathlib import Path
+
+_FOLDER = Path(__file__).parent
+
+BEST = _FOLDER / "best.yaml"
+PAPER = _FOLDER / "paper.yaml"

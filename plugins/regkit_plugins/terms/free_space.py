@@ -1,0 +1,90 @@
+"""Free space: no part of a body is where the camera saw through."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import Field
+
+from regkit.interfaces import Response, Scene, Similarity, Term
+from regkit.primitives import Placed
+from regkit.rotation import cross
+
+REACH = 1.0
+"""Where a primitive is sampled besides its centre: so many scales along its longest axis."""
+
+
+class FreeSpace(Term):
+    """Draws what is beside the silhouette into it, and what is before the measured depth behind it.
+
+    The middle lines of the primitives have to lie behind what the camera measured. Pixels without a
+    measurement are taken as seen through, as those of a background that is out of reach.
+    Without a depth image the term does nothing.
+    """
+
+    kind: Literal["free_space"] = "free_space"
+
+    weight: Annotated[float, Field(gt=0.0)] = 1.0
+    """Weight against the kernel's energy."""
+    margin: Annotated[float, Field(ge=0.0)] = 0.5
+    """How far before the measured depth a middle line may lie, in smallest scales of it."""
+
+    def against(self, scene: Scene) -> SilhouetteGaps:
+        """Bind the term to a frame's depth image."""
+        return SilhouetteGaps(self, scene)
+
+
+class SilhouetteGaps(Similarity):
+    """``sum w (sqrt(1 + (d / s)^2) - 1)`` over points of the primitives.
+
+    d is how far a point is in free space, beside the silhouette or before it; s is the primitive's
+    smallest scale.
+
+    Args:
+        term: Its weight and margin.
+        scene: The frame.
+    """
+
+    def __init__(self, term: FreeSpace, scene: Scene) -> None:
+        scales = scene.placed.primitives.scales
+        count = len(scales)
+        ordered = np.sort(scales, axis=1)
+        sizes = ordered[:, 1:].prod(axis=1)
+        # Each primitive has three points, all alike for a sphere.
+        self._weights = np.repeat(term.weight * sizes / sizes.sum() / 3.0, 3)
+        self._widths = np.repeat(ordered[:, 0], 3)
+        self._margins = term.margin * self._widths
+        self._offsets = np.zeros((count, 3, 3))
+        along = np.arange(count), scales.argmax(axis=1)
+        for column, sign in ((1, 1.0), (2, -1.0)):
+            self._offsets[*along, column] = sign * REACH * (ordered[:, 2] - ordered[:, 0])
+        self._silhouette = scene.observation.silhouette
+
+    def __call__(self, placed: Placed[Any], *, curvature: bool = False) -> Response:
+        """The energy, the wrenches and the Gauss-Newton blocks."""
+        count = len(placed)
+        if self._silhouette is None:
+            return _nothing(count, curvature=curvature)
+        arms = (placed.axes @ self._offsets).transpose(0, 2, 1)
+        points = (placed.centres[:, None, :] + arms).reshape(-1, 3)
+        gaps, slopes = self._silhouette.gaps(points, self._margins)
+        if not gaps.any():
+            return _nothing(count, curvature=curvature)
+        ratio = gaps / self._widths
+        root = np.sqrt(1.0 + ratio**2)
+        energy = float(self._weights @ (root - 1.0))
+        tension = self._weights / (root * self._widths)
+        ways = np.concatenate([slopes, cross(arms.reshape(-1, 3), slopes)], axis=1)
+        wrenches = ((tension * ratio)[:, None] * ways).reshape(count, 3, 6).sum(axis=1)
+        stiffness = None
+        if curvature:
+            scaled = (tension / self._widths)[:, None] * ways
+            stiffness = scaled.reshape(count, 3, 6).swapaxes(1, 2) @ ways.reshape(count, 3, 6)
+        return Response(energy, wrenches, stiffness)
+
+
+def _nothing(count: int, *, curvature: bool) -> Response:
+    """What so many primitives feel that are all where they may be."""
+    blocks = np.zeros((count, 6, 6)) if curvature else None
+    return Response(0.0, np.zeros((count, 6)), blocks)

@@ -1,0 +1,56 @@
+"""Limits: joints are drawn back to their ranges."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from regkit.interfaces import JointEnergy, Scene, Strain, Term
+from regkit.skeleton import Pose, Skeleton
+
+
+class LimitsTerm(Term):
+    """Half the squared violation of every joint limit: hinges, swings and twists.
+
+    It is for solvers that do not keep the limits of ball joints themselves, such as lbfgs.
+    """
+
+    kind: Literal["limits"] = "limits"
+
+    weight: Annotated[float, Field(gt=0.0)] = 0.1
+    """Weight against the kernel's energy."""
+    tolerance_deg: Annotated[float, Field(gt=0.0)] = 10.0
+    """A violation of so much costs half the weight [deg]."""
+
+    def against(self, scene: Scene) -> Violations:
+        """Bind the term to the body's limits."""
+        import numpy as np
+
+        return Violations(
+            scene.body.skeleton, self.weight / float(np.radians(self.tolerance_deg)) ** 2
+        )
+
+
+@dataclass(frozen=True)
+class Violations(JointEnergy):
+    """``1/2 w sum v^2`` over all violations v.
+
+    Attributes:
+        skeleton: Whose joints.
+        weight: w [1/rad^2].
+    """
+
+    skeleton: Skeleton
+    weight: float
+
+    def __call__(self, pose: Pose) -> Strain:
+        """By the exact derivative of the violations; its curvature is that of Gauss-Newton."""
+        violations, jacobian = self.skeleton.violations(pose)
+        force = self.weight * violations @ jacobian
+        return Strain(
+            0.5 * self.weight * float(violations @ violations),
+            force,
+            self.weight * jacobian.T @ jacobian,
+        )

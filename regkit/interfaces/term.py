@@ -1,0 +1,76 @@
+"""Terms: what is asked of a pose beyond explaining the data, and which primitives take part."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Any
+
+from regkit.arrays import Array
+from regkit.body import Body
+from regkit.interfaces.kernel import Similarity
+from regkit.observation import Observation
+from regkit.plugin import Plugin
+from regkit.primitives import Placed
+from regkit.skeleton import Pose
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What is known when a frame's registration begins.
+
+    Attributes:
+        body: What is registered.
+        observation: The frame's data.
+        expected: The pose that is expected where the data say nothing.
+        placed: The primitives in the pose from which the frame is registered.
+    """
+
+    body: Body
+    observation: Observation
+    expected: Pose
+    placed: Placed[Any]
+
+
+@dataclass(frozen=True)
+class Strain:
+    """An energy of the joints and its derivative.
+
+    Attributes:
+        energy: The energy.
+        force: Its derivative to the degrees of freedom at the pose, (n,).
+        stiffness: A positive semi-definite matrix (n, n) of its curvature.
+    """
+
+    energy: float
+    force: Array
+    stiffness: Array
+
+
+class JointEnergy(ABC):
+    """An energy that looks at the joints alone."""
+
+    @abstractmethod
+    def __call__(self, pose: Pose) -> Strain:
+        """The energy in a pose, its derivative and its curvature."""
+
+
+@dataclass(frozen=True)
+class Shares:
+    """By how much each primitive takes part: factors (K,) on the weights, from 0 to 1."""
+
+    factors: Array
+
+
+Effect = Shares | Similarity | JointEnergy
+"""What a term does: weigh the primitives, or add an energy of them or of the joints."""
+
+
+class Term(Plugin, ABC):
+    """One demand on a pose, which any kernel can be combined with."""
+
+    group = "regkit.terms"
+
+    @abstractmethod
+    def against(self, scene: Scene) -> Effect:
+        """Bind the term to a frame."""

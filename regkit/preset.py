@@ -1,0 +1,64 @@
+"""Presets: configurations of plug-ins in YAML files, used by name and changed in places."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from importlib.metadata import EntryPoint, entry_points
+from pathlib import Path
+from typing import Any
+
+from regkit.document import Document
+from regkit.errors import PluginError
+from regkit.model import Text, did_you_mean
+
+
+def presets_of(group: str) -> dict[str, EntryPoint]:
+    """The presets of a group of plug-ins by name: entry points to the paths of YAML files."""
+    return {point.name: point for point in entry_points(group=f"{group}.presets")}
+
+
+def preset_file(group: str, name: str) -> Path:
+    """The file of a preset.
+
+    Args:
+        group: Of the plug-in that it configures.
+        name: Of an installed preset, or a path that ends with ``.yaml``.
+
+    Raises:
+        PluginError: If there is none of that name.
+    """
+    if name.endswith((".yaml", ".yml")):
+        folder = name.folder if isinstance(name, Text) else Path.cwd()
+        return folder / Path(name).expanduser()
+    installed = presets_of(group)
+    if name not in installed:
+        raise PluginError(
+            f"no preset '{name}' (installed: {', '.join(installed)}; or name a .yaml file)"
+            + did_you_mean(name, list(installed))
+        )
+    return Path(installed[name].load())
+
+
+def with_preset(group: str, value: Mapping[str, Any]) -> dict[str, Any]:
+    """A configuration that names a ``preset``: the preset's, with all else that is given.
+
+    Raises:
+        RegkitError: If there is no such preset, or its file is no YAML mapping.
+    """
+    changes = {key: part for key, part in value.items() if key != "preset"}
+    return _merged(Document.read(preset_file(group, value["preset"])).data, changes)
+
+
+def _merged(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """``base`` with ``changes`` in it; what is a mapping in both is merged, if of one kind."""
+    merged = dict(base)
+    for key, change in changes.items():
+        old = base.get(key)
+        if isinstance(old, str) and isinstance(change, dict):
+            old = {"kind": old}
+        if isinstance(old, dict) and isinstance(change, dict):
+            same = change.get("kind", old.get("kind")) == old.get("kind")
+            merged[key] = _merged(old, change) if same else change
+        else:
+            merged[key] = change
+    return merged
