@@ -38,6 +38,7 @@ class RegistrationProblem(Problem):
         self._similarities = tuple(similarities)
         self._joints = tuple(joints)
         self.start = coordinates.origin()
+        self._last = (self.start, coordinates.start)
         self.lower, self.upper = coordinates.bounds()
 
     def value_and_gradient(self, x: Array) -> tuple[float, Array]:
@@ -66,10 +67,16 @@ class RegistrationProblem(Problem):
         """The pose's hinges and balls brought back within their limits."""
         pose = self._coordinates.pose(x)
         within = self._coordinates.skeleton.limits.projected(pose)
-        return x if within is pose else self._coordinates.vector(within)
+        projected = x if within is pose else self._coordinates.vector(within)
+        self._last = (projected, within)
+        return projected
 
     def _placed(self, x: Array) -> tuple[Placement, Placed[Primitives]]:
-        placement = Placement.of(self._coordinates.skeleton, self._coordinates.pose(x))
+        # What was projected is looked at next, and its pose is known then.
+        at, pose = self._last
+        if at is not x:
+            pose = self._coordinates.pose(x)
+        placement = Placement.of(self._coordinates.skeleton, pose)
         return placement, self._primitives.place(placement.transforms)
 
     def _response(self, placed: Placed[Primitives], *, curvature: bool) -> Response:

@@ -1,0 +1,66 @@
+"""Presets: methods used by name, changed in places, or copied."""
+
+import pytest
+
+from regkit.document import Document
+from regkit.errors import ConfigError
+from regkit.experiment import Experiment
+from regkit.preset import preset_file, presets_of
+
+EXPERIMENT = """\
+name: presets
+dataset: {{kind: depth, root: nowhere}}
+template: human
+methods:
+  mine: {method}
+"""
+
+
+def method_of(tmp_path, text, *settings):
+    file = tmp_path / "experiment.yaml"
+    file.write_text(EXPERIMENT.format(method=text))
+    return Experiment.read(file, settings).methods["mine"]
+
+
+@pytest.mark.parametrize("name", ["best", "paper"])
+def test_preset_is_what_its_file_says(tmp_path, name):
+    assert name in presets_of("regkit.methods")
+    copied = preset_file("regkit.methods", name).read_text()
+    (tmp_path / "copy.yaml").write_text(copied)
+    by_name = method_of(tmp_path, f"{{preset: {name}}}")
+    assert by_name == method_of(tmp_path, "{preset: copy.yaml}")
+    data = Document.read(tmp_path / "copy.yaml").data
+    assert [term.kind for term in by_name.terms] == data["terms"]
+    assert by_name.tracker is not None
+
+
+def test_preset_is_changed_where_it_is_told(tmp_path):
+    best = method_of(tmp_path, "{preset: best}")
+    less = method_of(tmp_path, "{preset: best, terms: [], kernel: {outliers: 0.2}}")
+    assert less.terms == ()
+    assert less.kernel == best.kernel.model_copy(update={"outliers": 0.2})
+    assert less.solver == best.solver
+    frozen = method_of(tmp_path, "{preset: best}", "methods.mine.kernel.covariance=frozen")
+    assert frozen.kernel.covariance == "frozen"
+
+
+def test_another_kind_takes_the_place_of_all_that_the_preset_said_of_it(tmp_path):
+    method = method_of(tmp_path, "{preset: best, solver: {kind: lbfgs}, shape: sog}")
+    assert method.solver.max_iterations == 100
+    assert (method.shape.kind, method.shape.surface) == ("sog", "volume")
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("{preset: bets}", "no preset 'bets' (installed: best, paper; or name a .yaml file); "
+         "did you mean 'best'?"),
+        ("{preset: nothing.yaml}", "nothing.yaml: there is no such file"),
+        ("{preset: best, kernell: 1}", "methods.mine.kernell: no such field"),
+    ],
+)  # fmt: skip
+def test_mistake_is_told_at_its_place(tmp_path, text, expected):
+    with pytest.raises(ConfigError) as caught:
+        method_of(tmp_path, text)
+    assert str(caught.value).startswith(f"{tmp_path}/experiment.yaml:5: methods.mine")
+    assert expected in str(caught.value)

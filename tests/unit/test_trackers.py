@@ -1,0 +1,179 @@
+"""Trackers: where they set out from, when they look for lost limbs, and that they find them."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+import pytest
+from scipy.spatial import KDTree
+
+from regkit.body import Body
+from regkit.experiment.experiment import Experiment
+from regkit.interfaces import Fit, Registered, Registrar
+from regkit.observation import Observation
+from regkit.rigid import rigid
+from regkit.skeleton import Pose, PoseDescription
+from regkit_plugins.templates.hand import Hand
+from regkit_plugins.templates.human import Human
+from regkit_plugins.trackers.constant_velocity import ConstantVelocity
+from regkit_plugins.trackers.hold import Hold
+from regkit_plugins.trackers.limb_search import LimbSearch
+from regkit_plugins.trackers.limbs import limbs_of
+from regkit_plugins.trackers.recovery import Recovery
+
+NOTHING = Observation(np.zeros((1, 3)), np.ones(1), np.ones(1))
+
+
+@dataclass
+class Recorder(Registrar):
+    """Finds whatever is expected, and notes from where it was to set out."""
+
+    body: Body
+    explained: float = 0.9
+    calls: list[tuple[Pose, ...]] = field(default_factory=list)
+
+    def register(self, observation, expected, *others, blurs: Sequence[float] | None = None):
+        self.calls.append((expected, *others))
+        return Registered(expected, 0.0, self.explained, True, 1, 1, "")
+
+    def fit(self, observation, pose) -> Fit:
+        return Fit(0.0, np.full(len(observation.points), self.explained))
+
+
+def seen(pose: Pose, explained: float = 0.9) -> Registered:
+    return Registered(pose, 0.0, explained, True, 1, 1, "")
+
+
+def test_hold_sets_out_from_the_last_pose(linkage):
+    recorder = Recorder(linkage)
+    poses = [linkage.skeleton.rest(rigid(np.eye(3), np.array([x, 0, 2.0]))) for x in (0.0, 0.1)]
+    found = Hold().follow(recorder).step(NOTHING, [seen(pose) for pose in poses])
+    assert recorder.calls == [(poses[1],)]
+    assert found.pose is poses[1]
+
+
+def test_constant_velocity_offers_the_last_step_again_within_the_limits(linkage):
+    bones = linkage.skeleton
+    recorder = Recorder(linkage)
+    step = np.zeros(bones.freedoms)
+    step[0] = 0.1
+    step[bones.freedoms_of("forearm")] = np.radians(80.0)  # Twice that is beyond 140 degrees.
+    before, last = bones.rest(), bones.retract(bones.rest(), step)
+    past = [Registered.given(before), seen(before), seen(last)]
+    ConstantVelocity(recovery=None).follow(recorder).step(NOTHING, past)
+    ((expected, predicted),) = recorder.calls
+    assert expected is last
+    np.testing.assert_allclose(predicted.root[:3, 3], [0.2, 0.0, 0.0])
+    np.testing.assert_allclose(predicted.hinges.max(), np.radians(140.0))
+
+
+def test_constant_velocity_has_no_step_to_repeat_at_first(linkage):
+    recorder = Recorder(linkage)
+    rest = linkage.skeleton.rest()
+    ConstantVelocity(recovery=None).follow(recorder).step(NOTHING, [seen(rest)])
+    assert recorder.calls == [(rest,)]
+
+
+@pytest.mark.parametrize(
+    ("explained", "frames", "looks"),
+    [(0.94, 4, False), (0.90, 4, True), (0.94, 10, True)],
+    ids=["as usual", "much less than usual", "as usual, but it is time"],
+)
+def test_recovery_looks_when_less_is_explained_than_usual(linkage, explained, frames, looks):
+    looked = []
+
+    class Watching(Recorder):
+        def fit(self, observation, pose):
+            looked.append(pose)
+            return super().fit(observation, pose)
+
+    rescuer = Recovery(every=10, samples=10).prepare(Watching(linkage))
+    rest = linkage.skeleton.rest()
+    past = [Registered.given(rest), *(seen(rest, 0.95) for _ in range(frames))]
+    found = seen(rest, explained)
+    assert rescuer.checked(NOTHING, found, past) is found
+    assert bool(looked) == looks
+
+
+def test_limbs_are_what_hangs_on_the_trunk():
+    human = {limb.name for limb in limbs_of(Human().body(1.7).skeleton)}
+    sides = {f"{side}_{part}" for side in ("left", "right") for part in ("upper_arm", "thigh")}
+    assert human == {"head"} | sides
+    hand = Hand().body(0.18).skeleton
+    fingers = limbs_of(hand)
+    assert len(fingers) == 5
+    assert sum(len(finger.segments) for finger in fingers) == len(hand.names) - 1
+
+
+def test_sampled_joints_keep_the_limits_and_fill_them(random):
+    limits = Human().body(1.7).skeleton.limits
+    balls, hinges = limits.sampled(random, 400)
+    for ball, hinge in zip(balls, hinges, strict=True):
+        assert limits.violation(Pose(np.eye(4), ball, hinge)).max() < 1e-9
+    spans = hinges.max(axis=0) - hinges.min(axis=0)
+    assert (spans > 0.95 * (limits.hinge[:, 1] - limits.hinge[:, 0])).all()
+
+
+def surface(body: Body, pose: Pose, random: np.random.Generator, count: int = 900) -> np.ndarray:
+    """Points on the side of a body's surface that the camera sees."""
+    axes = body.capsules.axis_points(0.02)
+    chosen = random.integers(len(axes.radii), size=count)
+    away = random.normal(size=(count, 3)) - [0.0, 0.0, 0.7]
+    away /= np.linalg.norm(away, axis=1, keepdims=True)
+    points = axes.place(body.place(pose).transforms)[chosen] + axes.radii[chosen, None] * away
+    inside = body.capsules.place(body.place(pose).transforms).surface_distance(points) < -0.005
+    return points[~inside & (away[:, 2] < 0.2)]
+
+
+@pytest.fixture(scope="module")
+def raised():
+    """A person with an arm raised sideways, and the same with the arm hanging."""
+    body = Human().body(1.7)
+    root = PoseDescription.model_validate(
+        {"root": {"position": [0.0, 0.0, 3.0], "rotation_deg": [180.0, 0.0, 0.0]}}
+    )
+    hanging = body.skeleton.pose(root)
+    arm = PoseDescription(root=root.root, joints={"left_upper_arm": (0.0, 0.0, 100.0)})
+    return body, hanging, body.skeleton.pose(arm)
+
+
+def hand_error(body: Body, pose: Pose, truth: Pose) -> float:
+    marker = body.markers.names.index("left_hand")
+    places = [body.markers.place(body.place(p).transforms)[marker] for p in (pose, truth)]
+    return float(np.linalg.norm(places[0] - places[1]))
+
+
+def test_limb_search_finds_where_the_arm_is(raised, random):
+    body, hanging, truth = raised
+    cloud = KDTree(surface(body, truth, random))
+    searches = {s.limb.name: s for s in LimbSearch.of_all(body, random, 500)}
+    first = next(searches["left_upper_arm"].starts(cloud, hanging, 1))
+    assert hand_error(body, first, truth) < 0.4 * hand_error(body, hanging, truth)
+    # All else stays, and where the limb is right nothing else is proposed.
+    other = body.markers.names.index("right_hand")
+    places = [body.markers.place(body.place(p).transforms)[other] for p in (first, hanging)]
+    np.testing.assert_array_equal(places[0], places[1])
+    assert not list(searches["right_upper_arm"].starts(cloud, truth, 2))
+
+
+METHOD = """
+name: recovery
+dataset: {kind: depth, root: nowhere}
+template: human
+methods: {best: {preset: best}}
+"""
+
+
+def test_recovery_brings_back_a_lost_arm(raised, random, tmp_path):
+    body, hanging, truth = raised
+    file = tmp_path / "experiment.yaml"
+    file.write_text(METHOD)
+    registrar = Experiment.read(file).methods["best"].prepare(body)
+    points = surface(body, truth, random)
+    observation = Observation(points, np.ones(len(points)), np.full(len(points), 0.01**2))
+    lost = registrar.register(observation, hanging)
+    assert hand_error(body, lost.pose, truth) > 0.4
+    rescuer = Recovery().prepare(registrar)
+    found = rescuer.checked(observation, lost, [Registered.given(hanging)])
+    assert hand_error(body, found.pose, truth) < 0.05
+    assert found.explained > lost.explained
