@@ -42,7 +42,7 @@ lock: $(ready) ## Resolve the dependencies again
 		--output-file .ci/requirements.lock
 
 benchmarks: $(ready) ## Print how fast it is
-	@for file in benchmarks/*.py; do $(bin)/python $$file; done
+	@for file in benchmarks/[a-z]*.py; do $(bin)/python $$file; done
 
 clean: ## Remove the environment and caches
 	@rm -rf .venv .mypy_cache .ruff_cache .pytest_cache .hypothesis dist

@@ -10,7 +10,7 @@ import numpy as np
 
 from regkit.arrays import Array
 from regkit.rigid import rigid
-from regkit.rotation import conjugate, from_matrix, normalized, product, right_jacobian, to_matrix
+from regkit.rotation import conjugate, from_matrix, normalized, product, to_matrix
 from regkit.skeleton import Pose, Skeleton
 
 CoordinatesName = Literal["tangent", "quaternion"]
@@ -70,12 +70,11 @@ class TangentCoordinates(Coordinates):
 
     def differential(self, x: Array) -> Array:
         """By the right Jacobian of each rotation vector: exp(w + dw) = exp(w) exp(J dw)."""
-        turned = slice(3 if self.skeleton.free else 0, self.skeleton.hinge_freedoms.start)
-        jacobians = right_jacobian(x[turned].reshape(-1, 3))
-        differential = np.eye(len(x))
-        rows = np.arange(len(x))[turned].reshape(-1, 3)
-        differential[rows[:, :, None], rows[:, None, :]] = jacobians
-        return differential
+        # Imported when first used, for Numba takes its time to load.
+        from regkit.skeleton.compiled import step_differential
+
+        first = 3 if self.skeleton.free else 0
+        return step_differential(x, first, self.skeleton.hinge_freedoms.start)
 
     def bounds(self) -> tuple[Array, Array]:
         """The hinges' limits, and half a turn for each part of a rotation vector."""

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import importlib
 import sys
+from collections.abc import Callable
 from contextlib import AbstractContextManager
-from typing import Any
+from typing import Any, TypeVar, cast
 
 from regkit.errors import DependencyError
+
+F = TypeVar("F", bound=Callable[..., object])
 
 DEBIAN_PACKAGES = "libusb-1.0-0 libgl1 libegl1 libx11-6 libgomp1"
 """System libraries without which Open3D's wheel cannot be imported on Debian and Ubuntu."""
@@ -29,6 +32,23 @@ def open3d() -> Any:
             f"Open3D cannot be loaded ({error}); on Debian or Ubuntu run: "
             f"sudo apt-get install -y {DEBIAN_PACKAGES}"
         ) from None
+
+
+def numba() -> Any:
+    """The module ``numba``.
+
+    Raises:
+        DependencyError: If it is missing.
+    """
+    try:
+        return importlib.import_module("numba")
+    except ImportError as error:
+        raise DependencyError(f"Numba cannot be loaded ({error}); run: pip install numba") from None
+
+
+def compiled(function: F) -> F:
+    """A function of loops over arrays, compiled by Numba when first called and kept on disk."""
+    return cast(F, numba().njit(cache=True)(function))
 
 
 def casadi() -> Any:

@@ -12,7 +12,6 @@ from typing import Generic, Self, TypeVar
 import numpy as np
 
 from regkit.arrays import Array, Indices
-from regkit.rotation import cross, skew
 
 
 @dataclass(frozen=True)
@@ -36,10 +35,6 @@ class Primitives:
     def __len__(self) -> int:
         """Number K of primitives."""
         return len(self.segments)
-
-    def carried(self, segments: int) -> Array:
-        """1 where one of so many segments carries a primitive, else 0, (S, K)."""
-        return np.asarray(self.segments == np.arange(segments)[:, None], dtype=np.float64)
 
     def place(self, transforms: Array) -> Placed[Self]:
         """The primitives in the world, for T_world_segment (S, 4, 4)."""
@@ -99,15 +94,15 @@ class Placed(Generic[P_co]):
 
     def gather(self, wrenches: Array, segments: int) -> Array:
         """Wrenches (K, 6) on the primitives as (S, 6), summed about the segments' origins."""
-        moved = wrenches.copy()
-        moved[:, 3:] += cross(self.centres - self.carriers, wrenches[:, :3])
-        return np.asarray(self.primitives.carried(segments) @ moved)
+        # Imported when first used, for Numba takes its time to load.
+        from regkit.gathering import gathered_wrenches
+
+        arms = self.centres - self.carriers
+        return gathered_wrenches(wrenches, arms, self.primitives.segments, segments)
 
     def gather_stiffness(self, stiffness: Array, segments: int) -> Array:
         """Blocks (K, 6, 6) on the primitives as (S, 6, 6), summed about the segments' origins."""
-        # A centre moves with the segment's translation and with its rotation times the lever arm.
-        motion = np.tile(np.eye(6), (len(stiffness), 1, 1))
-        motion[:, :3, 3:] = -skew(self.centres - self.carriers)
-        blocks = np.swapaxes(motion, 1, 2) @ stiffness @ motion
-        gathered = self.primitives.carried(segments) @ blocks.reshape(-1, 36)
-        return np.asarray(gathered.reshape(-1, 6, 6))
+        from regkit.gathering import gathered_stiffness
+
+        arms = self.centres - self.carriers
+        return gathered_stiffness(stiffness, arms, self.primitives.segments, segments)

@@ -44,36 +44,9 @@ class Silhouette:
             points: In the camera's frame, (M, 3) [m].
             margins: How far before the measured depth each of them may be, (M,) [m].
         """
-        gaps, slopes = np.zeros(len(points)), np.zeros_like(points)
-        if not len(self._shown):
-            return gaps, slopes
-        z = np.maximum(points[:, 2], 1e-3)
-        rays = points[:, :2] / z[:, None]
-        depths = self._depths(rays)
-        before = depths - margins - points[:, 2]
-        inside = np.isfinite(depths) & (before > 0.0)
-        gaps[inside] = before[inside]
-        slopes[inside, 2] = -1.0
-        beside = np.flatnonzero(~np.isfinite(depths))
-        if len(beside):
-            gaps[beside], slopes[beside] = self._beside(rays[beside], z[beside])
-        return gaps, slopes
+        # Imported when first used, for Numba takes its time to load.
+        from regkit.outlines import free_gaps
 
-    def _beside(self, rays: Array, z: Array) -> tuple[Array, Array]:
-        """The gaps z (|p_xy / z - ray| - half) of points beside the silhouette; their slopes."""
-        offsets = rays[:, None, :] - self._shown
-        nearest = (offsets**2).sum(axis=2).argmin(axis=1)
-        away = offsets[np.arange(len(rays)), nearest]
-        distances = np.linalg.norm(away, axis=1)
-        away /= distances[:, None]
-        over = distances - self._half
-        slopes = np.column_stack([away, over - (away * rays).sum(axis=1)])
-        return z * np.maximum(over, 0.0), slopes * (over > 0.0)[:, None]
-
-    def _depths(self, rays: Array) -> Array:
-        """The least depth measured in the block of each ray, (M,) [m]; inf where there is none."""
-        block = np.rint(rays * self._scale + self._offset).astype(np.intp)
-        inside = ((block >= 0) & (block < self._nearest.shape)).all(axis=1)
-        depths = np.full(len(rays), np.inf)
-        depths[inside] = self._nearest[block[inside, 0], block[inside, 1]]
-        return depths
+        return free_gaps(
+            points, margins, self._nearest, self._shown, self._scale, self._offset, self._half
+        )

@@ -90,17 +90,15 @@ class Limits:
 
         A swing is shortened towards the middle of its cone.
         """
-        swing, twist = self._swing_twist(pose)
-        stretch = self._stretch(swing)
+        # Imported when first used, for Numba takes its time to load.
+        from regkit.skeleton.compiled import within_limits
+
+        balls, turned = within_limits(
+            pose.balls, self.centre, self.twist_axis, self._cone, self.twist
+        )
         hinges = pose.hinges.clip(self.hinge[:, 0], self.hinge[:, 1])
-        inside = twist.clip(self.twist[:, 0], self.twist[:, 1])
-        turned = (stretch > 1.0) | (inside != twist)
-        if not turned.any():
-            return pose if (hinges == pose.hinges).all() else Pose(pose.root, pose.balls, hinges)
-        shortened = swing / np.maximum(stretch, 1.0)[:, None]
-        twisted = from_vector(inside[:, None] * self.twist_axis)
-        within = product(self.centre, product(from_vector(shortened), twisted))
-        balls = np.where(turned[:, None], within, pose.balls)
+        if not turned and (hinges == pose.hinges).all():
+            return pose
         return Pose(pose.root, balls, hinges)
 
     def sampled(self, random: np.random.Generator, count: int) -> tuple[Array, Array]:

@@ -8,7 +8,6 @@ from functools import cached_property
 import numpy as np
 
 from regkit.arrays import Array
-from regkit.rotation import cross, from_vector, skew, to_matrix
 from regkit.skeleton.pose import Pose
 from regkit.skeleton.skeleton import Skeleton
 
@@ -38,15 +37,22 @@ class Placement:
         The joints of the pose may have leading dimensions, for many poses at once; so have then the
         links and the transforms.
         """
-        local = np.tile(skeleton.link_offsets, (*pose.hinges.shape[:-1], 1, 1, 1))
-        turns = np.concatenate(
-            [pose.balls, from_vector(pose.hinges[..., None] * skeleton.hinge_axes)], axis=-2
+        # Imported when first used, for Numba takes its time to load.
+        from regkit.skeleton.compiled import place_links
+
+        many = pose.hinges.shape[:-1]
+        count = int(np.prod(many))
+        links = place_links(
+            skeleton.link_offsets,
+            skeleton.link_parents,
+            pose.root,
+            skeleton.ball_links,
+            pose.balls.reshape(count, *pose.balls.shape[-2:]),
+            skeleton.hinge_links,
+            skeleton.hinge_axes,
+            pose.hinges.reshape(count, pose.hinges.shape[-1]),
         )
-        local[..., skeleton.turned_links, :3, :3] @= to_matrix(turns)
-        links = np.empty_like(local)
-        links[..., 0, :, :] = pose.root @ local[..., 0, :, :]
-        for level, parents in zip(skeleton.levels, skeleton.level_parents, strict=True):
-            links[..., level, :, :] = links[..., parents, :, :] @ local[..., level, :, :]
+        links = links.reshape(*many, *links.shape[1:])
         return cls(skeleton, pose, links)
 
     @property
@@ -56,20 +62,19 @@ class Placement:
 
     def twists(self) -> Array:
         """The world twist about the reference of each degree of freedom at unit rate, (n, 6)."""
+        from regkit.skeleton.compiled import joint_twists
+
         bones = self.skeleton
-        twists = np.zeros((bones.freedoms, 6))
-        if bones.free:
-            twists[:3, :3] = np.eye(3)
-            twists[3:6, 3:] = self.pose.root[:3, :3].T
-        balls, hinges = self.links[bones.ball_links], self.links[bones.hinge_links]
-        axes = np.concatenate([
-            np.swapaxes(balls[:, :3, :3], 1, 2).reshape(-1, 3),
-            (hinges[:, :3, :3] @ bones.hinge_axes[:, :, None])[:, :, 0],
-        ])  # fmt: skip
-        centres = np.concatenate([np.repeat(balls[:, :3, 3], 3, axis=0), hinges[:, :3, 3]])
-        twists[bones.ball_freedoms.start :, :3] = cross(centres - self._reference, axes)
-        twists[bones.ball_freedoms.start :, 3:] = axes
-        return twists
+        return joint_twists(
+            self.links,
+            self._reference,
+            bones.ball_freedoms.start,
+            bones.ball_links,
+            bones.hinge_links,
+            bones.hinge_axes,
+            bones.freedoms,
+            self.pose.root,
+        )
 
     def pull_back(self, wrenches: Array) -> Array:
         """The generalised force (n,) of wrenches (S, 6) about the segments' origins.
@@ -88,10 +93,9 @@ class Placement:
     @cached_property
     def jacobian(self) -> Array:
         """The twist about its own origin of each segment, by each degree of freedom, (S, 6, n)."""
-        twists = self.twists()
-        jacobian = twists.T[None] * self.skeleton.moves.T[:, None, :]
-        jacobian[:, :3] -= skew(self._arms) @ jacobian[:, 3:]
-        return jacobian
+        from regkit.skeleton.compiled import segment_jacobian
+
+        return segment_jacobian(self.twists(), self.skeleton.moves, self._arms)
 
     @property
     def _reference(self) -> Array:

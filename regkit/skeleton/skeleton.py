@@ -15,7 +15,6 @@ from regkit.rigid import rigid
 from regkit.rotation import (
     conjugate,
     from_matrix,
-    from_vector,
     product,
     to_vector,
     vector_to_matrix,
@@ -105,8 +104,11 @@ class Skeleton:
         if self.free:
             rotation = pose.root[:3, :3] @ vector_to_matrix(step[3:6])
             root = rigid(rotation, pose.root[:3, 3] + step[:3])
-        turns = from_vector(step[self.ball_freedoms].reshape(-1, 3))
-        return Pose(root, product(pose.balls, turns), pose.hinges + step[self.hinge_freedoms])
+        # Imported when first used, for Numba takes its time to load.
+        from regkit.skeleton.compiled import turned_balls
+
+        balls = turned_balls(pose.balls, step[self.ball_freedoms].reshape(-1, 3))
+        return Pose(root, balls, pose.hinges + step[self.hinge_freedoms])
 
     def difference(self, start: Pose, end: Pose) -> Array:
         """The step (n,) with ``retract(start, step) = end``, of at most half a turn each."""

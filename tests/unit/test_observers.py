@@ -60,25 +60,25 @@ def test_points_larger_voxels_leave_fewer_points(cloud):
 
 
 def test_crop_keeps_what_lies_between_near_and_far(cloud):
-    kept = Crop(near=1.9, far=2.2).points(frame(cloud))
+    kept = Crop(near=1.9, far=2.2).cropped(frame(cloud)).points
     z = cloud[:, 2]
     np.testing.assert_array_equal(kept, cloud[(z >= 1.9) & (z <= 2.2)])
     assert 0 < len(kept) < len(cloud)
-    np.testing.assert_array_equal(Crop().points(frame(cloud)), cloud)
+    np.testing.assert_array_equal(Crop().cropped(frame(cloud)).points, cloud)
 
 
 def test_crop_behind_nearest_drops_the_background_and_survives_a_stray(random):
     hand = np.array([0.0, 0.0, 0.5]) + 0.03 * random.uniform(-1.0, 1.0, size=(500, 3))
     owner = np.array([0.0, 0.0, 1.0]) + 0.1 * random.uniform(-1.0, 1.0, size=(500, 3))
     stray = [[0.0, 0.0, 0.05]]
-    kept = Crop(behind_nearest=0.2).points(frame(np.concatenate([owner, hand, stray])))
+    kept = Crop(behind_nearest=0.2).cropped(frame(np.concatenate([owner, hand, stray]))).points
     assert kept[:, 2].max() < 0.6
     assert len(kept) == len(hand) + 1
 
 
 def test_crop_measures_the_nearest_after_the_near_limit(random):
     points = random.uniform(-0.5, 0.5, size=(400, 3)) + np.array([0.0, 0.0, 1.0])
-    kept = Crop(near=0.9, behind_nearest=0.2).points(frame(points))
+    kept = Crop(near=0.9, behind_nearest=0.2).cropped(frame(points)).points
     assert kept[:, 2].min() >= 0.9
     assert 1.05 < kept[:, 2].max() < 1.15
 
@@ -199,3 +199,17 @@ def test_octree_with_room_for_all_points_is_their_mean(cloud):
     seen = OctreeObserver(leaf=1.0, few=len(cloud), largest=5).observe(frame(cloud))
     np.testing.assert_allclose(seen.points, [cloud.mean(axis=0)], atol=1e-12)
     np.testing.assert_array_equal(seen.variances, [(0.5 * 1.0 * 2**5) ** 2])
+
+
+def test_what_is_cropped_is_cut_out_of_the_depth_image_too():
+    """So that a background that was cut away counts as seen through."""
+    camera = Camera(width=8, height=6, fx=10.0, fy=10.0, cx=3.5, cy=2.5)
+    depth = np.full((6, 8), 3.0)
+    depth[2:4, 2:5] = 1.0
+    depth[0, 0] = 0.0
+    whole = Frame(camera.back_projected(depth), camera, depth)
+    cropped = Crop(far=2.0, min_points=1).cropped(whole)
+    np.testing.assert_array_equal(cropped.depth, np.where(depth == 1.0, 1.0, 0.0))
+    np.testing.assert_allclose(camera.back_projected(cropped.depth), cropped.points)
+    observation = PointsObserver(crop=Crop(far=2.0, min_points=1)).observe(whole)
+    np.testing.assert_array_equal(observation.depth, cropped.depth)

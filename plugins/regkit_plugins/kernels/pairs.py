@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from regkit.arrays import Array
-from regkit.rotation import skew
+from regkit_plugins.kernels.compiled import stiffness_blocks
 
 
 class Pairs:
@@ -95,36 +95,7 @@ class Moments:
         Args:
             shift: From the means to the points about which the motions turn, (K, 3) [m].
         """
-        first = self.about[:, :, 3]
-        mixed = (first - 0.5 * self.mass[:, None] * shift)[:, :, None] * shift[:, None, :]
-        second = self.about @ self.relative.transpose(0, 2, 1) - mixed - mixed.transpose(0, 2, 1)
-        lever = -self.precisions @ skew(first - self.mass[:, None] * shift)
-        blocks = np.empty((len(self.mass), 6, 6))
-        blocks[:, :3, :3] = self.mass[:, None, None] * self.precisions
-        blocks[:, :3, 3:] = lever
-        blocks[:, 3:, :3] = lever.transpose(0, 2, 1)
-        blocks[:, 3:, 3:] = _turning(self.precisions, second)
-        return blocks
-
-
-def _turning(precisions: Array, second: Array) -> Array:
-    """Sum w [q]x^T P [q]x, (K, 3, 3), from P and sum w q q^T = M.
-
-    Both being symmetric, it is (tr P tr M - tr PM) I + PM + MP - tr(P) M - tr(M) P.
-    """
-    both = precisions @ second
-    first_trace, second_trace, trace = (
-        matrix.reshape(-1, 9)[:, ::4].sum(axis=1)[:, None, None]
-        for matrix in (precisions, second, both)
-    )
-    rest = first_trace * second_trace - trace
-    return np.asarray(
-        rest * np.eye(3)
-        + both
-        + both.transpose(0, 2, 1)
-        - first_trace * second
-        - second_trace * precisions
-    )
+        return stiffness_blocks(self.mass, self.about, self.relative, self.precisions, shift)
 
 
 _FLOOR = -600.0

@@ -14,7 +14,8 @@ import numpy as np
 from regkit.arrays import Array
 from regkit.camera import Camera
 from regkit.primitives import Gaussians, Placed, SurfaceGaussians
-from regkit.rotation import axial, cross
+from regkit.rotation import axial
+from regkit_plugins.kernels.compiled import inverses, visible_sides, visible_wrenches
 from regkit_plugins.kernels.pairs import Moments
 
 
@@ -159,30 +160,19 @@ class Visible(Seen):
     @classmethod
     def of(cls, placed: Placed[Gaussians]) -> Visible:
         """The visible side of the primitives."""
-        whole = placed.covariances()
-        distances = np.linalg.norm(placed.centres, axis=1, keepdims=True)
-        rays = placed.centres / distances
-        own = (rays[:, None, :] @ placed.axes)[:, 0] / placed.primitives.scales**2
-        pulled = (placed.axes @ own[:, :, None])[:, :, 0]
-        reaches = 2.0 / np.sqrt((rays * pulled).sum(axis=1, keepdims=True))
-        depth = reaches * rays
         return cls(
-            means=placed.centres - _DEPTH * depth,
-            covariances=whole - _FLATTENING * depth[:, :, None] * depth[:, None, :],
-            whole=whole,
-            pulled=pulled,
-            rays=rays,
-            reaches=reaches,
-            distances=distances,
+            *visible_sides(
+                placed.centres, placed.axes, placed.primitives.scales, _DEPTH, _FLATTENING
+            )
         )
 
     def precisions(self, variance: float) -> Array:
         """The visible side's axes are not the Gaussian's own, so P is inverted."""
-        return np.asarray(np.linalg.inv(self.covariances + variance * np.eye(3)), dtype=np.float64)
+        return inverses(self.covariances, variance)[0]
 
     def log_volumes(self) -> Array:
         """Of the visible sides."""
-        return np.asarray(np.log(np.linalg.det(self.covariances)))
+        return inverses(self.covariances, 0.0)[1]
 
     def areas(self) -> Array:
         """Pi sqrt(|4 C| e^T (4 C)^-1 e), with e^T C^-1 e = 4 / h^2."""
@@ -197,20 +187,24 @@ class Visible(Seen):
             dE = a.dm + <G, dC> + (-2/3 a.e - 2 k h e^T G e) dh + (-2/3 h a - 2 k h^2 G e).de,
             dh = -h^3/4 (b.de + w.(b x e)),    de = (I - e e^T) dm / |m|,    dC = [w]x C - C [w]x.
         """
-        pulls, levers = moments.pulls()
-        forces = -pulls
-        mass = 0.5 * moments.mass[:, None, None]
-        spreads = mass * moments.precisions - 0.5 * levers @ moments.precisions
+        shrinking = np.zeros_like(self.whole)
         if volume_power:
-            spreads -= volume_power * mass * np.linalg.inv(self.covariances)
-        e, h = self.rays, self.reaches
-        across = (spreads @ e[:, :, None])[:, :, 0]
-        to_reach = -_DEPTH * _dot(forces, e) - 2.0 * _FLATTENING * h * _dot(across, e)
-        to_reach *= -0.25 * h**3
-        to_ray = -_DEPTH * h * forces - 2.0 * _FLATTENING * h**2 * across + to_reach * self.pulled
-        forces = forces + (to_ray - _dot(to_ray, e) * e) / self.distances
-        torques = 2.0 * axial(self.whole @ spreads) + to_reach * cross(self.pulled, e)
-        return np.concatenate([forces, torques], axis=1)
+            mass = 0.5 * volume_power * moments.mass[:, None, None]
+            shrinking = mass * inverses(self.covariances, 0.0)[0]
+        return visible_wrenches(
+            moments.mass,
+            moments.about,
+            moments.relative,
+            moments.precisions,
+            shrinking,
+            self.whole,
+            self.pulled,
+            self.rays,
+            self.reaches,
+            self.distances,
+            _DEPTH,
+            _FLATTENING,
+        )
 
 
 def seen(placed: Placed[Gaussians], camera: Camera | None) -> Seen:
@@ -218,10 +212,6 @@ def seen(placed: Placed[Gaussians], camera: Camera | None) -> Seen:
     if camera is not None and isinstance(placed.primitives, SurfaceGaussians):
         return Visible.of(placed)
     return Volume.of(placed)
-
-
-def _dot(a: Array, b: Array) -> Array:
-    return np.asarray((a * b).sum(axis=1, keepdims=True))
 
 
 _DEPTH = 2.0 / 3.0

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
-from regkit.arrays import Array, checked_points
+from regkit.arrays import Array, Indices, checked_points
 from regkit.errors import DataError
 from regkit.model import Model
 from regkit.observation import Frame
@@ -35,8 +37,8 @@ class Crop(Model):
             raise ValueError(f"near ({self.near} m) must be less than far ({self.far} m)")
         return self
 
-    def points(self, frame: Frame) -> Array:
-        """The points (N, 3) [m] of a frame that are kept.
+    def cropped(self, frame: Frame) -> Frame:
+        """The frame with what is kept of its points, and of its depth image if it has one.
 
         Raises:
             DataError: If a coordinate is not finite or fewer than ``min_points`` are left.
@@ -44,28 +46,45 @@ class Crop(Model):
         points = checked_points(frame.points, place=frame.place)
         if not len(points):
             raise DataError("the frame is empty: it has no measured point", place=frame.place)
-        kept = points
-        if self.near is not None:
-            kept = kept[kept[:, 2] >= self.near]
-        if self.far is not None:
-            kept = kept[kept[:, 2] <= self.far]
-        if self.behind_nearest is not None and len(kept):
-            # A percentile rather than the minimum, which a single stray pixel would set.
-            nearest = float(np.percentile(kept[:, 2], 0.5))
-            kept = kept[kept[:, 2] <= nearest + self.behind_nearest]
-        if self.connected is not None and len(kept):
-            kept = _nearest_piece(kept, self.connected)
+        kept = self._kept(points)
         if len(kept) < self.min_points:
             raise DataError(
                 f"{len(kept)} of the frame's {len(points)} points are left after cropping; at "
                 f"least {self.min_points} are needed (observer.crop)",
                 place=frame.place,
             )
+        if len(kept) == len(points):
+            return frame
+        depth = frame.depth
+        if depth is not None and np.count_nonzero(depth > 0.0) == len(points):
+            # Points come row by row from the measured pixels; what is cut away was seen through.
+            pixels = np.flatnonzero(depth > 0.0)[kept]
+            depth = np.zeros_like(depth)
+            depth.flat[pixels] = points[kept, 2]
+        return replace(frame, points=points[kept], depth=depth)
+
+    def _kept(self, points: Array) -> Indices:
+        """Which of the points (N, 3) are kept, in their order."""
+        depths = points[:, 2]
+        kept = np.arange(len(points))
+        if self.near is not None:
+            kept = kept[depths[kept] >= self.near]
+        if self.far is not None:
+            kept = kept[depths[kept] <= self.far]
+        if self.behind_nearest is not None and len(kept):
+            # A percentile rather than the minimum, which a single stray pixel would set.
+            nearest = float(np.percentile(depths[kept], 0.5))
+            kept = kept[depths[kept] <= nearest + self.behind_nearest]
+        if self.connected is not None and len(kept):
+            kept = kept[_nearest_piece(points[kept], self.connected)]
         return kept
 
 
-def _nearest_piece(points: Array, gap: float) -> Array:
-    """The piece nearest to the camera, of those that no occupied cubes of side ``gap`` [m] join."""
+def _nearest_piece(points: Array, gap: float) -> NDArray[np.bool_]:
+    """Which points are of the piece nearest to the camera, (N,).
+
+    No occupied cubes of the side ``gap`` [m] join the others to it.
+    """
     from scipy.ndimage import label
 
     cells = np.floor(points / gap).astype(np.int64)
@@ -76,4 +95,4 @@ def _nearest_piece(points: Array, gap: float) -> Array:
     piece = pieces[tuple(cells.T)]
     # Most of the nearest points decide, for a single one may be a stray pixel.
     nearest = points[:, 2] <= np.percentile(points[:, 2], 2.0)
-    return np.asarray(points[piece == np.bincount(piece[nearest]).argmax()])
+    return np.asarray(piece == np.bincount(piece[nearest]).argmax())

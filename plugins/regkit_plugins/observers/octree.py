@@ -34,7 +34,8 @@ class OctreeObserver(Observer):
 
     def observe(self, frame: Frame) -> Observation:
         """One Gaussian for each leaf."""
-        points = self.crop.points(frame)
+        frame = self.crop.cropped(frame)
+        points = frame.points
         cells = np.floor((points - points.min(axis=0)) / self.leaf).astype(np.int64)
         pending = np.arange(len(points))
         means, weights, deviations = [], [], []

@@ -33,7 +33,8 @@ class PointsObserver(Observer):
         Averaging also evens out how densely a surface is seen: near parts count no more than far
         ones.
         """
-        points = self.crop.points(frame)
+        frame = self.crop.cropped(frame)
+        points = frame.points
         if self.voxel is not None:
             points = _averaged(points, self.voxel)
         ones = np.ones(len(points))

@@ -10,8 +10,8 @@ from pydantic import Field
 
 from regkit.arrays import Array
 from regkit.interfaces import JointEnergy, Scene, Strain, Term
-from regkit.rotation import conjugate, product, to_vector
 from regkit.skeleton import Pose, Skeleton
+from regkit.skeleton.compiled import ball_steps
 
 
 class Continuity(Term):
@@ -63,8 +63,7 @@ class ExpectedPose(JointEnergy):
     def __call__(self, pose: Pose) -> Strain:
         """The force is w r itself: a rotation vector is the same before and after its rotation."""
         step = np.zeros(self.skeleton.freedoms)
-        turns = product(conjugate(self.expected.balls), pose.balls)
-        step[self.skeleton.ball_freedoms] = to_vector(turns).ravel()
+        step[self.skeleton.ball_freedoms] = ball_steps(self.expected.balls, pose.balls).ravel()
         step[self.skeleton.hinge_freedoms] = pose.hinges - self.expected.hinges
         force = self.weights * step
         return Strain(0.5 * float(force @ step), force, self.stiffness)

@@ -11,8 +11,8 @@ from pydantic import Field
 from regkit.arrays import Array, Indices
 from regkit.interfaces import Response, Scene, Similarity, Term
 from regkit.primitives import Placed
-from regkit.rotation import axial
 from regkit.skeleton import Skeleton
+from regkit_plugins.terms.compiled import overlaps
 
 REACH = 3.0
 """Pairs farther apart than so many of their scales together at the start are not looked at."""
@@ -41,9 +41,7 @@ class Intersection(Term):
         sections = np.sort(primitives.scales, axis=1)[:, 1:].prod(axis=1)
         sizes = sections / sections.sum()
         weights = self.weight * np.minimum(sizes[first], sizes[second])
-        carried = np.zeros((len(primitives), 2 * len(first)))
-        carried[np.concatenate([first, second]), np.arange(2 * len(first))] = 1.0
-        return Overlaps(first, second, weights, carried)
+        return Overlaps(first, second, weights)
 
 
 @dataclass(frozen=True)
@@ -54,33 +52,19 @@ class Overlaps(Similarity):
         first: Index a of the pairs, (M,).
         second: Index b, (M,).
         weights: w, (M,).
-        carried: Which primitive each pair's first, then each pair's second is, (K, 2 M).
     """
 
     first: Indices
     second: Indices
     weights: Array
-    carried: Array
 
     def __call__(self, placed: Placed[Any], *, curvature: bool = False) -> Response:
         """The energy, exact wrenches, and the part of the curvature that is never negative."""
-        a, b = self.first, self.second
-        whole = placed.covariances()
-        apart = placed.centres[a] - placed.centres[b]
-        pulled = (np.linalg.inv(whole[a] + whole[b]) @ apart[:, :, None])[:, :, 0]
-        overlaps = self.weights * np.exp(-0.5 * (apart * pulled).sum(axis=1))
         # dE/dm_a = -o u and dE/dC_a = o/2 u u^T, with u = S^-1 d; for b the force is opposite.
-        turning = pulled[:, :, None] * pulled[:, None, :]
-        ways = np.empty((2, len(a), 6))
-        ways[0, :, :3], ways[1, :, :3] = -pulled, pulled
-        ways[0, :, 3:] = axial(whole[a] @ turning)
-        ways[1, :, 3:] = axial(whole[b] @ turning)
-        slopes = (overlaps[:, None] * ways).reshape(-1, 6)
-        stiffness = None
-        if curvature:
-            blocks = slopes[:, :, None] * ways.reshape(-1, 1, 6)
-            stiffness = (self.carried @ blocks.reshape(-1, 36)).reshape(-1, 6, 6)
-        return Response(float(overlaps.sum()), self.carried @ slopes, stiffness)
+        energy, wrenches, blocks = overlaps(
+            placed.centres, placed.covariances(), self.first, self.second, self.weights
+        )
+        return Response(energy, wrenches, blocks if curvature else None)
 
 
 def _strangers(segments: Indices, skeleton: Skeleton) -> tuple[Indices, Indices]:

@@ -10,8 +10,9 @@ from scipy.spatial import KDTree
 
 from regkit.arrays import Array
 from regkit.body import Body
-from regkit.capsules import Capsules
+from regkit.capsules import AxisPoints, Capsules
 from regkit.skeleton import Placement, Pose
+from regkit_plugins.trackers.compiled import mean_gaps
 from regkit_plugins.trackers.limbs import Limb, limbs_of
 
 SPACING = 0.05
@@ -34,20 +35,20 @@ class LimbSearch:
     Attributes:
         body: Whose limb it is.
         limb: The limb.
+        axes: Points on the limb's axis.
         rest: The surface of the rest of the body.
         balls: Joints of each of N configurations, (N, n_ball, 4).
         hinges: And their hinges, (N, n_hinge) [rad].
-        places: Points on the limb's axis in the frame of the segment that it hangs on, (N, P, 3).
-        radii: The limb's radius at each of them, (P,) [m].
+        places: The points in the frame of the segment that the limb hangs on, (N, P, 3) [m].
     """
 
     body: Body
     limb: Limb
+    axes: AxisPoints
     rest: Capsules
     balls: Array
     hinges: Array
     places: Array
-    radii: Array
 
     @classmethod
     def of_all(cls, body: Body, random: np.random.Generator, samples: int) -> Iterator[LimbSearch]:
@@ -63,7 +64,7 @@ class LimbSearch:
             transforms = Placement.of(body.skeleton, poses).transforms
             places = axes.place(transforms) - transforms[:, limb.parent, None, :3, 3]
             places = places @ transforms[:, limb.parent, :3, :3]
-            yield cls(body, limb, body.capsules.some(~own), balls, hinges, places, axes.radii)
+            yield cls(body, limb, axes, body.capsules.some(~own), balls, hinges, places)
 
     def starts(self, cloud: KDTree, pose: Pose, most: int) -> Iterator[Pose]:
         """The poses, at most so many, whose limb covers best what the rest leaves bare.
@@ -79,9 +80,7 @@ class LimbSearch:
         bare = self._bare(np.asarray(cloud.data), placement, places[0, 0])
         if len(bare) < FEWEST_POINTS:
             return
-        own = np.isin(self.body.capsules.segments, self.limb.segments)
-        axes = self.body.capsules.some(own).axis_points(SPACING * self.body.size)
-        present = axes.place(placement.transforms)[None]
+        present = self.axes.place(placement.transforms)[None]
         now = (self._uncovered(present, bare) + self._unseen(present, cloud))[0]
         uncovered = self._uncovered(places, bare)
         likely = np.argsort(uncovered)[:LIKELY]
@@ -96,21 +95,19 @@ class LimbSearch:
         length = float(np.linalg.norm(self.places - self.places[:, :1], axis=2).max())
         near = points[np.linalg.norm(points - root, axis=1) < 1.2 * length]
         rest = self.rest.place(placement.transforms)
-        bare = near[rest.surface_distance(near) > float(self.radii.max())]
+        bare = near[rest.surface_distance(near) > float(self.axes.radii.max())]
         return np.asarray(bare[:: max(1, len(bare) // MOST_POINTS)])
 
     def _uncovered(self, places: Array, bare: Array) -> Array:
         """How far the bare points are from the limb's surface, in each of N places, (N,)."""
-        squares = (places**2).sum(axis=2)[..., None] + (bare**2).sum(axis=1)
-        squares -= 2.0 * places @ bare.T
-        gaps = np.sqrt(np.maximum(squares, 0.0)) - self.radii[:, None]
-        return self._cut(np.abs(gaps).min(axis=1))
+        return mean_gaps(places, self.axes.radii, bare, self._reach)
 
     def _unseen(self, places: Array, cloud: KDTree) -> Array:
         """How far the limb's surface is from the points, in each of N places, (N,)."""
-        return self._cut(np.maximum(cloud.query(places)[0] - self.radii, 0.0))
+        gaps = np.maximum(cloud.query(places)[0] - self.axes.radii, 0.0)
+        return np.asarray(np.minimum(gaps, self._reach).mean(axis=1) / self._reach)
 
-    def _cut(self, gaps: Array) -> Array:
-        """The mean of gaps (N, M) [m], none counting more than a limb's width, over that."""
-        reach = 2.0 * float(self.radii.max())
-        return np.asarray(np.minimum(gaps, reach).mean(axis=1) / reach)
+    @property
+    def _reach(self) -> float:
+        """No gap counts more than the limb's width [m]."""
+        return 2.0 * float(self.axes.radii.max())

@@ -36,8 +36,8 @@ class Recovery(Model):
     alarm: Annotated[float, Field(ge=1.0)] = 1.3
     """Look for lost limbs when so many times the usual share of the data is unexplained, and
     ``gain`` more."""
-    every: Annotated[int, Field(ge=1)] = 10
-    """Look for them in every so manieth frame in any case, and in the first."""
+    every: Annotated[int, Field(ge=1)] = 20
+    """Look for them in the first frame, and then after so many frames in any case."""
 
     def prepare(self, registrar: Registrar) -> Rescuer:
         """Draw the configurations, which are the same in all frames."""

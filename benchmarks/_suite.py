@@ -1,0 +1,107 @@
+"""The synthetic sequences that the benchmarks of accuracy run on, and one row of their tables."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from collections.abc import Sequence
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from regkit.document import Document
+from regkit.experiment import Experiment, run
+from regkit.metrics import Measure
+
+FOLDER = Path("results/suite")
+"""Where the sequences are, made when they are not there (two minutes)."""
+
+OBSERVERS = {
+    "human": "{kind: points, voxel: 0.03, sigma: 0.01}",
+    "hand": "{kind: points, voxel: 0.008, sigma: 0.003}",
+}
+EXPERIMENT = """\
+name: suite
+dataset: {{kind: depth, root: {folder}}}
+template: {{kind: file, path: {folder}.yaml, size: {size}}}
+observer: {observer}
+methods: {{method: {method}}}
+"""
+
+
+class Silent:
+    """Wants to know only of failures."""
+
+    def begin(self, method: str, sequence: str, frames: int) -> None:
+        """A sequence begins."""
+
+    def advance(self) -> None:
+        """A frame is done."""
+
+    def end(self, method: str, sequence: str, outcome: object) -> None:
+        """A sequence ends."""
+        if isinstance(outcome, Exception):
+            print(f"{sequence} failed: {outcome}", file=sys.stderr)
+
+
+def bodies(kind: str) -> list[Path]:
+    """The folders of the sequences of each ``human`` or ``hand``; made if they are not there."""
+    if not FOLDER.is_dir():
+        command = [sys.executable, "-m", "regkit_plugins.synthesis", str(FOLDER), "--suite"]
+        subprocess.run(command, check=True, stdout=sys.stderr)
+    return sorted(folder for folder in FOLDER.absolute().glob(f"{kind}_*") if folder.is_dir())
+
+
+def tracked(kind: str, method: str, settings: Sequence[str] = ()) -> dict[str, Measure]:
+    """The figures of a method, written as in YAML, on all sequences of a kind, by name."""
+    jobs = [
+        (folder, sequence.name, OBSERVERS[kind], method, tuple(settings))
+        for folder in bodies(kind)
+        for sequence in sorted(folder.iterdir())
+        if sequence.is_dir()
+    ]
+    with ProcessPoolExecutor() as pool:
+        return dict(pool.map(_tracked, jobs))
+
+
+def _tracked(job: tuple[Path, str, str, str, tuple[str, ...]]) -> tuple[str, Measure]:
+    folder, sequence, observer, method, settings = job
+    size = Document.read(folder.with_suffix(".yaml")).data["size"]["value"]
+    with TemporaryDirectory() as temporary:
+        file = Path(temporary) / "experiment.yaml"
+        file.write_text(
+            EXPERIMENT.format(folder=folder, size=size, observer=observer, method=method)
+        )
+        experiment = Experiment.read(file, (*settings, f"dataset.sequences=[{sequence}]"))
+        outcome = run(experiment, Path(temporary) / "out", Silent())
+    return f"{folder.name}/{sequence}", outcome.measures["method"][sequence]
+
+
+def mean(measures: dict[str, Measure], figure: str) -> float:
+    """The mean of a figure over sequences."""
+    return sum(getattr(measure, figure) for measure in measures.values()) / len(measures)
+
+
+def row(name: str, measures: dict[str, Measure]) -> dict[str, float]:
+    """Prints the mean figures of a method as a row of Markdown, and gives them back."""
+    figures = {
+        "raw_cm": round(mean(measures, "joint_error_raw_cm"), 2),
+        "adjusted_cm": round(mean(measures, "joint_error_adjusted_cm"), 2),
+        "worst_raw_cm": round(max(m.joint_error_raw_cm or 0.0 for m in measures.values()), 2),
+        "near_percent": round(mean(measures, "near_percent"), 1),
+        "evaluations": round(mean(measures, "evaluations_per_frame"), 1),
+    }
+    print(f"| {name} | " + " | ".join(f"{figure:g}" for figure in figures.values()) + " |")
+    sys.stdout.flush()
+    return figures
+
+
+HEADER = """\
+| method | raw [cm] | adjusted [cm] | worst raw [cm] | near [%] | evaluations |
+|---|--:|--:|--:|--:|--:|"""
+
+
+def last_line(figures: object) -> None:
+    """Prints the figures as one JSON object, the last line of every benchmark."""
+    print(json.dumps(figures))

@@ -1,0 +1,128 @@
+"""How many frames a second the method ``best`` tracks, depth image to pose, and where time goes.
+
+    python benchmarks/tracking.py
+
+The shipped walk (176x144 pixels, G-SoG of 13 Gaussians) and the shipped hand (18 Gaussians), on one
+thread: back-projection, observation, registration and tracking; finding the start is not counted.
+Every sequence is tracked several times, and the fastest counts: its cost when nothing interferes.
+"""
+
+from __future__ import annotations
+
+import cProfile
+import json
+import pstats
+import resource
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+from regkit.experiment import Experiment
+from regkit.interfaces import Follower, Registered
+from regkit.observation import Frame
+from regkit.optional import one_blas_thread
+from regkit.start import found_start
+
+EXAMPLES = Path(__file__).parent.parent / "docs" / "examples"
+ROUNDS = 5
+PARTS = {
+    "observers": "observe",
+    "kernels": "kernel",
+    "terms": "terms",
+    "silhouette": "terms",
+    "trackers": "search of limbs",
+    "skeleton": "kinematics",
+    "rotation": "kinematics",
+    "coordinates": "kinematics",
+    "primitives": "kinematics",
+    "solvers": "solver",
+    "problem": "solver",
+}
+"""What of regkit a file belongs to, by a part of its path; NumPy's own time goes to its callers."""
+
+
+class Bench:
+    """One example, ready to be tracked."""
+
+    def __init__(self, example: str) -> None:
+        experiment = Experiment.read(EXAMPLES / example)
+        (sequence,) = experiment.dataset.chosen()
+        method = experiment.methods["best"]
+        self.frames = list(sequence.frames())
+        self.observer = experiment.observer
+        start = found_start(experiment.template, self.observer.observe(self.frames[0]))
+        self.start = Registered.given(start.pose)
+        self.follower: Follower = (method.tracker or experiment.tracker).follow(
+            method.prepare(start.body)
+        )
+
+    def track(self) -> Iterator[Registered]:
+        """Track the sequence once, from the depth images on."""
+        past = [self.start]
+        for frame in self.frames:
+            assert frame.camera is not None
+            assert frame.depth is not None
+            points = frame.camera.back_projected(frame.depth)
+            seen = Frame(points, frame.camera, frame.depth, frame.place)
+            past.append(self.follower.step(self.observer.observe(seen), past))
+            yield past[-1]
+
+    def seconds(self) -> float:
+        """The least time for the sequence over several rounds."""
+        rounds = []
+        for _ in range(ROUNDS):
+            begun = time.perf_counter()
+            evaluations = [found.evaluations for found in self.track()]
+            rounds.append(time.perf_counter() - begun)
+        self.evaluations = sum(evaluations) / len(evaluations)
+        return min(rounds)
+
+    def shares(self) -> dict[str, float]:
+        """What share of the time each part of regkit takes, in percent, under a profiler."""
+        profile = cProfile.Profile()
+        profile.enable()
+        for _ in self.track():
+            pass
+        profile.disable()
+        stats = pstats.Stats(profile)
+        shares: dict[str, float] = {}
+        total = stats.total_tt  # type: ignore[attr-defined]
+        for (file, _, _), (_, _, own, _, callers) in stats.stats.items():  # type: ignore[attr-defined]
+            if (part := part_of(file)) is not None:
+                shares[part] = shares.get(part, 0.0) + own
+                continue
+            for (caller, _, _), (*_, through, _) in callers.items():
+                part = part_of(caller) or "other"
+                shares[part] = shares.get(part, 0.0) + through
+        return {part: 100.0 * own / total for part, own in sorted(shares.items())}
+
+
+def part_of(file: str) -> str | None:
+    """The part of regkit that a file belongs to."""
+    if "regkit" not in file:
+        return None
+    return next((name for part, name in PARTS.items() if part in file), "other")
+
+
+def main() -> None:
+    """Print the tables, and their figures as one JSON object in the last line."""
+    figures: dict[str, object] = {"threads": 1}
+    with one_blas_thread():
+        for name, example in (("human", "demo.yaml"), ("hand", "hand.yaml")):
+            bench = Bench(example)
+            seconds = bench.seconds()
+            fps = len(bench.frames) / seconds
+            print(
+                f"{name}: {fps:.0f} frames per second, {1000 / fps:.2f} ms each, "
+                f"{bench.evaluations:.1f} evaluations"
+            )
+            for part, share in bench.shares().items():
+                print(f"  {part:16s} {share:5.1f} %")
+            figures[f"{name}_best_fps"] = round(fps, 1)
+    memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    print(f"memory: {memory:.0f} MB at most")
+    print(json.dumps(figures | {"memory_mb": round(memory)}))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,52 @@
+"""Overlaps of pairs of Gaussians, in compiled loops; the formulas stand in ``intersection``."""
+
+from __future__ import annotations
+
+from math import exp
+
+import numpy as np
+
+from regkit.arrays import Array, Indices
+from regkit.optional import compiled
+
+
+@compiled
+def overlaps(
+    centres: Array, covariances: Array, first: Indices, second: Indices, weights: Array
+) -> tuple[float, Array, Array]:
+    """The energy, the wrenches (K, 6), and blocks (K, 6, 6) of its curvature, never negative."""
+    energy = 0.0
+    wrenches, blocks = np.zeros((len(centres), 6)), np.zeros((len(centres), 6, 6))
+    pulled, way = np.empty(3), np.empty(6)
+    for pair in range(len(first)):
+        one, two = first[pair], second[pair]
+        a, b = covariances[one], covariances[two]
+        x = centres[one, 0] - centres[two, 0]
+        y = centres[one, 1] - centres[two, 1]
+        z = centres[one, 2] - centres[two, 2]
+        d, e, f = a[0, 0] + b[0, 0], a[1, 1] + b[1, 1], a[2, 2] + b[2, 2]
+        g, h, i = a[0, 1] + b[0, 1], a[0, 2] + b[0, 2], a[1, 2] + b[1, 2]
+        p, q, r = e * f - i * i, h * i - g * f, g * i - e * h
+        determinant = d * p + g * q + h * r
+        pulled[0] = (p * x + q * y + r * z) / determinant
+        pulled[1] = (q * x + (d * f - h * h) * y + (g * h - d * i) * z) / determinant
+        pulled[2] = (r * x + (g * h - d * i) * y + (d * e - g * g) * z) / determinant
+        overlap = weights[pair] * exp(-0.5 * (x * pulled[0] + y * pulled[1] + z * pulled[2]))
+        energy += overlap
+        for side in range(2):
+            owner = two if side else one
+            matrix = b if side else a
+            for j in range(3):
+                way[j] = pulled[j] if side else -pulled[j]
+            # The axial vector of C u u^T is (C u) x u.
+            s = matrix[0, 0] * pulled[0] + matrix[0, 1] * pulled[1] + matrix[0, 2] * pulled[2]
+            t = matrix[1, 0] * pulled[0] + matrix[1, 1] * pulled[1] + matrix[1, 2] * pulled[2]
+            u = matrix[2, 0] * pulled[0] + matrix[2, 1] * pulled[1] + matrix[2, 2] * pulled[2]
+            way[3] = t * pulled[2] - u * pulled[1]
+            way[4] = u * pulled[0] - s * pulled[2]
+            way[5] = s * pulled[1] - t * pulled[0]
+            for j in range(6):
+                wrenches[owner, j] += overlap * way[j]
+                for k in range(6):
+                    blocks[owner, j, k] += overlap * way[j] * way[k]
+    return energy, wrenches, blocks
