@@ -45,7 +45,7 @@ class Silhouette:
             margins: How far before the measured depth each of them may be, (M,) [m].
         """
         # Imported when first used, for Numba takes its time to load.
-        from regkit.outlines import free_gaps
+        from regkit.free_space import free_gaps
 
         return free_gaps(
             points, margins, self._nearest, self._shown, self._scale, self._offset, self._half

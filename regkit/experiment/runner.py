@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import islice
 from pathlib import Path
 from typing import Protocol
 
@@ -14,7 +15,7 @@ from regkit.experiment.results import Results
 from regkit.interfaces import Method, Sequence
 from regkit.metrics import Measure, matched, measured
 from regkit.model import did_you_mean
-from regkit.observation import Truth
+from regkit.observation import Observation, Truth
 from regkit.optional import one_blas_thread
 from regkit.report import draw_overlay, report
 from regkit.start import Start, found_start, given_start
@@ -128,15 +129,25 @@ class _Task:
 
     @cached_property
     def start(self) -> Start:
-        """The given start, or the one found in the first frame."""
+        """The given start, or the one found in the first frame, its size in a few."""
         if self.experiment.start is not None:
             return given_start(self.experiment.template, self.experiment.start)
-        frame = next(self.sequence.frames())
-        try:
-            observation = self.experiment.observer.observe(frame)
-        except RegkitError as error:
-            raise error.at(frame.place or self.sequence.name) from None
-        return found_start(self.experiment.template, observation)
+        return found_start(self.experiment.template, *self._looked_at())
+
+    def _looked_at(self) -> Iterator[Observation]:
+        """The first frame, and two later ones where the size is unknown and they can be used."""
+        sized = self.experiment.template.given_size() is not None
+        last = self.sequence.length - 1
+        wanted = {0} if sized else {0, last // 2, last}
+        for index, frame in enumerate(islice(self.sequence.frames(), 1 + max(wanted))):
+            if index not in wanted:
+                continue
+            try:
+                yield self.experiment.observer.observe(frame)
+            except RegkitError as error:
+                # What is wrong with a later frame is told when it is tracked.
+                if index == 0:
+                    raise error.at(frame.place or self.sequence.name) from None
 
 
 def _finished(

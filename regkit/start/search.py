@@ -66,7 +66,7 @@ def given_start(template: Template, description: PoseDescription) -> Start:
     return Start(body, body.skeleton.pose(description))
 
 
-def found_start(template: Template, observation: Observation) -> Start:
+def found_start(template: Template, observation: Observation, *later: Observation) -> Start:
     """The start that fits the first frame best.
 
     Every likely stance is placed at the cloud's centre, facing the camera, in every turn. The best
@@ -77,6 +77,7 @@ def found_start(template: Template, observation: Observation) -> Start:
     Args:
         template: What is seen, perhaps of unknown size.
         observation: The first frame.
+        later: More frames; the one that fits best tells the size.
 
     Raises:
         ConfigError: If the template has no capsules, or a root that does not move freely.
@@ -89,36 +90,47 @@ def found_start(template: Template, observation: Observation) -> Start:
             "give one (start:), and the template's size"
         )
     with one_blas_thread():
-        return _found_start(template, Scan(observation.points))
+        return _found_start(template, [Scan(one.points) for one in (observation, *later)])
 
 
-def _found_start(template: Template, scan: Scan) -> Start:
+def _found_start(template: Template, scans: list[Scan]) -> Start:
     bodies = [template.body(size) for size in template.candidate_sizes()]
+    if len(bodies) == 1:
+        (best,) = _fits(scans[0], bodies)
+        return Start(best.body, best.pose)
+    fits = [_fits(scan, bodies) for scan in scans]
+    # The frame that fits best tells the size: a person who sits, or folds the arms, tells less.
+    bests = [min(of_frame, key=_misfit) for of_frame in fits]
+    telling = int(np.argmin([best.misfit for best in bests]))
+    sizes = [body.size for body in bodies]
+    best = _resized(scans[telling], template, bests[telling], sizes)
+    if telling:
+        nearest = min(fits[0], key=lambda fit: abs(np.log(fit.body.size / best.body.size)))
+        best = _fit(scans[0], best.body, nearest.pose, sizes[len(sizes) // 2], FINE)
+    return Start(best.body, best.pose)
+
+
+def _fits(scan: Scan, bodies: list[Body]) -> list[Candidate]:
+    """The best fit of each body to a cloud."""
     usual = bodies[len(bodies) // 2]
     rough = sorted(guesses(scan, usual, FAR * REACH * usual.size), key=_misfit)[:LIKELY]
     coarse = [_fit(scan, usual, guess.pose, usual.size, COARSE) for guess in rough]
-    fine = [
-        _fit(scan, body, finalist.pose, usual.size, FINE)
-        for finalist in sorted(coarse, key=_misfit)[:FINALISTS]
+    finalists = sorted(coarse, key=_misfit)[:FINALISTS]
+    return [
+        min((_fit(scan, body, one.pose, usual.size, FINE) for one in finalists), key=_misfit)
         for body in bodies
     ]
-    best = min(fine, key=_misfit)
-    if len(bodies) > 1:
-        best = _resized(scan, template, best, [body.size for body in bodies])
-    return Start(best.body, best.pose)
 
 
 def _resized(scan: Scan, template: Template, best: Candidate, sizes: list[float]) -> Candidate:
     """The best fit of sizes between the candidates', halving their distance again and again."""
-    ratio = sizes[1] / sizes[0]
+    ratio, usual = sizes[1] / sizes[0], sizes[len(sizes) // 2]
     for _ in range(REFINEMENTS):
         ratio = np.sqrt(ratio)
         near = np.clip([best.body.size / ratio, best.body.size * ratio], sizes[0], sizes[-1])
         bodies = [template.body(float(size)) for size in near]
-        usual = sizes[len(sizes) // 2]
-        best = min(
-            [best, *(_fit(scan, body, best.pose, usual, FINE) for body in bodies)], key=_misfit
-        )
+        tried = [_fit(scan, body, best.pose, usual, FINE) for body in bodies]
+        best = min([best, *tried], key=_misfit)
     return best
 
 

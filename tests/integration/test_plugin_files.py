@@ -1,10 +1,11 @@
 """Plug-ins of a user's own, in a file."""
 
+import numpy as np
 import pytest
-from small_experiment import (
-    QUICK,
-    add_method,
-)
+from small_experiment import EXAMPLES, QUICK, add_method
+
+from regkit.interfaces import Scene, Term
+from regkit.plugin import run_plugin_file
 
 SHAPE = '''
 from typing import ClassVar, Literal
@@ -116,3 +117,31 @@ def test_plugin_that_declares_too_little_is_refused(regkit, files, tmp_path, old
     assert ended.code == 1
     assert ended.err.startswith(f"error: {path}: ")
     assert expected in ended.err
+
+
+@pytest.mark.parametrize(
+    ("file", "method"),
+    [
+        ("dumbbells.py", "{kind: direct, shape: dumbbells, kernel: correlation, solver: lbfgs}"),
+        ("upright.py", "{preset: best, terms: [visibility, free_space, upright]}"),
+    ],
+)
+def test_plug_in_of_the_how_to_pages_runs(regkit, files, file, method):
+    ended = regkit(
+        "run", files.experiment, "--out", files.out, "--plugin", EXAMPLES / file,
+        "--set", f"methods.mine={method}", "--only", "mine", *QUICK,
+    )  # fmt: skip
+    assert ended.code == 0, ended.err
+    assert files.metrics()["mine"]["mean"]["frames"] == 1
+
+
+def test_term_of_the_how_to_page_has_the_derivative_that_it_claims(linkage, random):
+    run_plugin_file(EXAMPLES / "upright.py")
+    bones = linkage.skeleton
+    pose = bones.retract(bones.rest(), random.normal(size=bones.freedoms))
+    energy = Term.load("upright")().against(Scene(linkage, None, pose, None))
+    numerical = [
+        energy(bones.retract(pose, 1e-6 * e)).energy - energy(bones.retract(pose, -1e-6 * e)).energy
+        for e in np.eye(bones.freedoms)
+    ]
+    np.testing.assert_allclose(energy(pose).force, np.array(numerical) / 2e-6, atol=1e-8)
