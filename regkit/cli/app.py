@@ -6,6 +6,7 @@ import sys
 
 import typer
 
+from regkit.cli.calibrate import calibrate
 from regkit.cli.console import print_error
 from regkit.cli.doctor import doctor
 from regkit.cli.plugins import plugins
@@ -20,7 +21,7 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
-for command in (run, validate, plugins, schema, doctor):
+for command in (run, calibrate, validate, plugins, schema, doctor):
     app.command()(command)
 
 

@@ -33,6 +33,8 @@ class Template(Plugin, ABC):
         if given is not None:
             return (given,)
         smallest, largest = self.description().size.range
+        if smallest == largest:
+            return (smallest,)
         return tuple(float(size) for size in np.geomspace(smallest, largest, count))
 
     def name(self) -> str:

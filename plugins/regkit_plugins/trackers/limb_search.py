@@ -94,9 +94,10 @@ class LimbSearch:
         """The points within the limb's reach that the rest of the body does not explain."""
         length = float(np.linalg.norm(self.places - self.places[:, :1], axis=2).max())
         near = points[np.linalg.norm(points - root, axis=1) < 1.2 * length]
-        rest = self.rest.place(placement.transforms)
-        bare = near[rest.surface_distance(near) > float(self.axes.radii.max())]
-        return np.asarray(bare[:: max(1, len(bare) // MOST_POINTS)])
+        if len(self.rest):
+            rest = self.rest.place(placement.transforms)
+            near = near[rest.surface_distance(near) > float(self.axes.radii.max())]
+        return np.asarray(near[:: max(1, len(near) // MOST_POINTS)])
 
     def _uncovered(self, places: Array, bare: Array) -> Array:
         """How far the bare points are from the limb's surface, in each of N places, (N,)."""

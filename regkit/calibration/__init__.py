@@ -1,0 +1,6 @@
+"""The proportions of the person or hand that a sequence shows."""
+
+from regkit.calibration.calibration import Calibration, Watcher
+from regkit.calibration.subject import Subject
+
+__all__ = ["Calibration", "Subject", "Watcher"]

@@ -1,0 +1,137 @@
+"""Calibration: a template that has the proportions of the person or hand in a sequence."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import islice
+from typing import Annotated, Protocol
+
+import numpy as np
+from pydantic import Field, TypeAdapter
+
+from regkit.arrays import Array
+from regkit.calibration.frames import Looks, spread
+from regkit.calibration.problem import SubjectProblem
+from regkit.calibration.shape import Shape
+from regkit.calibration.subject import Subject
+from regkit.errors import ConfigError, RegkitError
+from regkit.interfaces import Method, Observer, Sequence, Solver, Template, Tracker
+from regkit.model import Model
+from regkit.optional import one_blas_thread
+from regkit.skeleton import PoseDescription
+from regkit.start import Start, found_start, given_start
+from regkit.tracking import TrackedFrame, tracked
+
+SOLVER = {"kind": "gauss_newton", "max_iterations": 30, "value_tolerance": 1e-4}
+"""What makes the gaps of all frames small."""
+
+ROUNDS = 2
+"""How often the body is tracked and its proportions are found: a body that is nearer to the subject
+is tracked better."""
+
+VOXEL, SMALLEST_VOXEL = 0.018, 0.01
+"""Side of the cubes whose points are averaged, as a part of the body's size, and at least [m]."""
+
+
+class Watcher(Protocol):
+    """Who wants to know how far a calibration is."""
+
+    def begin(self, task: str, steps: int) -> None:
+        """Something begins that takes so many steps."""
+
+    def advance(self) -> None:
+        """One more step is done."""
+
+
+class Calibration(Model):
+    """How a subject's proportions are found."""
+
+    template: Template
+    """What is seen, of usual proportions."""
+    observer: Observer | None = None
+    """How frames become data; points averaged in cubes that suit the body's size without it."""
+    start: PoseDescription | None = None
+    """Pose in the first frame; found from the cloud without it. It needs the template's size."""
+    frames: Annotated[int, Field(ge=1)] = 12
+    """In how many frames the body is looked at, spread over those that are tracked."""
+    longest: Annotated[int, Field(ge=1)] = 300
+    """How many frames are tracked at most, from the start of the sequence."""
+    method: Method = Field(default={"preset": "best"}, validate_default=True)
+    """What registers the body to each frame of the sequence."""
+    tracker: Tracker = Field(default="hold", validate_default=True)
+    """How one frame's pose leads to the next, if the method does not say."""
+    solver: Solver = Field(default=SOLVER, validate_default=True)
+    """What makes the gaps of all frames small."""
+
+    def subject(self, sequence: Sequence, watcher: Watcher) -> Subject:
+        """The subject of a sequence.
+
+        Raises:
+            RegkitError: If the template has no capsules, the sequence cannot be tracked, or the
+                body that comes out is none.
+        """
+        with one_blas_thread():
+            return self._subject(sequence, watcher)
+
+    def _subject(self, sequence: Sequence, watcher: Watcher) -> Subject:
+        shape = Shape(self.template.description())
+        start = self._start(sequence)
+        x = shape.origin(start.body.size)
+        for _ in range(ROUNDS):
+            looks = self._looks(sequence, start, watcher)
+            x, looks = self._fitted(shape, x, looks, watcher)
+            start = Start(shape.body(x), looks.first)
+        return Subject.found(shape, x, looks, sequence.name)
+
+    def _observer(self) -> Observer:
+        """The given observer, or one for a body of the usual size."""
+        if self.observer is not None:
+            return self.observer
+        size = float(np.median(self.template.candidate_sizes()))
+        voxel = max(VOXEL * size, SMALLEST_VOXEL)
+        points = {"kind": "points", "voxel": voxel, "sigma": max(voxel / 3.0, SMALLEST_VOXEL / 2.0)}
+        return TypeAdapter[Observer](Observer).validate_python(points)
+
+    def _start(self, sequence: Sequence) -> Start:
+        """The given start, or the one found in the first frame."""
+        if self.start is not None:
+            start = given_start(self.template, self.start)
+        else:
+            frame = next(sequence.frames())
+            try:
+                observation = self._observer().observe(frame)
+            except RegkitError as error:
+                raise error.at(frame.place or sequence.name) from None
+            start = found_start(self.template, observation)
+        if not len(start.body.capsules):
+            raise ConfigError(
+                f"the template '{start.body.name}' has no capsules, without which its proportions "
+                "cannot be found"
+            )
+        return start
+
+    def _looks(self, sequence: Sequence, start: Start, watcher: Watcher) -> Looks:
+        """The body tracked, and the frames chosen in which it is looked at."""
+        length = min(sequence.length, self.longest)
+        watcher.begin("tracking", length)
+        registrar = self.method.prepare(start.body)
+        tracker = self.method.tracker or self.tracker
+        track = tracked(sequence, self._observer(), registrar, tracker, start.pose)
+        return spread(_watched(islice(track, length), watcher), length, self.frames)
+
+    def _fitted(
+        self, shape: Shape, x: Array, looks: Looks, watcher: Watcher
+    ) -> tuple[Array, Looks]:
+        """The proportions (1 + 2 G) and poses of least gaps."""
+        watcher.begin("fitting", 1)
+        problem = SubjectProblem(shape, x, looks.clouds, looks.poses)
+        solution = self.solver.minimize(problem)
+        watcher.advance()
+        return problem.shape(solution.x), replace(looks, poses=problem.poses(solution.x))
+
+
+def _watched(track: Iterator[TrackedFrame], watcher: Watcher) -> Iterator[TrackedFrame]:
+    for frame in track:
+        watcher.advance()
+        yield frame

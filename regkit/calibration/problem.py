@@ -1,0 +1,141 @@
+"""The joint problem: one body's proportions and its poses in several frames."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from regkit.arrays import Array, Indices
+from regkit.body import Body
+from regkit.calibration.gaps import Cloud
+from regkit.calibration.shape import Shape
+from regkit.calibration.slopes import Slopes
+from regkit.coordinates import TangentCoordinates
+from regkit.interfaces import Problem
+from regkit.skeleton import Pose
+
+REACH = 2.0
+"""Gaps beyond so many times the usual one count ever less; the usual one is the median, which holds
+the noise of the data and how well such a body can fit at all."""
+
+RANGE = 0.06
+"""Along its ray a point is looked for on the surface within this part of the body's size."""
+
+EVIDENCE = 1000.0
+"""As many gaps all frames together are worth: neighbouring points and frames tell much the same."""
+
+STIFFNESS = 0.05
+"""Weight of a joint's turn [rad] against a gap [reach]: what nothing pulls keeps its pose."""
+
+
+class SubjectProblem(Problem):
+    """Gaps in all frames, turns of the joints, and how unusual the proportions are.
+
+    With the gaps g of the weights w in units of the reach, the joints' turns t and the numbers s of
+    the shape, each of which is usually about u, the energy over F frames is
+
+        EVIDENCE / F sum_F (sum 1/2 w log(1 + g^2) + sum 1/2 (STIFFNESS t)^2) + sum 1/2 (s / u)^2.
+
+    Under the logarithm, Cauchy's loss, what is no part of the body hardly counts.
+
+    Args:
+        shape: The body's proportions.
+        start: Where they begin, (1 + 2 G).
+        clouds: The data of F frames.
+        poses: The body's poses in them.
+    """
+
+    def __init__(
+        self, shape: Shape, start: Array, clouds: Sequence[Cloud], poses: Sequence[Pose]
+    ) -> None:
+        self._shape, self._clouds = shape, clouds
+        body = shape.body(start)
+        self._range = RANGE * body.size
+        self._reach = REACH * self._usual_gap(body, poses)
+        self._charts = [TangentCoordinates(body.skeleton, pose) for pose in poses]
+        self._weight = EVIDENCE / len(clouds)
+        self._spring = np.full(body.skeleton.freedoms, STIFFNESS**2)
+        self._spring[: body.skeleton.ball_freedoms.start] = 0.0
+        lower, upper = zip(*(chart.bounds() for chart in self._charts), strict=True)
+        free = np.full(len(shape), np.inf)
+        self.start = np.concatenate([start, *(chart.origin() for chart in self._charts)])
+        self.lower = np.concatenate([-free, *lower])
+        self.upper = np.concatenate([free, *upper])
+
+    def shape(self, x: Array) -> Array:
+        """The numbers of the shape (1 + 2 G) in coordinates x (m,)."""
+        return x[: len(self._shape)]
+
+    def poses(self, x: Array) -> tuple[Pose, ...]:
+        """The poses of the frames at coordinates x (m,)."""
+        places = self._places()
+        return tuple(chart.pose(x[own]) for chart, own in zip(self._charts, places, strict=True))
+
+    def value_and_gradient(self, x: Array) -> tuple[float, Array]:
+        """The energy at coordinates x (m,) and its gradient (m,)."""
+        return self.normal_equations(x)[:2]
+
+    def normal_equations(self, x: Array) -> tuple[float, Array, Array]:
+        """The energy, its gradient (m,) and the Gauss-Newton matrix (m, m)."""
+        shape, springs = self.shape(x), self._shape.springs()
+        body = self._shape.body(shape)
+        value = 0.5 * float(springs @ shape**2)
+        gradient, matrix = np.zeros(len(x)), np.zeros((len(x), len(x)))
+        gradient[: len(shape)] = springs * shape
+        matrix[: len(shape), : len(shape)] = np.diag(springs)
+        shapes = np.arange(len(shape))
+        for chart, cloud, own in zip(self._charts, self._clouds, self._places(), strict=True):
+            part = self._frame(body, chart, cloud, x[own])
+            both = np.concatenate([shapes, own])
+            value += self._weight * part[0]
+            gradient[both] += self._weight * part[1]
+            matrix[np.ix_(both, both)] += self._weight * part[2]
+        return value, gradient, matrix
+
+    def projected(self, x: Array) -> Array:
+        """The poses brought back within the limits of hinges and balls."""
+        x = np.clip(x, self.lower, self.upper)
+        for chart, own in zip(self._charts, self._places(), strict=True):
+            pose = chart.pose(x[own])
+            within = chart.skeleton.limits.projected(pose)
+            if within is not pose:
+                x[own] = chart.vector(within)
+        return x
+
+    def _frame(
+        self, body: Body, chart: TangentCoordinates, cloud: Cloud, step: Array
+    ) -> tuple[float, Array, Array]:
+        """What one frame contributes, its derivatives to the shape and then to the pose's step."""
+        placement = body.place(chart.pose(step))
+        capsules = body.capsules.place(placement.transforms)
+        slopes = Slopes(body, placement, self._shape.groups)
+        sides = (cloud.unexplained(capsules, self._range), cloud.unseen(capsules))
+        gaps = np.concatenate([side.lengths for side in sides]) / self._reach
+        weights = np.concatenate([side.weights for side in sides])
+        factors = np.concatenate([slopes.to_proportions(side) for side in sides])
+        turns = np.concatenate([slopes.to_pose(side) for side in sides])
+        rows = np.column_stack([factors.sum(axis=1), factors, turns @ chart.differential(step)])
+        rows /= self._reach
+        tensions = weights / (1.0 + gaps**2)
+        spring = np.concatenate([np.zeros(len(self._shape)), self._spring])
+        rest = np.concatenate([np.zeros(len(self._shape)), step])
+        energy = 0.5 * float(weights @ np.log1p(gaps**2) + spring @ rest**2)
+        gradient = (tensions * gaps) @ rows + spring * rest
+        return energy, gradient, rows.T @ (tensions[:, None] * rows) + np.diag(spring)
+
+    def _usual_gap(self, body: Body, poses: Sequence[Pose]) -> float:
+        """The median distance of all points to the surface [m]."""
+        lengths = [
+            cloud.unexplained(body.capsules.place(body.place(pose).transforms), self._range).lengths
+            for cloud, pose in zip(self._clouds, poses, strict=True)
+        ]
+        return float(np.median(np.abs(np.concatenate(lengths))))
+
+    def _places(self) -> list[Indices]:
+        """Where the steps of each pose stand among the coordinates."""
+        freedoms = len(self._spring)
+        first = len(self._shape)
+        return [
+            first + frame * freedoms + np.arange(freedoms) for frame in range(len(self._charts))
+        ]

@@ -1,0 +1,161 @@
+"""``regkit calibrate``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.markup import escape
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TaskID, TextColumn
+from rich.table import Table
+
+from regkit.cli.console import PluginFiles, errors, output, run_plugin_files
+from regkit.files import write_text
+
+if TYPE_CHECKING:
+    from regkit.calibration import Subject
+
+OPENING = """\
+What `regkit calibrate` found in {frames} frames of the sequence {sequence}. To use it:
+template: {{kind: file, path: {file}}}
+
+Lengths are in metres and angles in degrees."""
+
+STRANGE = 0.05
+"""If more of the data than this are far from the body, the user is told."""
+
+
+def calibrate(
+    source: Annotated[
+        Path,
+        typer.Argument(
+            metavar="SEQUENCE",
+            help="Folder of a depth sequence, or an experiment's YAML file that names its data.",
+            show_default=False,
+        ),
+    ],
+    template: Annotated[
+        str | None,
+        typer.Option(
+            metavar="TEMPLATE",
+            help="What is seen: a name such as hand, a template's YAML file, or a mapping such as "
+            "'{kind: hand, side: left}'. [default: the experiment's, or human]",
+            show_default=False,
+        ),
+    ] = None,
+    out: Annotated[
+        Path, typer.Option(metavar="FILE", help="The template to write, or to replace.")
+    ] = Path("subject.yaml"),
+    sequence: Annotated[
+        str | None,
+        typer.Option(metavar="NAME", help="Which sequence to look at, if there are several."),
+    ] = None,
+    frames: Annotated[
+        int, typer.Option(min=1, help="In how many frames, spread over the sequence, to look.")
+    ] = 12,
+    settings: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="a.b.c=VALUE", help="Change a value of the experiment."),
+    ] = None,
+    plugin: PluginFiles = None,
+) -> None:
+    """Make a template with the proportions of the person or hand that a sequence shows."""
+    from regkit.body.writing import template_text
+    from regkit.cli.calibration_source import Source
+
+    run_plugin_files(plugin)
+    _check_replaceable(out)
+    found = Source.read(source, template, settings or ())
+    seen = found.sequence(sequence)
+    with _ProgressBars() as bars:
+        subject = found.calibration(frames).subject(seen, bars)
+    opening = OPENING.format(frames=subject.frames, sequence=seen.name, file=out.name)
+    write_text(out, template_text(subject.description, opening, {}))
+    _tell(subject, found.template.description().size.value)
+    output.print(f"written: {out}", highlight=False, soft_wrap=True)
+
+
+def _check_replaceable(out: Path) -> None:
+    """Refuse to overwrite what is no template, before any work is done.
+
+    Raises:
+        ConfigError: If something else is there.
+    """
+    from regkit.body import BodyDescription
+    from regkit.document import Document
+    from regkit.errors import ConfigError, RegkitError
+
+    if not out.exists():
+        return
+    try:
+        Document.read(out).validated(BodyDescription)
+    except RegkitError:
+        raise ConfigError(
+            f"{out} is there already, and is no template; give another name", place="--out"
+        ) from None
+
+
+def _tell(subject: Subject, template_size: float) -> None:
+    """Print what became of the template."""
+    size = subject.description.size
+    scale = size.value / template_size
+    output.print(
+        f"{size.name} {size.value:.4g} m; against a template of that {size.name}:",
+        highlight=False,
+        markup=False,
+        soft_wrap=True,
+    )
+    table = Table("segments")
+    for column in ("length", "girth"):
+        table.add_column(column, justify="right")
+    proportions = subject.proportions
+    for name, length, girth in zip(
+        proportions.groups.names, proportions.lengths, proportions.girths, strict=True
+    ):
+        table.add_row(escape(name), f"{length / scale:.2f}", f"{girth / scale:.2f}")
+    output.print(table)
+    output.print(
+        f"half of the data lie within {1000.0 * subject.distance:.1f} mm of the surface",
+        highlight=False,
+        soft_wrap=True,
+    )
+    if subject.strange > STRANGE:
+        errors.print(
+            f"warning: {100.0 * subject.strange:.0f} % of the data are far from the body; if they "
+            "do not show other things, the body was not found: give its size, or take another "
+            "sequence",
+            style="yellow",
+            highlight=False,
+            soft_wrap=True,
+        )
+
+
+class _ProgressBars:
+    """Progress on a terminal, silence in a pipe."""
+
+    def __init__(self) -> None:
+        self._bars = Progress(
+            TextColumn("{task.description}"),
+            BarColumn(),
+            MofNCompleteColumn(),
+            console=errors,
+            disable=not errors.is_terminal,
+        )
+        self._task: TaskID | None = None
+
+    def __enter__(self) -> _ProgressBars:
+        self._bars.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._bars.stop()
+
+    def begin(self, task: str, steps: int) -> None:
+        """Show a bar."""
+        self._task = self._bars.add_task(task, total=steps)
+
+    def advance(self) -> None:
+        """Move the bar by one step."""
+        if self._task is not None:
+            self._bars.advance(self._task)

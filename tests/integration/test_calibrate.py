@@ -1,0 +1,93 @@
+"""``regkit calibrate``: a template of the person seen, and what it refuses."""
+
+import pytest
+
+from regkit.body import BodyDescription
+from regkit.document import Document
+
+HUMAN = ("--template", "{kind: human, height: 1.63}")
+
+
+@pytest.fixture
+def subject(tmp_path):
+    return tmp_path / "subject.yaml"
+
+
+@pytest.mark.slow
+def test_calibrate_writes_a_template_that_experiments_can_use(regkit, files, subject):
+    sequence = files.data / "first"
+    ended = regkit("calibrate", sequence, *HUMAN, "--out", subject)
+    assert ended.code == 0, ended.err
+    assert ended.err == ""
+    assert "forearm" in ended.out
+    assert "girth" in ended.out
+    assert f"written: {subject}" in ended.out
+    assert regkit("validate", subject).code == 0
+    description = Document.read(subject).validated(BodyDescription)
+    assert 1.5 < description.size.value < 1.75
+    assert "2 frames of the sequence first" in description.sources[-1]
+    left, right = (description.segments[f"{side}_shin"].offset for side in ("left", "right"))
+    assert left == pytest.approx(right)
+    template = f"template={{kind: file, path: {subject}}}"
+    ended = regkit(
+        "run", files.experiment, "--out", files.out, "--set", template, "--set", "start=null"
+    )
+    assert ended.code == 0, ended.err
+    # A template may be replaced, and be calibrated further.
+    again = regkit("calibrate", sequence, "--template", subject, "--out", subject)
+    assert again.code == 0, again.err
+
+
+@pytest.mark.slow
+def test_calibrate_takes_an_experiments_data_template_and_start(regkit, files, subject):
+    ended = regkit("calibrate", files.experiment, "--sequence", "second", "--out", subject)
+    assert ended.code == 0, ended.err
+    assert "sequence second" in subject.read_text()
+
+
+@pytest.mark.parametrize(
+    ("options", "complaint"),
+    [
+        (("--template", "humn"), "no plug-in 'humn' in regkit.templates"),
+        (("--template", "{kind: human, hight: 2}"), "template.hight: no such field"),
+        (("--template", "none.yaml"), "none.yaml: there is no such file"),
+        (("--template", "{kind"), "--template {kind: not valid YAML"),
+        (("--sequence", "frist"), "--sequence: no sequence 'frist'"),
+        ((), "--sequence: there are 2 sequences (first, second); name one"),
+        (("--set", "dataset.frames=1"), "only an experiment's values can be changed"),
+    ],
+)
+def test_calibrate_refuses_what_it_cannot_use(regkit, files, subject, options, complaint):
+    ended = regkit("calibrate", files.data, *options, "--out", subject)
+    assert ended.code == 1
+    assert complaint in ended.err
+    assert not subject.exists()
+
+
+def test_calibrate_refuses_what_is_no_folder(regkit, tmp_path, subject):
+    ended = regkit("calibrate", tmp_path / "nothing", "--out", subject)
+    assert ended.code == 1
+    assert ended.err == f"error: {tmp_path / 'nothing'}: there is no such file\n"
+    ended = regkit("calibrate", tmp_path, "--out", subject)
+    assert ended.code == 1
+    assert "no sequence here" in ended.err
+
+
+def test_calibrate_overwrites_templates_only(regkit, files):
+    before = files.experiment.read_text()
+    ended = regkit("calibrate", files.data / "first", "--out", files.experiment)
+    assert ended.code == 1
+    assert "--out" in ended.err
+    assert "is no template" in ended.err
+    assert files.experiment.read_text() == before
+
+
+def test_calibrate_wants_a_surface(regkit, files, tmp_path, subject):
+    bare = tmp_path / "bare.yaml"
+    bare.write_text(
+        "title: bones\nsize: {name: height, value: 1, range: [0.5, 2]}\n"
+        "segments: {base: {joint: {type: free}}}\n"
+    )
+    ended = regkit("calibrate", files.data / "first", "--template", bare, "--out", subject)
+    assert ended.code == 1
+    assert "has no capsules" in ended.err
