@@ -71,7 +71,7 @@ class TangentCoordinates(Coordinates):
     def differential(self, x: Array) -> Array:
         """By the right Jacobian of each rotation vector: exp(w + dw) = exp(w) exp(J dw)."""
         # Imported when first used, for Numba takes its time to load.
-        from regkit.skeleton.compiled import step_differential
+        from regkit.skeleton.compiled_steps import step_differential
 
         first = 3 if self.skeleton.free else 0
         return step_differential(x, first, self.skeleton.hinge_freedoms.start)

@@ -91,7 +91,7 @@ class Limits:
         A swing is shortened towards the middle of its cone.
         """
         # Imported when first used, for Numba takes its time to load.
-        from regkit.skeleton.compiled import within_limits
+        from regkit.skeleton.compiled_steps import within_limits
 
         balls, turned = within_limits(
             pose.balls, self.centre, self.twist_axis, self._cone, self.twist

@@ -38,7 +38,7 @@ class Placement:
         links and the transforms.
         """
         # Imported when first used, for Numba takes its time to load.
-        from regkit.skeleton.compiled import place_links
+        from regkit.skeleton.compiled_placement import place_links
 
         many = pose.hinges.shape[:-1]
         count = int(np.prod(many))
@@ -62,7 +62,7 @@ class Placement:
 
     def twists(self) -> Array:
         """The world twist about the reference of each degree of freedom at unit rate, (n, 6)."""
-        from regkit.skeleton.compiled import joint_twists
+        from regkit.skeleton.compiled_placement import joint_twists
 
         bones = self.skeleton
         return joint_twists(
@@ -93,7 +93,7 @@ class Placement:
     @cached_property
     def jacobian(self) -> Array:
         """The twist about its own origin of each segment, by each degree of freedom, (S, 6, n)."""
-        from regkit.skeleton.compiled import segment_jacobian
+        from regkit.skeleton.compiled_placement import segment_jacobian
 
         return segment_jacobian(self.twists(), self.skeleton.moves, self._arms)
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from regkit.arrays import Array, Indices
 from regkit.errors import ConfigError
@@ -100,13 +101,10 @@ class Skeleton:
         The root's translation is in the world; its rotation and those of the ball joints are
         rotation vectors in the frames that they turn, R exp(w); hinge angles add.
         """
-        root = pose.root
-        if self.free:
-            rotation = pose.root[:3, :3] @ vector_to_matrix(step[3:6])
-            root = rigid(rotation, pose.root[:3, 3] + step[:3])
         # Imported when first used, for Numba takes its time to load.
-        from regkit.skeleton.compiled import turned_balls
+        from regkit.skeleton.compiled_steps import moved_root, turned_balls
 
+        root = moved_root(pose.root, step) if self.free else pose.root
         balls = turned_balls(pose.balls, step[self.ball_freedoms].reshape(-1, 3))
         return Pose(root, balls, pose.hinges + step[self.hinge_freedoms])
 
@@ -132,13 +130,19 @@ class Skeleton:
         jacobian[2 * count + own, self.hinge_freedoms.start + own] = hinges
         return violations, jacobian
 
-    def rigid_groups(self) -> Indices:
-        """For each segment the first one that it is rigidly tied to, (S,): itself if it moves."""
+    @cached_property
+    def tied(self) -> NDArray[np.bool_]:
+        """Which segments are one or are tied by a joint, (S, S); rigidly tied ones count as one."""
         groups = np.arange(len(self.names))
         for segment, name in enumerate(self.names):
             if self.parents[segment] >= 0 and name not in self.joint_freedoms:
                 groups[segment] = groups[self.parents[segment]]
-        return groups
+        joined = np.eye(len(groups), dtype=np.bool_)
+        for segment, parent in enumerate(self.parents):
+            if parent >= 0:
+                joined[groups[segment], groups[parent]] = True
+        joined |= joined.T
+        return joined[np.ix_(groups, groups)]
 
     def freedoms_of(self, joint: str) -> Indices:
         """The degrees of freedom of a segment's own joint.

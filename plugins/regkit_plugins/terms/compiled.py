@@ -1,4 +1,4 @@
-"""Overlaps of pairs of Gaussians, in compiled loops; the formulas stand in ``intersection``."""
+"""What terms ask of pairs of primitives, in compiled loops."""
 
 from __future__ import annotations
 
@@ -50,3 +50,43 @@ def overlaps(
                 for k in range(6):
                     blocks[owner, j, k] += overlap * way[j] * way[k]
     return energy, wrenches, blocks
+
+
+@compiled
+def free_rays(targets: Array, centres: Array, axes: Array, radii: Array) -> Array:
+    """How many of each primitive's targets a camera at the origin sees, as a share, (K,).
+
+    A ray is held by each ellipsoid whose centre is nearer to the camera than the primitive's own.
+
+    Args:
+        targets: (K, M, 3) [m].
+        centres: Of the ellipsoids, (K, 3) [m].
+        axes: (K, 3, 3).
+        radii: Half axes, (K, 3) [m].
+    """
+    count, samples = targets.shape[:2]
+    shares = np.ones(count)
+    way, eye = np.empty(3), np.empty(3)
+    for k in range(count):
+        own = (centres[k] ** 2).sum()
+        for sample in range(samples):
+            for other in range(count):
+                if other == k or (centres[other] ** 2).sum() >= own:
+                    continue
+                # In units of its radii an ellipsoid is the unit ball, and rays stay rays.
+                along, square = 0.0, 0.0
+                for a in range(3):
+                    way[a], eye[a] = 0.0, 0.0
+                    for i in range(3):
+                        way[a] += axes[other, i, a] * targets[k, sample, i] / radii[other, a]
+                        eye[a] -= axes[other, i, a] * centres[other, i] / radii[other, a]
+                    along -= way[a] * eye[a]
+                    square += way[a] ** 2
+                share = min(max(along / square, 0.0), 1.0)
+                distance = 0.0
+                for a in range(3):
+                    distance += (eye[a] + share * way[a]) ** 2
+                if distance < 1.0:
+                    shares[k] -= 1.0 / samples
+                    break
+    return shares

@@ -11,7 +11,7 @@ from pydantic import Field
 from regkit.arrays import Array
 from regkit.interfaces import JointEnergy, Scene, Strain, Term
 from regkit.skeleton import Pose, Skeleton
-from regkit.skeleton.compiled import ball_steps
+from regkit.skeleton.compiled_steps import ball_steps
 
 
 class Continuity(Term):

@@ -68,17 +68,7 @@ class Overlaps(Similarity):
 
 
 def _strangers(segments: Indices, skeleton: Skeleton) -> tuple[Indices, Indices]:
-    """The pairs of primitives on different segments that no joint ties directly, (M,) each.
-
-    Segments that are fixed to one another count as one.
-    """
+    """The pairs of primitives on different segments that no joint ties directly, (M,) each."""
     first, second = np.triu_indices(len(segments), k=1)
-    bodies = skeleton.rigid_groups()
-    own = bodies[segments]
-    parents = np.array([bodies[p] if p >= 0 else -1 for p in skeleton.parents])
-    neighbours = {(int(bodies[s]), int(p)) for s, p in enumerate(parents) if p >= 0}
-    apart = [
-        x != y and (x, y) not in neighbours and (y, x) not in neighbours
-        for x, y in zip(own[first].tolist(), own[second].tolist(), strict=True)
-    ]
+    apart = ~skeleton.tied[segments[first], segments[second]]
     return first[apart], second[apart]

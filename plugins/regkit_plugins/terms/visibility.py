@@ -10,6 +10,7 @@ from pydantic import Field
 from regkit.arrays import Array
 from regkit.interfaces import Scene, Shares, Term
 from regkit.primitives import Placed, Primitives
+from regkit_plugins.terms.compiled import free_rays
 
 
 class Visibility(Term):
@@ -38,20 +39,7 @@ def visible_shares(placed: Placed[Primitives]) -> Array:
     of the outline that is turned to the camera.
     """
     radii = 2.0 * placed.primitives.scales
-    # In units of an occluder's own radii its ellipsoid is the unit ball, and rays stay rays.
-    inverse = np.swapaxes(placed.axes, 1, 2) / radii[:, :, None]
-    targets = _outline(placed, radii)
-    count, samples = targets.shape[:2]
-    eye = -(inverse @ placed.centres[:, :, None])[:, :, 0]
-    ways = targets.reshape(-1, 3) @ np.swapaxes(inverse, 1, 2)
-    along = np.clip(-(ways @ eye[:, :, None])[:, :, 0] / (ways**2).sum(axis=2), 0.0, 1.0)
-    nearest = eye[:, None, :] + along[:, :, None] * ways
-    hidden = (nearest**2).sum(axis=2).reshape(count, count, samples) < 1.0
-    hidden[np.arange(count), np.arange(count)] = False
-    # An occluder has to be the nearer one of the two: its centre tells where they overlap.
-    distances = np.linalg.norm(placed.centres, axis=1)
-    hidden &= (distances[:, None] < distances[None, :])[:, :, None]
-    return np.asarray(1.0 - hidden.any(axis=0).mean(axis=1))
+    return free_rays(_outline(placed, radii), placed.centres, placed.axes, radii)
 
 
 def _outline(placed: Placed[Primitives], radii: Array) -> Array:

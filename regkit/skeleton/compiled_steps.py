@@ -1,0 +1,126 @@
+"""Steps of poses and their limits, in compiled loops."""
+
+from __future__ import annotations
+
+from math import atan2, ceil, cos, hypot, pi, sin, sqrt
+
+import numpy as np
+
+from regkit.arrays import Array
+from regkit.optional import compiled
+from regkit.skeleton.compiled_rotation import exponential, hamilton_product, set_rotation
+
+
+@compiled
+def moved_root(root: Array, step: Array) -> Array:
+    """The root (4, 4) after a translation in the world and a rotation vector in its own frame."""
+    turn = np.empty((3, 3))
+    x, y, z, w = exponential(step[3], step[4], step[5])
+    set_rotation(turn, x, y, z, w)
+    moved = root.copy()
+    for i in range(3):
+        moved[i, 3] += step[i]
+        for j in range(3):
+            moved[i, j] = (
+                root[i, 0] * turn[0, j] + root[i, 1] * turn[1, j] + root[i, 2] * turn[2, j]
+            )
+    return moved
+
+
+@compiled
+def turned_balls(balls: Array, turns: Array) -> Array:
+    """Balls (n_ball, 4) after rotation vectors (n_ball, 3) in the frames that they turn."""
+    result = np.empty_like(balls)
+    for index in range(len(balls)):
+        a, b, c, d = balls[index]
+        x, y, z, w = exponential(turns[index, 0], turns[index, 1], turns[index, 2])
+        x, y, z, w = hamilton_product(a, b, c, d, x, y, z, w)
+        result[index, 0], result[index, 1], result[index, 2], result[index, 3] = x, y, z, w
+    return result
+
+
+@compiled
+def ball_steps(starts: Array, ends: Array) -> Array:
+    """The rotation vectors (n_ball, 3) [rad], of at most half a turn, from balls to balls."""
+    steps = np.empty((len(starts), 3))
+    for index in range(len(starts)):
+        a, b, c, d = starts[index]
+        x, y, z, w = ends[index]
+        x, y, z, w = hamilton_product(-a, -b, -c, d, x, y, z, w)
+        if w < 0.0:
+            x, y, z, w = -x, -y, -z, -w
+        sine = sqrt(x * x + y * y + z * z)
+        scale = 2.0 + sine * sine / 3.0 if sine < 1e-4 else 2.0 * atan2(sine, w) / sine
+        steps[index, 0], steps[index, 1], steps[index, 2] = scale * x, scale * y, scale * z
+    return steps
+
+
+@compiled
+def step_differential(step: Array, first: int, last: int) -> Array:
+    """The identity (n, n) but for the right Jacobians of the rotation vectors step[first:last]."""
+    differential = np.eye(len(step))
+    for start in range(first, last, 3):
+        v = step[start : start + 3]
+        square = v[0] ** 2 + v[1] ** 2 + v[2] ** 2
+        angle = sqrt(square)
+        if angle < 1e-4:
+            one, two = 0.5 - square / 24.0, 1.0 / 6.0 - square / 120.0
+        else:
+            one, two = (1.0 - cos(angle)) / square, (angle - sin(angle)) / (square * angle)
+        for i in range(3):
+            for j in range(3):
+                entry = two * v[i] * v[j]
+                if i == j:
+                    entry += 1.0 - two * square
+                differential[start + i, start + j] = entry
+            j, k = (i + 1) % 3, (i + 2) % 3
+            # The matrix [v]x has -v_k at (i, j) and v_j at (i, k).
+            differential[start + i, start + j] += one * v[k]
+            differential[start + i, start + k] -= one * v[j]
+    return differential
+
+
+@compiled
+def within_limits(
+    balls: Array, centre: Array, twist_axis: Array, cone: Array, twist_limits: Array
+) -> tuple[Array, bool]:
+    """Balls with swings shortened to their cones and twists clipped; whether any was turned.
+
+    Args:
+        balls: (n_ball, 4).
+        centre: Middles of the cones, (n_ball, 4).
+        twist_axis: (n_ball, 3).
+        cone: The two swing axes over the cone's half angles, (n_ball, 2, 3).
+        twist_limits: (n_ball, 2).
+    """
+    result = balls.copy()
+    changed = False
+    for index in range(len(balls)):
+        p, q, r, s = centre[index]
+        a, b, c, d = balls[index]
+        x, y, z, w = hamilton_product(-p, -q, -r, s, a, b, c, d)
+        u, v, t = twist_axis[index]
+        along = x * u + y * v + z * t
+        half = 0.0 if hypot(along, w) < 1e-12 else atan2(along, w)
+        twist = 2.0 * half
+        twist -= 2.0 * pi * ceil(0.5 * twist / pi - 0.5)
+        sine, cosine = sin(half), cos(half)
+        x, y, z, w = hamilton_product(x, y, z, w, -sine * u, -sine * v, -sine * t, cosine)
+        if w < 0.0:
+            x, y, z, w = -x, -y, -z, -w
+        length = sqrt(x * x + y * y + z * z)
+        scale = 2.0 + length * length / 3.0 if length < 1e-4 else 2.0 * atan2(length, w) / length
+        x, y, z = scale * x, scale * y, scale * z
+        one, two = cone[index]
+        stretch = hypot(one[0] * x + one[1] * y + one[2] * z, two[0] * x + two[1] * y + two[2] * z)
+        inside = min(max(twist, twist_limits[index, 0]), twist_limits[index, 1])
+        if stretch <= 1.0 and inside == twist:
+            continue
+        changed = True
+        shrink = 1.0 / max(stretch, 1.0)
+        x, y, z, w = exponential(shrink * x, shrink * y, shrink * z)
+        a, b, c, d = exponential(inside * u, inside * v, inside * t)
+        a, b, c, d = hamilton_product(x, y, z, w, a, b, c, d)
+        a, b, c, d = hamilton_product(p, q, r, s, a, b, c, d)
+        result[index, 0], result[index, 1], result[index, 2], result[index, 3] = a, b, c, d
+    return result, changed
