@@ -24,7 +24,7 @@ OBSERVERS = {
 EXPERIMENT = """\
 name: suite
 dataset: {{kind: depth, root: {folder}}}
-template: {{kind: file, path: {folder}.yaml, size: {size}}}
+template: {template}
 observer: {observer}
 methods: {{method: {method}}}
 """
@@ -46,17 +46,22 @@ class Silent:
 
 
 def bodies(kind: str) -> list[Path]:
-    """The folders of the sequences of each ``human`` or ``hand``; made if they are not there."""
+    """The folders of the sequences of each ``human`` or ``hand``, or of one; made if need be."""
     if not FOLDER.is_dir():
         command = [sys.executable, "-m", "regkit_plugins.synthesis", str(FOLDER), "--suite"]
         subprocess.run(command, check=True, stdout=sys.stderr)
-    return sorted(folder for folder in FOLDER.absolute().glob(f"{kind}_*") if folder.is_dir())
+    return sorted(folder for folder in FOLDER.absolute().glob(f"{kind}*") if folder.is_dir())
 
 
-def tracked(kind: str, method: str, settings: Sequence[str] = ()) -> dict[str, Measure]:
-    """The figures of a method, written as in YAML, on all sequences of a kind, by name."""
+def tracked(
+    kind: str, method: str, settings: Sequence[str] = (), template: str | None = None
+) -> dict[str, Measure]:
+    """The figures of a method, written as in YAML, on all sequences of a kind, by name.
+
+    Without another template each body's own is taken, which has the right lengths.
+    """
     jobs = [
-        (folder, sequence.name, OBSERVERS[kind], method, tuple(settings))
+        (folder, sequence.name, OBSERVERS[kind.split("_")[0]], method, tuple(settings), template)
         for folder in bodies(kind)
         for sequence in sorted(folder.iterdir())
         if sequence.is_dir()
@@ -65,13 +70,17 @@ def tracked(kind: str, method: str, settings: Sequence[str] = ()) -> dict[str, M
         return dict(pool.map(_tracked, jobs))
 
 
-def _tracked(job: tuple[Path, str, str, str, tuple[str, ...]]) -> tuple[str, Measure]:
-    folder, sequence, observer, method, settings = job
-    size = Document.read(folder.with_suffix(".yaml")).data["size"]["value"]
+def _tracked(
+    job: tuple[Path, str, str, str, tuple[str, ...], str | None],
+) -> tuple[str, Measure]:
+    folder, sequence, observer, method, settings, template = job
+    own = folder.with_suffix(".yaml")
+    size = Document.read(own).data["size"]["value"]
+    template = template or f"{{kind: file, path: {own}, size: {size}}}"
     with TemporaryDirectory() as temporary:
         file = Path(temporary) / "experiment.yaml"
         file.write_text(
-            EXPERIMENT.format(folder=folder, size=size, observer=observer, method=method)
+            EXPERIMENT.format(folder=folder, template=template, observer=observer, method=method)
         )
         experiment = Experiment.read(file, (*settings, f"dataset.sequences=[{sequence}]"))
         outcome = run(experiment, Path(temporary) / "out", Silent())

@@ -66,6 +66,11 @@ def main() -> None:
     }
     print(f"\n{HEADER}")
     figures |= {name: row(name, tracked("human", method)) for name, method in PAPER.items()}
+    print(f"\n{HEADER.replace('method', 'hands')}")
+    hands = ("best", *(name for name in ROWS if name.startswith("without")))
+    figures |= {
+        f"hands, {name}": row(name, tracked("hand", "{preset: best}", ROWS[name])) for name in hands
+    }
     last_line(figures)
 
 

@@ -1,0 +1,42 @@
+"""What ``regkit calibrate`` is worth on a body whose proportions are not the template's.
+
+    python benchmarks/calibration.py
+
+The six sequences of the small body, tracked by ``best`` with the template of the right lengths,
+with the generic one, and with those that are calibrated on one sequence each.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from _suite import HEADER, bodies, last_line, row, tracked
+
+BODY, METHOD = "human_small", "{preset: best}"
+CALIBRATED_ON = ("walk_fast", "walk_above", "punch_side")
+
+
+def main() -> None:
+    """Print the table, and its figures as one JSON object in the last line."""
+    print(HEADER)
+    figures = {
+        "right lengths": row("right lengths", tracked(BODY, METHOD)),
+        "generic": row("generic", tracked(BODY, METHOD, template="human")),
+    }
+    (folder,) = bodies(BODY)
+    with TemporaryDirectory() as temporary:
+        for sequence in CALIBRATED_ON:
+            file = Path(temporary) / f"{sequence}.yaml"
+            command = [sys.executable, "-m", "regkit", "calibrate", str(folder / sequence)]
+            subprocess.run([*command, "--out", str(file)], check=True, stdout=sys.stderr)
+            template = f"{{kind: file, path: {file}}}"
+            name = f"calibrated on {sequence}"
+            figures[name] = row(name, tracked(BODY, METHOD, template=template))
+    last_line(figures)
+
+
+if __name__ == "__main__":
+    main()
