@@ -114,7 +114,7 @@ class Document:
         shown = isinstance(given, (str, int, float, bool)) and not details["type"].startswith(
             _SPEAKING
         )
-        message = details["msg"].removeprefix("Value error, ")
+        message = details["msg"].removeprefix("Value error, ").replace("a valid tuple", "a list")
         return f"{self.place(location)}: {message[0].lower()}{message[1:]}" + (
             f"; it is {given!r}" if shown else ""
         )

@@ -71,6 +71,13 @@ class Term(Plugin, ABC):
 
     group = "regkit.terms"
 
+    def check(self, body: Body) -> None:
+        """Refuse a body that the term cannot be used with, before any frame is read.
+
+        Raises:
+            RegkitError: If it asks for what the body does not have.
+        """
+
     @abstractmethod
     def against(self, scene: Scene) -> Effect:
         """Bind the term to a frame."""

@@ -163,7 +163,7 @@ def test_continuity_costs_the_square_of_the_turn(linkage):
 def test_continuity_of_an_unknown_joint_is_refused(linkage):
     term = Continuity(joints_deg={"forarm": 5.0})
     with pytest.raises(ConfigError, match=r"no joint 'forarm'.*did you mean 'forearm'"):
-        term.against(Scene(linkage, None, linkage.skeleton.rest(), None))
+        term.check(linkage)
 
 
 def test_limits_cost_nothing_within_and_agree_with_the_violation(linkage, random):

@@ -64,7 +64,13 @@ class Direct(Method):
         return self
 
     def prepare(self, body: Body) -> DirectRegistrar:
-        """Attach the shape model to the body."""
+        """Attach the shape model to the body.
+
+        Raises:
+            RegkitError: If the shape model or a term cannot be used with such a body.
+        """
+        for term in self.terms:
+            term.check(body)
         return DirectRegistrar(self, body, self.shape.attach(body))
 
 

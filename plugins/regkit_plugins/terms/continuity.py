@@ -9,6 +9,7 @@ import numpy as np
 from pydantic import Field
 
 from regkit.arrays import Array
+from regkit.body import Body
 from regkit.interfaces import JointEnergy, Scene, Strain, Term
 from regkit.skeleton import Pose, Skeleton
 from regkit.skeleton.compiled_steps import ball_steps
@@ -29,12 +30,17 @@ class Continuity(Term):
     joints_deg: dict[str, Annotated[float, Field(gt=0.0)]] = Field(default_factory=dict)
     """The same of single joints, by segment [deg]."""
 
-    def against(self, scene: Scene) -> ExpectedPose:
-        """Bind the term to the pose that is expected.
+    def check(self, body: Body) -> None:
+        """Every joint that is named must be there.
 
         Raises:
             ConfigError: If ``joints_deg`` names a joint that there is not.
         """
+        for name in self.joints_deg:
+            body.skeleton.freedoms_of(name)
+
+    def against(self, scene: Scene) -> ExpectedPose:
+        """Bind the term to the pose that is expected."""
         skeleton = scene.body.skeleton
         usual = np.full(skeleton.freedoms, self.joint_deg)
         for name, degrees in self.joints_deg.items():
