@@ -9,7 +9,7 @@ from typing import Any
 
 from regkit import __version__
 
-LIBRARIES = ("numpy", "scipy", "pydantic", "open3d-cpu", "open3d", "casadi", "matplotlib")
+LIBRARIES = ("numpy", "scipy", "numba", "pydantic", "open3d-cpu", "open3d", "casadi", "matplotlib")
 
 
 def environment() -> dict[str, Any]:
