@@ -86,8 +86,8 @@ class Bench:
         profile.disable()
         stats = pstats.Stats(profile)
         shares: dict[str, float] = {}
-        total = stats.total_tt  # type: ignore[attr-defined]
-        for (file, _, _), (_, _, own, _, callers) in stats.stats.items():  # type: ignore[attr-defined]
+        total = stats.total_tt
+        for (file, _, _), (_, _, own, _, callers) in stats.stats.items():
             if (part := part_of(file)) is not None:
                 shares[part] = shares.get(part, 0.0) + own
                 continue

@@ -21,7 +21,7 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from regkit.errors import PluginError, RegkitError
 from regkit.model import Model, did_you_mean
-from regkit.preset import presets_of, with_preset
+from regkit.preset import changed, preset, presets_of
 
 
 class Plugin(Model):
@@ -106,7 +106,7 @@ class Plugin(Model):
             value = {"kind": value}
         if isinstance(value, dict) and isinstance(value.get("preset"), str):
             try:
-                value = with_preset(cls.group, value)
+                value = changed(cls._preset(value["preset"]), value)
             except RegkitError as error:
                 raise PydanticCustomError(
                     "plugin_error", "{error}", {"error": str(error)}
@@ -123,6 +123,16 @@ class Plugin(Model):
         except PluginError as error:
             raise PydanticCustomError("plugin_error", "{error}", {"error": str(error)}) from error
         return plugin.model_validate(value)
+
+    @classmethod
+    def _preset(cls, name: str) -> dict[str, Any]:
+        """What a preset says, which is a whole configuration: its mistakes are told in its file."""
+        document = preset(cls.group, name)
+        kind = document.data.get("kind")
+        if not isinstance(kind, str):
+            raise PluginError("a preset must name its kind", place=document.place(()))
+        document.validated(cls.load(kind))
+        return document.data
 
     @classmethod
     def _slot_json_schema(cls, _: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:

@@ -39,14 +39,18 @@ def preset_file(group: str, name: str) -> Path:
     return Path(installed[name].load())
 
 
-def with_preset(group: str, value: Mapping[str, Any]) -> dict[str, Any]:
-    """A configuration that names a ``preset``: the preset's, with all else that is given.
+def preset(group: str, name: str) -> Document:
+    """The document of a preset.
 
     Raises:
         RegkitError: If there is no such preset, or its file is no YAML mapping.
     """
-    changes = {key: part for key, part in value.items() if key != "preset"}
-    return _merged(Document.read(preset_file(group, value["preset"])).data, changes)
+    return Document.read(preset_file(group, name))
+
+
+def changed(base: Mapping[str, Any], value: Mapping[str, Any]) -> dict[str, Any]:
+    """A preset's configuration with all that stands beside the preset's name."""
+    return _merged(base, {key: part for key, part in value.items() if key != "preset"})
 
 
 def _merged(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:

@@ -206,3 +206,21 @@ def test_gaussians_compete_for_points(random):
         placed = model.place(np.eye(4)[None])
         pulls.append(Likelihood().against(data, placed)(placed).wrenches[-1, 0])
     assert abs(pulls[0]) < 0.3 * abs(pulls[1])
+
+
+@pytest.mark.parametrize("kernel", KERNELS, ids=name)
+def test_points_are_explained_where_the_primitives_are_and_nowhere_else(kernel):
+    """Of two variances, so that each point has to keep its place."""
+    model = Gaussians(
+        segments=np.zeros(1, dtype=np.intp),
+        centres=np.zeros((1, 3)),
+        axes=np.eye(3)[None],
+        scales=np.array([[0.1, 0.05, 0.05]]),
+        weights=np.ones(1),
+    )
+    placed = model.place(rigid(np.eye(3), np.array([0.0, 0.0, 2.0]))[None])
+    points = np.array([[0.0, 0.0, 2.0], [2.0, 0.0, 2.0], [0.05, 0.0, 2.0], [0.0, 1.0, 3.0]])
+    data = Observation(points, np.ones(4), np.array([0.02, 0.02, 0.03, 0.03]) ** 2)
+    explained = kernel.against(data, placed).explained(placed)
+    np.testing.assert_allclose(explained[[1, 3]], 0.0, atol=1e-9)
+    assert ((explained[[0, 2]] > 0.9) & (explained[[0, 2]] <= 1.0)).all()

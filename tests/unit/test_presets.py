@@ -64,3 +64,15 @@ def test_mistake_is_told_at_its_place(tmp_path, text, expected):
         method_of(tmp_path, text)
     assert str(caught.value).startswith(f"{tmp_path}/experiment.yaml:5: methods.mine")
     assert expected in str(caught.value)
+
+
+def test_mistake_in_a_preset_is_told_in_its_own_file(tmp_path):
+    copy = tmp_path / "mine.yaml"
+    text = preset_file("regkit.methods", "best").read_text()
+    copy.write_text(text.replace("kernel: likelihood", "kernel: likelyhood"))
+    line = 1 + text[: text.index("kernel:")].count("\n")
+    with pytest.raises(ConfigError, match=rf"{copy}:{line}: kernel: no plug-in 'likelyhood'"):
+        method_of(tmp_path, "{preset: mine.yaml}")
+    copy.write_text("shape: gsog\n")
+    with pytest.raises(ConfigError, match=rf"{copy}:1: a preset must name its kind"):
+        method_of(tmp_path, "{preset: mine.yaml}")

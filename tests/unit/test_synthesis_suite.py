@@ -165,10 +165,9 @@ def test_template_has_the_bones_of_the_mesh(fitted):
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("fitted", SHIPPED, indirect=True)
 def test_template_of_the_average_is_the_shipped_one(fitted):
     name, description = fitted
-    if name not in SHIPPED:
-        pytest.skip("no template ships for this body")
     shipped = Document.read(FOLDER / SHIPPED[name]).validated(BodyDescription)
     assert (description.title, description.sources) == (shipped.title, shipped.sources)
     own, other = (one.body(name, one.size.value) for one in (description, shipped))

@@ -126,7 +126,8 @@ class DirectRegistrar(Registrar):
         bound = self._bound(observation, pose, pose, 0.0)
         placed = bound.primitives.place(self.body.place(pose).transforms)
         energy = sum(similarity(placed).energy for similarity in bound.similarities)
-        return Fit(energy, bound.explained(self.body, pose))
+        strain = sum(joint(pose).energy for joint in bound.joints)
+        return Fit(energy + strain, bound.explained(self.body, pose))
 
     def _bound(self, observation: Observation, pose: Pose, expected: Pose, blur: float) -> _Bound:
         """The kernel and all terms bound to a frame at a pose."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import radians
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -26,11 +27,7 @@ class LimitsTerm(Term):
 
     def against(self, scene: Scene) -> Violations:
         """Bind the term to the body's limits."""
-        import numpy as np
-
-        return Violations(
-            scene.body.skeleton, self.weight / float(np.radians(self.tolerance_deg)) ** 2
-        )
+        return Violations(scene.body.skeleton, self.weight / radians(self.tolerance_deg) ** 2)
 
 
 @dataclass(frozen=True)
