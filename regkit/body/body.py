@@ -11,6 +11,7 @@ from regkit.arrays import Array, Indices
 from regkit.capsules import Capsules
 from regkit.primitives import Gaussians
 from regkit.skeleton import Placement, Pose, Skeleton
+from regkit.surface import SkinnedSurface
 
 
 @dataclass(frozen=True)
@@ -75,6 +76,7 @@ class Body:
     stances: tuple[Stance, ...]
     size: float
     upright: bool
+    surface: SkinnedSurface | None = None
 
     def place(self, pose: Pose) -> Placement:
         """The skeleton's placement in a pose."""
