@@ -11,7 +11,7 @@ import numpy as np
 from regkit.arrays import Array
 from regkit.rigid import rigid
 from regkit.rotation import conjugate, from_matrix, normalized, product, to_matrix
-from regkit.skeleton import Pose, Skeleton
+from regkit.skeleton import Couplings, Pose, Skeleton
 
 CoordinatesName = Literal["tangent", "quaternion"]
 
@@ -27,6 +27,10 @@ class Coordinates(ABC):
 
     skeleton: Skeleton
     start: Pose
+
+    @property
+    def _couplings(self) -> Couplings:
+        return self.skeleton.limits.couplings
 
     @abstractmethod
     def origin(self) -> Array:
@@ -54,19 +58,25 @@ class Coordinates(ABC):
 
 @dataclass(frozen=True)
 class TangentCoordinates(Coordinates):
-    """Steps on the tangent space at the start: 6 for a free root, 3 for a ball, 1 for a hinge."""
+    """Steps on the tangent space at the start: 6 for a free root, 3 for a ball, 1 for a hinge.
+
+    A hinge that follows another has none.
+    """
 
     def origin(self) -> Array:
         """Zero."""
-        return np.zeros(self.skeleton.freedoms)
+        return np.zeros(self.skeleton.freedoms - len(self._couplings))
 
     def pose(self, x: Array) -> Pose:
-        """``retract(start, x)``."""
-        return self.skeleton.retract(self.start, x)
+        """``retract(start, x)``, followers made to follow."""
+        if not len(self._couplings):
+            return self.skeleton.retract(self.start, x)
+        pose = self.skeleton.retract(self.start, self._step(x))
+        return Pose(pose.root, pose.balls, self._couplings.coupled(pose.hinges))
 
     def vector(self, pose: Pose) -> Array:
         """The step from the start to a pose, its rotations of at most half a turn."""
-        return self.skeleton.difference(self.start, pose)
+        return self._independent(self.skeleton.difference(self.start, pose))
 
     def differential(self, x: Array) -> Array:
         """By the right Jacobian of each rotation vector: exp(w + dw) = exp(w) exp(J dw)."""
@@ -74,7 +84,13 @@ class TangentCoordinates(Coordinates):
         from regkit.skeleton.compiled_steps import step_differential
 
         first = 3 if self.skeleton.free else 0
-        return step_differential(x, first, self.skeleton.hinge_freedoms.start)
+        hinges = self.skeleton.hinge_freedoms
+        differential = step_differential(self._step(x), first, hinges.start)
+        if not len(self._couplings):
+            return differential
+        return np.hstack([
+            differential[:, : hinges.start], differential[:, hinges] @ self._couplings.spread
+        ])  # fmt: skip
 
     def bounds(self) -> tuple[Array, Array]:
         """The hinges' limits, and half a turn for each part of a rotation vector."""
@@ -85,7 +101,19 @@ class TangentCoordinates(Coordinates):
         hinges = self.skeleton.hinge_freedoms
         lower[hinges] = self.skeleton.limits.hinge[:, 0] - self.start.hinges
         upper[hinges] = self.skeleton.limits.hinge[:, 1] - self.start.hinges
+        lower, upper = self._independent(lower), self._independent(upper)
         return np.minimum(lower, 0.0), np.maximum(upper, 0.0)
+
+    def _step(self, x: Array) -> Array:
+        """The step (n,) of all degrees of freedom at x (m,)."""
+        if not len(self._couplings):
+            return x
+        hinges = self.skeleton.hinge_freedoms.start
+        return np.concatenate([x[:hinges], self._couplings.spread @ x[hinges:]])
+
+    def _independent(self, step: Array) -> Array:
+        """The part (m,) of a step (n,) that followers have no part in."""
+        return np.delete(step, self.skeleton.hinge_freedoms.start + self._couplings.followers)
 
 
 @dataclass(frozen=True)
@@ -93,7 +121,7 @@ class QuaternionCoordinates(Coordinates):
     """The paper's pose parameters [t, r(1), ..., r(L)]: un-normalised quaternions, p = r / |r|.
 
     L counts the root's rotation and the ball joints: 4 L + 3 parameters, and one more for each
-    hinge.
+    hinge that follows no other.
     """
 
     def origin(self) -> Array:
@@ -110,7 +138,7 @@ class QuaternionCoordinates(Coordinates):
 
     def differential(self, x: Array) -> Array:
         """By the angular rate 2 vec(p* dr) / |r|; the part of dr along r turns nothing."""
-        quaternions, hinges = self._split(x)
+        quaternions, _ = self._split(x)
         inverse = conjugate(normalized(quaternions)) * (
             2.0 / np.linalg.norm(quaternions, axis=1, keepdims=True)
         )
@@ -121,29 +149,34 @@ class QuaternionCoordinates(Coordinates):
         rows = start + np.arange(3 * len(rates)).reshape(-1, 3)
         columns = start + np.arange(4 * len(rates)).reshape(-1, 4)
         differential[rows[:, :, None], columns[:, None, :]] = np.swapaxes(rates, 1, 2)
-        own = np.arange(1, len(hinges) + 1)
-        differential[-own, -own] = 1.0
+        last = len(x) - len(self._couplings.independent)
+        differential[self.skeleton.hinge_freedoms, last:] = self._couplings.spread
         return differential
 
     def bounds(self) -> tuple[Array, Array]:
         """The hinges' limits; a quaternion has none."""
         lower, upper = np.full_like(self.origin(), -np.inf), np.full_like(self.origin(), np.inf)
-        hinges = len(self.start.hinges)
-        limits = self.skeleton.limits.hinge
-        if hinges:
-            lower[-hinges:] = np.minimum(limits[:, 0], self.start.hinges)
-            upper[-hinges:] = np.maximum(limits[:, 1], self.start.hinges)
+        own = self._couplings.independent
+        limits, start = self.skeleton.limits.hinge[own], self.start.hinges[own]
+        first = len(lower) - len(own)
+        lower[first:] = np.minimum(limits[:, 0], start)
+        upper[first:] = np.maximum(limits[:, 1], start)
         return lower, upper
 
     def vector(self, pose: Pose) -> Array:
         """A pose's translation, unit quaternions and hinge angles."""
         root = [pose.root[:3, 3], from_matrix(pose.root[:3, :3])] if self.skeleton.free else []
-        return np.concatenate([*root, pose.balls.ravel(), pose.hinges])
+        own = pose.hinges[self._couplings.independent]
+        return np.concatenate([*root, pose.balls.ravel(), own])
 
     def _split(self, x: Array) -> tuple[Array, Array]:
-        hinges = len(x) - len(self.start.hinges)
+        """The un-normalised quaternions (L, 4) and all hinge angles (n_hinge,)."""
+        own = self._couplings.independent
+        first = len(x) - len(own)
+        hinges = np.zeros(self._couplings.hinges)
+        hinges[own] = x[first:]
         start = 3 if self.skeleton.free else 0
-        return x[start:hinges].reshape(-1, 4), x[hinges:]
+        return x[start:first].reshape(-1, 4), self._couplings.coupled(hinges)
 
 
 COORDINATES: dict[CoordinatesName, type[Coordinates]] = {

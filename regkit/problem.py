@@ -38,7 +38,7 @@ class RegistrationProblem(Problem):
         self._similarities = tuple(similarities)
         self._joints = tuple(joints)
         self.start = coordinates.origin()
-        self._last = (self.start, coordinates.start)
+        self._last = (self.start, coordinates.pose(self.start))
         self.lower, self.upper = coordinates.bounds()
 
     def value_and_gradient(self, x: Array) -> tuple[float, Array]:

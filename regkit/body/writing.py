@@ -13,6 +13,7 @@ from regkit.skeleton import PoseDescription, SegmentDescription
 from regkit.skeleton.description import CapsuleDescription
 from regkit.skeleton.joints import (
     BallJoint,
+    CouplingDescription,
     FixedJoint,
     FreeJoint,
     HingeJoint,
@@ -121,6 +122,8 @@ def _joint(joint: Joint) -> str:
             fields = [f"axis: {_axis(joint.axis)}"]
             if joint.limits_deg is not None:
                 fields.append(f"limits_deg: {_row(joint.limits_deg, 1)}")
+            if joint.coupled is not None:
+                fields.append(f"coupled: {_coupling(joint.coupled)}")
         case UniversalJoint():
             fields = [f"axes: [{', '.join(map(_axis, joint.axes))}]"]
             if joint.limits_deg is not None:
@@ -135,6 +138,11 @@ def _joint(joint: Joint) -> str:
             if joint.twist_deg is not None:
                 fields.append(f"twist_deg: {_row(joint.twist_deg, 1)}")
     return f"{{type: {joint.type}, {', '.join(fields)}}}"
+
+
+def _coupling(coupling: CouplingDescription) -> str:
+    offset = f", offset_deg: {_number(coupling.offset_deg, 1)}" if coupling.offset_deg else ""
+    return f"{{to: {_word(coupling.to)}, ratio: {coupling.ratio:.4g}{offset}}}"
 
 
 def _axes_at_right_angles(joint: BallJoint) -> tuple[str, str]:

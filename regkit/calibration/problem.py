@@ -55,7 +55,7 @@ class SubjectProblem(Problem):
         self._reach = REACH * self._usual_gap(body, poses)
         self._charts = [TangentCoordinates(body.skeleton, pose) for pose in poses]
         self._weight = EVIDENCE / len(clouds)
-        self._spring = np.full(body.skeleton.freedoms, STIFFNESS**2)
+        self._spring = np.full(len(self._charts[0].origin()), STIFFNESS**2)
         self._spring[: body.skeleton.ball_freedoms.start] = 0.0
         lower, upper = zip(*(chart.bounds() for chart in self._charts), strict=True)
         free = np.full(len(shape), np.inf)

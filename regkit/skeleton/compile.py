@@ -9,8 +9,17 @@ import numpy as np
 from regkit.arrays import Array, Indices, read_only
 from regkit.rigid import rigid
 from regkit.rotation import from_vector, vector_to_matrix
+from regkit.skeleton.couplings import Couplings
 from regkit.skeleton.description import SkeletonDescription, parents_first
-from regkit.skeleton.joints import BallJoint, FreeJoint, HingeJoint, Range, UniversalJoint, Vector
+from regkit.skeleton.joints import (
+    BallJoint,
+    CouplingDescription,
+    FreeJoint,
+    HingeJoint,
+    Range,
+    UniversalJoint,
+    Vector,
+)
 from regkit.skeleton.limits import Limits
 from regkit.skeleton.skeleton import Skeleton
 
@@ -25,6 +34,7 @@ class _Links:
     offsets: list[Array] = field(default_factory=list)
     balls: list[tuple[int, BallJoint]] = field(default_factory=list)
     hinges: list[tuple[int, Vector, Range]] = field(default_factory=list)
+    couplings: list[tuple[int, CouplingDescription]] = field(default_factory=list)
 
     def add(self, parent: int, offset: Array) -> int:
         self.parents.append(parent)
@@ -49,6 +59,8 @@ def compiled(description: SkeletonDescription, scale: float = 1.0) -> Skeleton:
             case BallJoint() as ball:
                 links.balls.append((link, ball))
             case HingeJoint() as hinge:
+                if hinge.coupled is not None:
+                    links.couplings.append((len(links.hinges), hinge.coupled))
                 links.add_hinge(link, hinge.axis, hinge.limits_deg)
             case UniversalJoint() as universal:
                 first, second = universal.limits_deg or (None, None)
@@ -89,7 +101,7 @@ def _skeleton(
         moves=read_only(
             [[mover in chains[segment_links[name]] for name in names] for mover in movers]
         ).reshape(len(movers), len(names)),
-        limits=_limits(links),
+        limits=_limits(links, segment_links),
     )
 
 
@@ -122,13 +134,29 @@ def _chain(link: int, parents: list[int]) -> list[int]:
     return chain
 
 
-def _limits(links: _Links) -> Limits:
+def _limits(links: _Links, segment_links: dict[str, int]) -> Limits:
     balls = [ball for _, ball in links.balls]
+    hinge = np.radians([limits for _, _, limits in links.hinges]).reshape(-1, 2)
+    couplings = _couplings(links, segment_links)
     return Limits(
-        hinge=read_only(np.radians([limits for _, _, limits in links.hinges])).reshape(-1, 2),
+        hinge=read_only(couplings.narrowed(hinge)),
+        couplings=couplings,
         centre=from_vector(np.radians([ball.centre_deg for ball in balls]).reshape(-1, 3)),
         twist_axis=read_only([ball.twist_axis for ball in balls]).reshape(-1, 3),
         swing_axis=read_only([ball.swing_axis for ball in balls]).reshape(-1, 3),
         swing=np.radians([ball.swing_deg or (np.inf, np.inf) for ball in balls]).reshape(-1, 2),
         twist=np.radians([ball.twist_deg or _UNLIMITED for ball in balls]).reshape(-1, 2),
+    )
+
+
+def _couplings(links: _Links, segment_links: dict[str, int]) -> Couplings:
+    hinge_of = {link: index for index, (link, _, _) in enumerate(links.hinges)}
+    return Couplings(
+        hinges=len(links.hinges),
+        followers=np.array([follower for follower, _ in links.couplings], dtype=np.intp),
+        leaders=np.array(
+            [hinge_of[segment_links[coupling.to]] for _, coupling in links.couplings], dtype=np.intp
+        ),
+        ratios=read_only([coupling.ratio for _, coupling in links.couplings]),
+        offsets=np.radians([coupling.offset_deg for _, coupling in links.couplings]),
     )

@@ -7,7 +7,7 @@ from typing import Annotated
 from pydantic import Field, ValidationError, model_validator
 
 from regkit.model import Model, did_you_mean, misplaced
-from regkit.skeleton.joints import FreeJoint, Joint, Vector
+from regkit.skeleton.joints import FreeJoint, HingeJoint, Joint, Vector
 
 Radius = Annotated[float, Field(gt=0.0)]
 
@@ -60,6 +60,9 @@ class SkeletonDescription(Model):
                         marker,
                     )
                 owners[marker] = name
+        for name, segment in self.segments.items():
+            if isinstance(segment.joint, HingeJoint) and segment.joint.coupled is not None:
+                _check_coupling(self.segments, name, segment.joint)
         return self
 
 
@@ -105,6 +108,42 @@ def parents_first(segments: dict[str, SegmentDescription]) -> list[str]:
             "parent",
         )
     return ordered
+
+
+def _check_coupling(
+    segments: dict[str, SegmentDescription], name: str, follower: HingeJoint
+) -> None:
+    """A leader is another hinge that follows none, at an angle that suits both."""
+    assert follower.coupled is not None
+    to = follower.coupled.to
+    where = (name, "joint", "coupled", "to")
+    leader = segments[to].joint if to in segments else None
+    if not isinstance(leader, HingeJoint):
+        hinges = [one for one in segments if isinstance(segments[one].joint, HingeJoint)]
+        raise _wrong(
+            f"'{name}' can follow a hinge, which '{to}' is not (there are: {', '.join(hinges)})"
+            + did_you_mean(to, hinges),
+            *where,
+        )
+    if leader.coupled is not None:
+        raise _wrong(
+            f"'{name}' follows '{to}', which follows '{leader.coupled.to}' itself; couple both to "
+            "the same hinge",
+            *where,
+        )
+    if leader.limits_deg is None or follower.limits_deg is None:
+        return
+    ratio, offset = follower.coupled.ratio, follower.coupled.offset_deg
+    ends = sorted((end - offset) / ratio for end in follower.limits_deg)
+    low, high = max(ends[0], leader.limits_deg[0]), min(ends[1], leader.limits_deg[1])
+    if low > high:
+        raise _wrong(
+            f"no angle of '{to}' keeps the limits of both: '{name}' needs it between {ends[0]:g} "
+            f"and {ends[1]:g} degrees, its own limits are {list(leader.limits_deg)}",
+            name,
+            "joint",
+            "coupled",
+        )
 
 
 def _wrong(message: str, *location: str) -> ValidationError:

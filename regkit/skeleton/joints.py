@@ -37,6 +37,12 @@ def _in_order(value: tuple[float, float]) -> tuple[float, float]:
     return value
 
 
+def _not_zero(value: float) -> float:
+    if value == 0.0:
+        raise ValueError("a ratio must not be zero; a joint that never turns is of type fixed")
+    return value
+
+
 Axis = Annotated[Vector, BeforeValidator(_from_letter), AfterValidator(_of_unit_length)]
 """A direction: three numbers of any length, or one of x, y, z, -x, -y, -z."""
 
@@ -58,6 +64,17 @@ class FixedJoint(Model):
     type: Literal["fixed"] = "fixed"
 
 
+class CouplingDescription(Model):
+    """A hinge's angle follows that of another: ``ratio * angle + offset_deg``."""
+
+    to: str
+    """The segment whose hinge leads."""
+    ratio: Annotated[float, AfterValidator(_not_zero)]
+    """By how much the angle turns with that of the leader."""
+    offset_deg: float = 0.0
+    """The angle where that of the leader is zero [deg]."""
+
+
 class HingeJoint(Model):
     """One angle about an axis."""
 
@@ -66,6 +83,8 @@ class HingeJoint(Model):
     """Axis of the rotation in the segment's frame."""
     limits_deg: Range | None = None
     """Smallest and largest angle [deg]; without them the hinge turns freely."""
+    coupled: CouplingDescription | None = None
+    """What the angle follows from, if it is not free."""
 
 
 class UniversalJoint(Model):

@@ -1,4 +1,4 @@
-"""Joint limits: intervals for hinges, a swing cone and a twist interval for ball joints."""
+"""Joint limits: intervals and couplings of hinges, a swing cone and a twist interval of balls."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from regkit.rotation import (
     swing_twist,
     to_matrix,
 )
+from regkit.skeleton.couplings import Couplings
 from regkit.skeleton.pose import Pose
 
 
@@ -25,7 +26,9 @@ class Limits:
     """All limits of a skeleton; what has none is bounded by infinity.
 
     Attributes:
-        hinge: Lower and upper angle, (n_hinge, 2) [rad].
+        hinge: Lower and upper angle, (n_hinge, 2) [rad]; within those of a leader its followers
+            keep theirs.
+        couplings: Hinges that follow others.
         centre: Middle of each ball's cone as a unit quaternion, (n_ball, 4).
         twist_axis: Unit vectors in the segments' frames, (n_ball, 3).
         swing_axis: Axes of the first swing angle, (n_ball, 3).
@@ -34,6 +37,7 @@ class Limits:
     """
 
     hinge: Array
+    couplings: Couplings
     centre: Array
     twist_axis: Array
     swing_axis: Array
@@ -44,14 +48,19 @@ class Limits:
         """How far beyond its limits each joint is, (n_ball + n_hinge,) [rad]; zero inside.
 
         A ball's is the larger of its twist's and its swing's; the latter is measured along the ray
-        from the middle of the cone through the swing.
+        from the middle of the cone through the swing. A hinge that follows another may violate its
+        coupling too, and the larger counts.
         """
         swing, twist = self._swing_twist(pose)
         stretch = self._stretch(swing)
         angle = np.linalg.norm(swing, axis=1)
         outside = angle * (1.0 - 1.0 / np.maximum(stretch, 1.0))
         balls = np.maximum(outside, _beyond(twist, self.twist))
-        return np.concatenate([balls, _beyond(pose.hinges, self.hinge)])
+        hinges = _beyond(pose.hinges, self.hinge)
+        followers = self.couplings.followers
+        misfit = np.abs(self.couplings.misfit(pose.hinges))
+        hinges[followers] = np.maximum(hinges[followers], misfit)
+        return np.concatenate([balls, hinges])
 
     def slopes(self, pose: Pose) -> tuple[Array, Array, Array]:
         """How far beyond its limits each twist, swing and hinge is, and the derivative of that.
@@ -88,7 +97,7 @@ class Limits:
     def projected(self, pose: Pose) -> Pose:
         """The pose itself if it keeps the limits; else hinges, swings and twists brought to them.
 
-        A swing is shortened towards the middle of its cone.
+        A swing is shortened towards the middle of its cone; a hinge follows its leader.
         """
         # Imported when first used, for Numba takes its time to load.
         from regkit.skeleton.compiled_steps import within_limits
@@ -96,7 +105,7 @@ class Limits:
         balls, turned = within_limits(
             pose.balls, self.centre, self.twist_axis, self._cone, self.twist
         )
-        hinges = pose.hinges.clip(self.hinge[:, 0], self.hinge[:, 1])
+        hinges = self.couplings.coupled(pose.hinges.clip(self.hinge[:, 0], self.hinge[:, 1]))
         if not turned and (hinges == pose.hinges).all():
             return pose
         return Pose(pose.root, balls, hinges)
@@ -107,9 +116,9 @@ class Limits:
         Returns:
             Unit quaternions (count, n_ball, 4) and hinge angles (count, n_hinge) [rad].
         """
-        balls = len(self.centre)
-        radius = np.sqrt(random.uniform(size=(count, balls)))
-        phase = random.uniform(-np.pi, np.pi, size=(count, balls))
+        shape = (count, len(self.centre))
+        radius = np.sqrt(random.uniform(size=shape))
+        phase = random.uniform(-np.pi, np.pi, size=shape)
         half = np.minimum(self.swing, np.pi)
         second = cross(self.twist_axis, self.swing_axis)
         swing = (radius * np.cos(phase) * half[:, 0])[..., None] * self.swing_axis
@@ -117,7 +126,8 @@ class Limits:
         twist = _between(np.clip(self.twist, -np.pi, np.pi), random, count)
         turned = from_vector(twist[..., None] * self.twist_axis)
         hinges = _between(np.clip(self.hinge, -np.pi, np.pi), random, count)
-        return product(self.centre, product(from_vector(swing), turned)), hinges
+        balls = product(self.centre, product(from_vector(swing), turned))
+        return balls, self.couplings.coupled(hinges)
 
     def _swing_twist(self, pose: Pose) -> tuple[Array, Array]:
         """Swing vectors (n_ball, 3) and twist angles (n_ball,) relative to the cones' middles."""

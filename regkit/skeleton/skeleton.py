@@ -24,7 +24,7 @@ from regkit.skeleton.limits import Limits
 from regkit.skeleton.pose import Pose, PoseDescription
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Skeleton:
     """A tree of *links*, each with at most one joint; ``regkit.skeleton.compile`` makes it.
 
@@ -91,9 +91,10 @@ class Skeleton:
         return slice(self.ball_freedoms.stop, self.freedoms)
 
     def rest(self, root: Array | None = None) -> Pose:
-        """The pose with every angle zero, its root at T_world_root (4, 4)."""
+        """The pose of zero angles, but for coupled ones, its root at T_world_root (4, 4)."""
         balls = np.tile([0.0, 0.0, 0.0, 1.0], (len(self.ball_links), 1))
-        return Pose(np.eye(4) if root is None else root, balls, np.zeros(len(self.hinge_links)))
+        hinges = self.limits.couplings.coupled(np.zeros(len(self.hinge_links)))
+        return Pose(np.eye(4) if root is None else root, balls, hinges)
 
     def retract(self, pose: Pose, step: Array) -> Pose:
         """The pose after a step (n,) on the tangent space at ``pose``.
@@ -162,7 +163,7 @@ class Skeleton:
         """The pose that a person wrote down in degrees.
 
         Raises:
-            ConfigError: If a joint is unknown, or has another number of angles.
+            ConfigError: If a joint is unknown, has another number of angles, or follows another.
         """
         root = rigid(
             vector_to_matrix(np.radians(description.root.rotation_deg)),
@@ -176,7 +177,9 @@ class Skeleton:
                 raise ConfigError(
                     f"a pose gives {len(values)} angles for '{name}', which has {len(where)}"
                 )
+            if where[0] - self.hinge_freedoms.start in self.limits.couplings.followers:
+                raise ConfigError(f"the angle of '{name}' follows another joint's; leave it out")
             step = np.zeros(self.freedoms)
             step[where] = values
             pose = self.retract(pose, step)
-        return pose
+        return Pose(pose.root, pose.balls, self.limits.couplings.coupled(pose.hinges))

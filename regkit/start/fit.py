@@ -76,7 +76,7 @@ class _GapsAt:
         self._scan, self._body, self._coordinates = scan, body, coordinates
         self._reach = stage.reach
         joints = slice(6 if body.skeleton.free else 0, None)
-        self._spring = (stage.stiffness * np.eye(body.skeleton.freedoms))[joints]
+        self._spring = (stage.stiffness * np.eye(len(coordinates.origin())))[joints]
         self._last: tuple[Array, tuple[Array, Array]] | None = None
 
     def residuals(self, x: Array) -> Array:

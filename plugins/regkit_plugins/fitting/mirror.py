@@ -53,8 +53,8 @@ def joint(value: Joint) -> Joint:
     A ball joint keeps its twist axis, so that its twist changes its sign.
     """
     match value:
-        case HingeJoint(axis=axis, limits_deg=limits):
-            return HingeJoint(type="hinge", axis=turn(axis), limits_deg=limits)
+        case HingeJoint(axis=axis, limits_deg=limits, coupled=coupled):
+            return HingeJoint(type="hinge", axis=turn(axis), limits_deg=limits, coupled=coupled)
         case UniversalJoint(axes=(first, second), limits_deg=both):
             return UniversalJoint(
                 type="universal", axes=(turn(first), turn(second)), limits_deg=both

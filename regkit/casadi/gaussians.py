@@ -1,0 +1,72 @@
+"""The paper's similarity as a CasADi function."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from regkit.arrays import Array
+from regkit.casadi.configuration import length
+from regkit.casadi.kinematics import forward_kinematics
+from regkit.optional import casadi
+from regkit.primitives import Gaussians
+from regkit.skeleton import Skeleton
+
+
+def correlation(skeleton: Skeleton, gaussians: Gaussians, count: int) -> Any:
+    """The correlation of a body's Gaussians with N data points, eqs. 5 and 8, to be made small.
+
+    With S = C_i + sigma_j^2 I it is the energy of the kernel ``correlation``,
+
+        - sum_ij w_i w_j sigma_j^3 sqrt(|C_i| / |S|) exp(-1/2 q^T S^-1 q) / sum_j w_j sigma_j^3,
+
+    as the CasADi function (configuration (Q,), points (3, N) [m], weights (N,), variances (N,)
+    [m^2]) -> energy. A Gaussian's covariance turns with its segment.
+
+    Args:
+        skeleton: The body's skeleton.
+        gaussians: In the frames of its segments.
+        count: The number N of points.
+    """
+    ca = casadi()
+    numbers = ca.MX.sym("configuration", length(skeleton))
+    points = ca.MX.sym("points", 3, count)
+    weights, variances = ca.MX.sym("weights", count), ca.MX.sym("variances", count)
+    transforms = forward_kinematics(skeleton)(numbers)
+    # One point at a time, mapped over all: the expression does not grow with the data.
+    density = _density(skeleton, gaussians).map(count)
+    densities = density(ca.repmat(ca.vec(transforms), 1, count), points, variances.T)
+    masses = weights * variances**1.5
+    energy = -ca.dot(masses, densities.T) / ca.sum1(masses)
+    return ca.Function(
+        "correlation", [numbers, points, weights, variances], [energy],
+        ["configuration", "points", "weights", "variances"], ["energy"],
+    )  # fmt: skip
+
+
+def _density(skeleton: Skeleton, gaussians: Gaussians) -> Any:
+    """The function (transforms (16 S,), point (3,), variance) -> density of all Gaussians there."""
+    ca = casadi()
+    transforms = ca.SX.sym("transforms", 16 * len(skeleton.names))
+    point, variance = ca.SX.sym("point", 3), ca.SX.sym("variance")
+    by_segment = ca.reshape(transforms, 4, 4 * len(skeleton.names))
+    density = ca.SX(0)
+    for segment, centre, axes, scales, weight in zip(
+        gaussians.segments, gaussians.centres, gaussians.axes, gaussians.scales, gaussians.weights,
+        strict=True,
+    ):  # fmt: skip
+        placed = by_segment[:3, 4 * segment : 4 * segment + 4]
+        # In the Gaussian's own axes S is diagonal.
+        local = placed[:, :3].T @ (point - placed[:, 3]) - centre
+        squares = _squares(scales) + variance
+        exponent = ca.sum1((axes.T @ local) ** 2 / squares)
+        amplitude = float(weight) * float(np.prod(scales))
+        density += (
+            amplitude / ca.sqrt(squares[0] * squares[1] * squares[2]) * ca.exp(-0.5 * exponent)
+        )
+    return ca.Function("density", [transforms, point, variance], [density])
+
+
+def _squares(scales: Array) -> Any:
+    return casadi().DM(scales**2)

@@ -1,0 +1,114 @@
+"""Joint limits as smooth CasADi constraints.
+
+With the rotation q of a ball joint relative to the middle of its cone, split into swing * twist:
+
+- The twist's deviation from the middle of its interval, an angle in (-pi, pi), is bounded by half
+  the interval. It is the angle itself, so that its gradient never vanishes, and it jumps only where
+  it is farthest from the interval.
+- The swing (s_1, s_2) with the half angles a_1, a_2 has the row
+  ``max(a) / 2 ((s_1 / a_1)^2 + (s_2 / a_2)^2 - 1) <= 0``, smooth at no rotation too. Outside the
+  cone it is at least as large as the violation in radians.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from regkit.arrays import Array
+from regkit.casadi import rotations
+from regkit.casadi.configuration import length, split
+from regkit.casadi.constraint_rows import ConstraintRows, Row, gathered
+from regkit.optional import casadi
+from regkit.rotation import conjugate, cross
+from regkit.skeleton import Skeleton
+
+NOWHERE = 1e-30
+"""Added to squares that vanish at a swing of half a turn, where the twist is not defined."""
+
+
+@lru_cache(maxsize=16)
+def ball_limits(skeleton: Skeleton) -> ConstraintRows:
+    """The rows of all ball joints that have a limit: swing, then twist, joint by joint."""
+    numbers = casadi().SX.sym("configuration", length(skeleton))
+    return gathered("ball_limits", numbers, list(_ball_rows(skeleton, numbers)))
+
+
+@lru_cache(maxsize=16)
+def joint_limits(skeleton: Skeleton) -> ConstraintRows:
+    """All limits of a skeleton: those of its ball joints, of its hinges, and couplings."""
+    numbers = casadi().SX.sym("configuration", length(skeleton))
+    rows = [*_ball_rows(skeleton, numbers), *_hinge_rows(skeleton, numbers)]
+    return gathered("joint_limits", numbers, rows)
+
+
+def _ball_rows(skeleton: Skeleton, numbers: Any) -> Iterator[Row]:
+    limits = skeleton.limits
+    names = _names(skeleton, skeleton.ball_freedoms, 3)
+    for index, ball in enumerate(split(skeleton, numbers).balls):
+        centre = conjugate(limits.centre[index])
+        relative = rotations.product(casadi().DM(centre), rotations.normalized(ball))
+        axis, half_angles = limits.twist_axis[index], limits.swing[index]
+        if np.isfinite(half_angles).all():
+            swing = _swing(relative, axis, limits.swing_axis[index])
+            stretch = (swing[0] / half_angles[0]) ** 2 + (swing[1] / half_angles[1]) ** 2
+            row = 0.5 * float(half_angles.max()) * (stretch - 1.0)
+            yield Row(f"{names[index]}.swing", row, -np.inf, 0.0)
+        low, high = limits.twist[index]
+        half = 0.5 * (high - low)
+        if half < np.pi:
+            twist = _twist_from(relative, axis, 0.5 * (low + high))
+            yield Row(f"{names[index]}.twist", twist, -half, half)
+
+
+def _hinge_rows(skeleton: Skeleton, numbers: Any) -> Iterator[Row]:
+    hinges = split(skeleton, numbers).hinges
+    names = _names(skeleton, skeleton.hinge_freedoms, 1)
+    for index, (low, high) in enumerate(skeleton.limits.hinge):
+        if np.isfinite([low, high]).any():
+            yield Row(names[index], hinges[index], float(low), float(high))
+    couplings = skeleton.limits.couplings
+    for follower, leader, ratio, offset in zip(
+        couplings.followers, couplings.leaders, couplings.ratios, couplings.offsets, strict=True
+    ):
+        misfit = hinges[int(follower)] - ratio * hinges[int(leader)] - offset
+        yield Row(f"{names[follower]}.coupling", misfit, 0.0, 0.0)
+
+
+def _names(skeleton: Skeleton, freedoms: slice, each: int) -> list[str]:
+    """The segment of each joint in a range of freedoms."""
+    owners = {int(one): name for name, own in skeleton.joint_freedoms.items() for one in own}
+    return [owners[first] for first in range(freedoms.start, freedoms.stop, each)]
+
+
+def _twist_from(quaternion: Any, axis: Array, middle: float) -> Any:
+    """The twist's deviation from ``middle``, in (-pi, pi) [rad]."""
+    ca = casadi()
+    along, scalar = ca.dot(quaternion[:3], axis), quaternion[3]
+    # Half the deviation has this sine and cosine, but for a factor.
+    sine = np.cos(0.5 * middle) * along - np.sin(0.5 * middle) * scalar
+    cosine = np.cos(0.5 * middle) * scalar + np.sin(0.5 * middle) * along
+    # The quaternion and its negative are the same rotation.
+    sign = ca.if_else(cosine < 0.0, -1.0, 1.0)
+    return 2.0 * ca.atan2(sign * sine, sign * cosine + np.sqrt(NOWHERE))
+
+
+def _swing(quaternion: Any, axis: Array, first_axis: Array) -> Any:
+    """The two swing angles (2,) [rad]."""
+    ca = casadi()
+    along, scalar = ca.dot(quaternion[:3], axis), quaternion[3]
+    # The cosine of half the swing; the twist's half angle has these over it as sine and cosine.
+    level = ca.sqrt(along**2 + scalar**2 + NOWHERE)
+    sine, cosine = along / level, scalar / level
+    one = ca.dot(quaternion[:3], first_axis)
+    two = ca.dot(quaternion[:3], cross(axis, first_axis))
+    # The twist turned the swing's axis too; this turns it back.
+    swing = ca.vertcat(cosine * one - sine * two, sine * one + cosine * two)
+    square = ca.dot(swing, swing)
+    small = square < rotations.SMALL
+    size = ca.sqrt(ca.if_else(small, 1.0, square))
+    series = 2.0 + square * (1.0 / 3.0 + square * (3.0 / 20.0 + square * 5.0 / 56.0))
+    return ca.if_else(small, series, 2.0 * ca.atan2(size, level) / size) * swing

@@ -1,0 +1,82 @@
+"""Forward kinematics as CasADi functions."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from regkit.arrays import Array
+from regkit.body import Markers
+from regkit.casadi import rotations
+from regkit.casadi.configuration import length, split
+from regkit.optional import casadi
+from regkit.skeleton import Skeleton
+
+
+@lru_cache(maxsize=16)
+def forward_kinematics(skeleton: Skeleton) -> Any:
+    """The CasADi function configuration (Q,) -> T_world_segment of all S segments, eq. 4.
+
+    The matrices stand side by side, (4, 4 S), in the order of ``skeleton.names``. Where the root is
+    fixed, the world is its frame.
+    """
+    ca = casadi()
+    numbers = ca.SX.sym("configuration", length(skeleton))
+    links = _links(skeleton, numbers)
+    segments = [links[link] for link in skeleton.segment_links]
+    return ca.Function(
+        "forward_kinematics", [numbers], [ca.horzcat(*segments)],
+        ["configuration"], ["transforms"],
+    )  # fmt: skip
+
+
+def marker_positions(skeleton: Skeleton, markers: Markers) -> Any:
+    """The CasADi function configuration (Q,) -> positions of all M markers, (3, M) [m]."""
+    ca = casadi()
+    numbers = ca.SX.sym("configuration", length(skeleton))
+    transforms = forward_kinematics(skeleton)(numbers)
+    places = [
+        (transforms[:, 4 * segment : 4 * segment + 4] @ np.append(point, 1.0))[:3]
+        for segment, point in zip(markers.segments, markers.points, strict=True)
+    ]
+    return ca.Function(
+        "marker_positions", [numbers], [ca.horzcat(*places)], ["configuration"], ["positions"]
+    )
+
+
+def _links(skeleton: Skeleton, numbers: Any) -> list[Any]:
+    """T_world_link of each link: that of its parent, its offset, and the turn of its joint."""
+    ca = casadi()
+    parts = split(skeleton, numbers)
+    turns = {
+        link: rotations.matrix(rotations.normalized(ball))
+        for link, ball in zip(skeleton.ball_links, parts.balls, strict=True)
+    }
+    for index, (link, axis) in enumerate(
+        zip(skeleton.hinge_links, skeleton.hinge_axes, strict=True)
+    ):
+        turns[link] = rotations.matrix(rotations.exponential(parts.hinges[index] * axis))
+    if skeleton.free:
+        root = _rigid(rotations.matrix(rotations.normalized(parts.rotation)), parts.position)
+    else:
+        root = ca.DM.eye(4)
+    links: list[Any] = []
+    # Parents stand before their children.
+    for link, above in enumerate(skeleton.link_parents):
+        parent = root if above < 0 else links[above]
+        placed = parent @ _constant(skeleton.link_offsets[link])
+        turned = _rigid(turns[link], ca.SX(3, 1)) if link in turns else ca.DM.eye(4)
+        links.append(placed @ turned)
+    return links
+
+
+def _rigid(rotation: Any, translation: Any) -> Any:
+    ca = casadi()
+    return ca.vertcat(ca.horzcat(rotation, translation), ca.DM([[0.0, 0.0, 0.0, 1.0]]))
+
+
+def _constant(transform: Array) -> Any:
+    """A matrix whose zeros CasADi knows of, so that it leaves them out."""
+    return casadi().sparsify(casadi().DM(np.asarray(transform)))

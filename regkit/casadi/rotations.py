@@ -1,0 +1,42 @@
+"""Rotations as CasADi expressions, smooth wherever a rotation is, as are their derivatives."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from regkit.optional import casadi
+
+SMALL = 1e-4
+"""Below this square of an angle, or of its sine, series take the place of quotients."""
+
+
+def product(left: Any, right: Any) -> Any:
+    """The Hamilton product of two quaternions (4,), x, y, z, w: first ``right`` is applied."""
+    ca = casadi()
+    vector = left[3] * right[:3] + right[3] * left[:3] + ca.cross(left[:3], right[:3])
+    return ca.vertcat(vector, left[3] * right[3] - ca.dot(left[:3], right[:3]))
+
+
+def exponential(vector: Any) -> Any:
+    """The unit quaternion (4,) of a rotation vector (3,) [rad]."""
+    ca = casadi()
+    square = ca.dot(vector, vector)
+    small = square < SMALL
+    half = 0.5 * ca.sqrt(ca.if_else(small, 1.0, square))
+    quarter = square / 4.0
+    series = 0.5 * (1.0 - quarter / 6.0 * (1.0 - quarter / 20.0 * (1.0 - quarter / 42.0)))
+    sine = ca.if_else(small, series, ca.sin(half) / (2.0 * half))
+    level = 1.0 - quarter / 2.0 * (1.0 - quarter / 12.0 * (1.0 - quarter / 30.0))
+    return ca.vertcat(sine * vector, ca.if_else(small, level, ca.cos(half)))
+
+
+def matrix(quaternion: Any) -> Any:
+    """The rotation matrix (3, 3) of a unit quaternion (4,)."""
+    ca = casadi()
+    cross = ca.skew(quaternion[:3])
+    return ca.DM.eye(3) + 2.0 * quaternion[3] * cross + 2.0 * cross @ cross
+
+
+def normalized(quaternion: Any) -> Any:
+    """``p = r / |r|``, (4,)."""
+    return quaternion / casadi().norm_2(quaternion)

@@ -1,0 +1,146 @@
+"""Hinges that follow others: declared in the skeleton, held by whatever moves it."""
+
+import numpy as np
+import pytest
+
+from regkit.body import Body, BodyDescription
+from regkit.body.writing import template_text
+from regkit.coordinates import COORDINATES
+from regkit.document import Document
+from regkit.errors import ConfigError
+from regkit.skeleton import Pose, PoseDescription
+
+FINGER = """
+title: A finger whose last joint follows the middle one.
+size: {name: length, value: 1.0, range: [0.5, 2.0]}
+segments:
+  palm: {joint: {type: free}}
+  first:
+    parent: palm
+    offset: [0, 0.4, 0]
+    joint: {type: ball, swing_deg: [60, 40], twist_deg: [-20, 20]}
+  last:
+    parent: middle
+    offset: [0, 0.2, 0]
+    joint: {type: hinge, axis: x, limits_deg: [0, 40], coupled: {to: middle, ratio: 0.5, offset_deg: 5}}
+    capsules: [{start: [0, 0, 0], end: [0, 0.1, 0], radius: 0.02}]
+  middle:
+    parent: first
+    offset: [0, 0.3, 0]
+    joint: {type: hinge, axis: [1, 0, 0.2], limits_deg: [-20, 110]}
+    capsules: [{start: [0, 0, 0], end: [0, 0.2, 0], radius: 0.03}]
+  thumb:
+    parent: palm
+    offset: [0.2, 0, 0]
+    joint: {type: hinge, axis: z, limits_deg: [-30, 30]}
+"""  # noqa: E501
+
+
+def written(tmp_path, text: str) -> BodyDescription:
+    path = tmp_path / "finger.yaml"
+    path.write_text(text)
+    return Document.read(path).validated(BodyDescription)
+
+
+@pytest.fixture
+def finger(tmp_path) -> Body:
+    return written(tmp_path, FINGER).body("finger", 1.0)
+
+
+def follows(body: Body, pose: Pose) -> bool:
+    leader, follower = (
+        body.skeleton.joint_freedoms[name][0] - body.skeleton.hinge_freedoms.start
+        for name in ("middle", "last")
+    )
+    expected = 0.5 * pose.hinges[leader] + np.radians(5.0)
+    return bool(abs(pose.hinges[follower] - expected) < 1e-12)
+
+
+@pytest.mark.parametrize("name", list(COORDINATES))
+def test_coordinates_move_the_follower_with_its_leader(finger, random, name):
+    bones = finger.skeleton
+    coordinates = COORDINATES[name](bones, bones.rest())
+    x = coordinates.origin() + 0.3 * random.normal(size=len(coordinates.origin()))
+    assert follows(finger, coordinates.pose(coordinates.origin()))
+    assert follows(finger, coordinates.pose(x))
+    np.testing.assert_allclose(coordinates.vector(bones.rest()), coordinates.origin(), atol=1e-12)
+    back = coordinates.pose(coordinates.vector(coordinates.pose(x)))
+    np.testing.assert_allclose(back.hinges, coordinates.pose(x).hinges, atol=1e-9)
+
+
+@pytest.mark.parametrize("name", list(COORDINATES))
+def test_differential_holds_with_a_follower(finger, random, name):
+    bones = finger.skeleton
+    coordinates = COORDINATES[name](bones, bones.rest())
+    x = coordinates.origin() + 0.3 * random.normal(size=len(coordinates.origin()))
+    differential = coordinates.differential(x)
+    assert differential.shape == (bones.freedoms, len(x))
+    step = 1e-6
+    for column, direction in zip(differential.T, np.eye(len(x)), strict=True):
+        ahead, behind = (
+            coordinates.pose(x + step * direction),
+            coordinates.pose(x - step * direction),
+        )
+        moved = bones.difference(behind, ahead) / (2.0 * step)
+        # The root's rotation and the balls turn in the frame at x, as ``difference`` does.
+        np.testing.assert_allclose(column, moved, atol=1e-7)
+
+
+def test_leader_keeps_the_limits_of_its_follower_too(finger):
+    bones = finger.skeleton
+    # The last joint bends by 40 degrees at most, so the middle one by 70; it is never below -10.
+    coordinates = COORDINATES["tangent"](bones, bones.rest())
+    lower, upper = coordinates.bounds()
+    leader = bones.joint_freedoms["middle"][0]
+    independent = np.delete(np.arange(bones.freedoms), bones.joint_freedoms["last"])
+    at = list(independent).index(leader)
+    np.testing.assert_allclose(np.degrees([lower[at], upper[at]]), [-10.0, 70.0])
+
+
+def test_projection_and_samples_keep_the_coupling(finger, random):
+    bones = finger.skeleton
+    for _ in range(20):
+        pose = bones.retract(bones.rest(), 2.0 * random.normal(size=bones.freedoms))
+        projected = bones.limits.projected(pose)
+        assert follows(finger, projected)
+        assert bones.limits.violation(projected).max() < 1e-9
+    balls, hinges = bones.limits.sampled(random, 50)
+    for ball, hinge in zip(balls, hinges, strict=True):
+        assert bones.limits.violation(Pose(np.eye(4), ball, hinge)).max() < 1e-6
+
+
+def test_violation_says_how_far_a_follower_is_off(finger):
+    bones = finger.skeleton
+    step = np.zeros(bones.freedoms)
+    step[bones.joint_freedoms["last"]] = np.radians(3.0)
+    violation = bones.limits.violation(bones.retract(bones.rest(), step))
+    np.testing.assert_allclose(np.degrees(violation.max()), 3.0)
+
+
+def test_pose_leaves_the_follower_out(finger):
+    bones = finger.skeleton
+    assert follows(finger, bones.pose(PoseDescription(joints={"middle": 30.0})))
+    with pytest.raises(ConfigError, match="'last' follows another joint's; leave it out"):
+        bones.pose(PoseDescription(joints={"last": 30.0}))
+
+
+def test_coupling_is_written_and_read_again(tmp_path):
+    description = written(tmp_path, FINGER)
+    again = written(tmp_path, template_text(description, "", {}))
+    assert again.segments["last"].joint.coupled == description.segments["last"].joint.coupled
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (("to: middle", "to: midle"), "did you mean 'middle'?"),
+        (("to: middle", "to: first"), "which 'first' is not"),
+        (("to: middle", "to: last"), "follows 'last' itself"),
+        (("ratio: 0.5", "ratio: 0"), "must not be zero"),
+        (("limits_deg: [0, 40]", "limits_deg: [70, 80]"), "between 130 and 150 degrees"),
+    ],
+)
+def test_coupling_that_cannot_be_is_refused_at_its_line(tmp_path, change, message):
+    with pytest.raises(ConfigError, match=r"finger\.yaml:13") as caught:
+        written(tmp_path, FINGER.replace(*change))
+    assert message in str(caught.value)
