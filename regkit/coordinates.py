@@ -9,6 +9,8 @@ from typing import Literal
 import numpy as np
 
 from regkit.arrays import Array
+from regkit.constraints import quaternion_constraints, tangent_constraints
+from regkit.interfaces import Constraints
 from regkit.rigid import rigid
 from regkit.rotation import conjugate, from_matrix, normalized, product, to_matrix
 from regkit.skeleton import Couplings, Pose, Skeleton
@@ -54,6 +56,10 @@ class Coordinates(ABC):
     @abstractmethod
     def bounds(self) -> tuple[Array, Array]:
         """Lower and upper bounds (m,) that keep the hinges within their limits."""
+
+    @abstractmethod
+    def constraints(self) -> Constraints | None:
+        """What keeps the ball joints within their limits, or None if none has any."""
 
 
 @dataclass(frozen=True)
@@ -103,6 +109,10 @@ class TangentCoordinates(Coordinates):
         upper[hinges] = self.skeleton.limits.hinge[:, 1] - self.start.hinges
         lower, upper = self._independent(lower), self._independent(upper)
         return np.minimum(lower, 0.0), np.maximum(upper, 0.0)
+
+    def constraints(self) -> Constraints | None:
+        """The swings and twists of the ball joints that have limits."""
+        return tangent_constraints(self.skeleton, self.start.balls, len(self.origin()))
 
     def _step(self, x: Array) -> Array:
         """The step (n,) of all degrees of freedom at x (m,)."""
@@ -162,6 +172,10 @@ class QuaternionCoordinates(Coordinates):
         lower[first:] = np.minimum(limits[:, 0], start)
         upper[first:] = np.maximum(limits[:, 1], start)
         return lower, upper
+
+    def constraints(self) -> Constraints | None:
+        """The swings and twists that have limits, and the norms of all quaternions."""
+        return quaternion_constraints(self.skeleton, len(self.origin()))
 
     def vector(self, pose: Pose) -> Array:
         """A pose's translation, unit quaternions and hinge angles."""

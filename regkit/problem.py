@@ -7,7 +7,15 @@ from functools import reduce
 
 from regkit.arrays import Array
 from regkit.coordinates import Coordinates
-from regkit.interfaces import JointEnergy, Problem, Response, Similarity, Strain
+from regkit.interfaces import (
+    Constraints,
+    JointEnergy,
+    Multipliers,
+    Problem,
+    Response,
+    Similarity,
+    Strain,
+)
 from regkit.primitives import Placed, Primitives
 from regkit.skeleton import Placement
 
@@ -24,6 +32,7 @@ class RegistrationProblem(Problem):
         primitives: In the frames of the segments.
         similarities: The kernel, bound to the data, and the terms that look at the primitives.
         joints: The terms that look at the joints.
+        multipliers: Those of a similar problem's solution.
     """
 
     def __init__(
@@ -32,11 +41,13 @@ class RegistrationProblem(Problem):
         primitives: Primitives,
         similarities: Sequence[Similarity],
         joints: Sequence[JointEnergy] = (),
+        multipliers: Multipliers | None = None,
     ) -> None:
         self._coordinates = coordinates
         self._primitives = primitives
         self._similarities = tuple(similarities)
         self._joints = tuple(joints)
+        self.multipliers = multipliers
         self.start = coordinates.origin()
         self._last = (self.start, coordinates.pose(self.start))
         self.lower, self.upper = coordinates.bounds()
@@ -62,6 +73,10 @@ class RegistrationProblem(Problem):
         differential = self._coordinates.differential(x)
         value, force = self._value_and_force(placement, placed, response, strains)
         return value, differential.T @ force, differential.T @ matrix @ differential
+
+    def constraints(self) -> Constraints | None:
+        """The limits of the ball joints."""
+        return self._coordinates.constraints()
 
     def projected(self, x: Array) -> Array:
         """The pose's hinges and balls brought back within their limits."""

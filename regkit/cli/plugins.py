@@ -12,7 +12,7 @@ from rich.table import Table
 
 from regkit.cli.console import PluginFiles, output, run_plugin_files
 from regkit.errors import PluginError
-from regkit.interfaces import SLOTS
+from regkit.interfaces import SLOTS, Solver
 from regkit.model import did_you_mean
 from regkit.plugin import Plugin
 from regkit.preset import preset_file, presets_of
@@ -44,6 +44,23 @@ def plugins(
             table.add_row("presets", name, _preset_summary(slot.group, name), _distribution(point))
             table.add_section()
     output.print(table)
+    output.print(_limits_table())
+
+
+def _limits_table() -> Table:
+    """What each solver does with joint limits."""
+    table = Table(
+        "solver", "hinges", "ball joints (swing, twist)", "hard_limits", title="joint limits"
+    )
+    for name in Solver.available():
+        try:
+            limits = Solver.load(name).limits
+        except PluginError:
+            continue  # The other table says why it is broken.
+        table.add_row(
+            name, escape(limits.hinges), escape(limits.balls), "yes" if limits.hard else "refused"
+        )
+    return table
 
 
 def _print_fields(kind: str) -> None:

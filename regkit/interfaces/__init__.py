@@ -6,7 +6,14 @@ from regkit.interfaces.method import Method
 from regkit.interfaces.observer import Observer
 from regkit.interfaces.registrar import Fit, Registered, Registrar
 from regkit.interfaces.shape import ShapeModel
-from regkit.interfaces.solver import Problem, Solution, Solver
+from regkit.interfaces.solver import (
+    Constraints,
+    LimitKeeping,
+    Multipliers,
+    Problem,
+    Solution,
+    Solver,
+)
 from regkit.interfaces.template import Template
 from regkit.interfaces.term import JointEnergy, Scene, Shares, Strain, Term
 from regkit.interfaces.tracker import Follower, Tracker
@@ -16,12 +23,15 @@ SLOTS = (Dataset, Template, Observer, ShapeModel, Kernel, Term, Solver, Tracker,
 
 __all__ = [
     "SLOTS",
+    "Constraints",
     "Dataset",
     "Fit",
     "Follower",
     "JointEnergy",
     "Kernel",
+    "LimitKeeping",
     "Method",
+    "Multipliers",
     "Observer",
     "Problem",
     "Registered",

@@ -10,6 +10,7 @@ import numpy as np
 
 from regkit.arrays import Array
 from regkit.body import Body
+from regkit.interfaces.solver import Multipliers
 from regkit.observation import Observation
 from regkit.primitives import Primitives
 from regkit.skeleton import Pose
@@ -28,6 +29,7 @@ class Registered:
         iterations: Its steps.
         evaluations: How often it looked at the energy.
         message: Why it ended.
+        multipliers: How hard the limits hold the pose, if the solver knows.
     """
 
     pose: Pose
@@ -37,6 +39,7 @@ class Registered:
     iterations: int
     evaluations: int
     message: str
+    multipliers: Multipliers | None = None
 
     @classmethod
     def given(cls, pose: Pose) -> Registered:
@@ -86,6 +89,7 @@ class Registrar(ABC):
         expected: Pose,
         *others: Pose,
         blurs: Sequence[float] | None = None,
+        after: Registered | None = None,
     ) -> Registered:
         """The body's pose in a frame.
 
@@ -97,6 +101,8 @@ class Registrar(ABC):
             others: More poses from which the search may set out.
             blurs: Standard deviations [m] to smooth the energy with, one registration after the
                 other; without them the method's own.
+            after: The registration of the frame before, from which a solver may take more than the
+                pose.
         """
 
     @abstractmethod

@@ -1,14 +1,60 @@
-"""Solvers, and the problems that they solve: a smooth function on a box."""
+"""Solvers, and the problems that they solve: a smooth function on a box, within constraints."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
 from regkit.arrays import Array
 from regkit.plugin import Plugin
+
+
+class Constraints(ABC):
+    """Smooth functions of x, in C rows, that a solution keeps between bounds.
+
+    Attributes:
+        names: What each row limits, for messages, (C).
+        lower: Lower bounds, (C,), possibly -inf.
+        upper: Upper bounds, (C,), possibly inf; where both are equal, the row is an equation.
+    """
+
+    names: tuple[str, ...]
+    lower: Array
+    upper: Array
+
+    @abstractmethod
+    def values(self, x: Array) -> Array:
+        """The rows (C,) at x (m,)."""
+
+    @abstractmethod
+    def jacobian(self, x: Array) -> Array:
+        """Their derivative (C, m)."""
+
+    @abstractmethod
+    def curvature(self, x: Array, multipliers: Array) -> Array:
+        """The second derivative (m, m) of the sum of multipliers (C,) times rows."""
+
+    def violations(self, x: Array) -> Array:
+        """How far each row (C,) is beyond its bounds, zero within."""
+        values = self.values(x)
+        beyond = np.maximum(self.lower - values, values - self.upper)
+        return np.asarray(np.maximum(beyond, 0.0))
+
+
+@dataclass(frozen=True)
+class Multipliers:
+    """How hard a solution is held: the energy gained where a bound gives way by one.
+
+    Attributes:
+        bounds: Of the variables' bounds, (m,), negative at a lower one.
+        constraints: Of the constraints, (C,).
+    """
+
+    bounds: Array
+    constraints: Array
 
 
 class Problem(ABC):
@@ -18,11 +64,13 @@ class Problem(ABC):
         start: Where to begin, (m,); it lies within the bounds.
         lower: Lower bounds, (m,), possibly -inf.
         upper: Upper bounds, (m,), possibly inf.
+        multipliers: Those of the solution of a similar problem, with which a solver may begin.
     """
 
     start: Array
     lower: Array
     upper: Array
+    multipliers: Multipliers | None = None
 
     @abstractmethod
     def value_and_gradient(self, x: Array) -> tuple[float, Array]:
@@ -33,6 +81,10 @@ class Problem(ABC):
 
         None if the problem has no such matrix.
         """
+        return None
+
+    def constraints(self) -> Constraints | None:
+        """What else a solution keeps, for solvers that can hold it; None if nothing."""
         return None
 
     def projected(self, x: Array) -> Array:
@@ -52,6 +104,7 @@ class Solution:
         iterations: Steps taken.
         evaluations: Calls of ``value_and_gradient``.
         message: Why it ended.
+        multipliers: How hard it is held there, if the solver knows.
     """
 
     x: Array
@@ -60,12 +113,35 @@ class Solution:
     iterations: int
     evaluations: int
     message: str
+    multipliers: Multipliers | None = None
+
+
+@dataclass(frozen=True)
+class LimitKeeping:
+    """What a solver does with joint limits, in a few words each.
+
+    Couplings are no limits: what follows another joint has no coordinate, so every solver holds it.
+
+    Attributes:
+        hinges: How it keeps the limits of hinges.
+        balls: How it keeps the swing and twist limits of ball joints.
+        hard: Whether no solution is ever beyond any limit.
+    """
+
+    hinges: str
+    balls: str
+    hard: bool
 
 
 class Solver(Plugin, ABC):
     """Makes a problem's value small."""
 
     group = "regkit.solvers"
+
+    limits: ClassVar[LimitKeeping] = LimitKeeping(
+        hinges="bounds", balls="not kept; the term `limits` penalises", hard=False
+    )
+    """What it does with joint limits; every solver keeps bounds."""
 
     @abstractmethod
     def minimize(self, problem: Problem) -> Solution:

@@ -13,6 +13,7 @@ Function = Callable[[np.ndarray], tuple[float, np.ndarray]]
 LONG = {
     "lbfgs": {"max_iterations": 500, "value_tolerance": 1e-15, "gradient_tolerance": 1e-9},
     "gauss_newton": {"max_iterations": 500, "resting": 0.0, "value_tolerance": 1e-12},
+    "ipopt": {"max_iterations": 500, "value_tolerance": 0.0, "reach": 10.0},
 }
 """Options with which a solver gets to the bottom of a valley, where its own are not enough."""
 
@@ -158,11 +159,13 @@ def test_bounded_quadratic_has_no_force_into_the_box(patient):
     problem = Known(bowl, np.zeros(4), [-1.0, -0.4, -1.0, -1.0], [1.0, 1.0, 0.5, 1.0])
     solution = patient.minimize(problem)
     gradient = bowl(solution.x)[1]
-    inside = (problem.lower < solution.x) & (solution.x < problem.upper)
+    # An interior point comes as near to a bound as its tolerance lets it.
+    at_upper, at_lower = solution.x > problem.upper - 1e-5, solution.x < problem.lower + 1e-5
+    inside = ~(at_upper | at_lower)
     assert 0 < inside.sum() < 4
     np.testing.assert_allclose(gradient[inside], 0.0, atol=1e-3)
-    assert (gradient[solution.x == problem.upper] <= 1e-6).all()
-    assert (gradient[solution.x == problem.lower] >= -1e-6).all()
+    assert (gradient[at_upper] <= 1e-6).all()
+    assert (gradient[at_lower] >= -1e-6).all()
 
 
 def test_solution_does_not_depend_on_the_unit_of_the_value(solver):

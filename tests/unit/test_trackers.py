@@ -1,6 +1,5 @@
 """Trackers: where they set out from, when they look for lost limbs, and that they find them."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -32,7 +31,7 @@ class Recorder(Registrar):
     explained: float = 0.9
     calls: list[tuple[Pose, ...]] = field(default_factory=list)
 
-    def register(self, observation, expected, *others, blurs: Sequence[float] | None = None):
+    def register(self, observation, expected, *others, blurs=None, after=None):
         self.calls.append((expected, *others))
         return Registered(expected, 0.0, self.explained, True, 1, 1, "")
 

@@ -12,11 +12,13 @@ from pydantic import Field, model_validator
 from regkit.arrays import Array
 from regkit.body import Body
 from regkit.coordinates import COORDINATES, Coordinates, CoordinatesName
+from regkit.errors import PluginError
 from regkit.interfaces import (
     Fit,
     JointEnergy,
     Kernel,
     Method,
+    Multipliers,
     Registered,
     Registrar,
     Scene,
@@ -26,6 +28,7 @@ from regkit.interfaces import (
     Solver,
     Term,
 )
+from regkit.model import misplaced
 from regkit.observation import Observation
 from regkit.primitives import Primitives
 from regkit.problem import RegistrationProblem
@@ -50,6 +53,9 @@ class Direct(Method):
     coordinates: CoordinatesName = "tangent"
     """What the solver moves: steps on the tangent space, or the paper's un-normalised
     quaternions."""
+    hard_limits: bool = False
+    """Whether a pose beyond a joint limit is never taken. It changes no result, but a solver that
+    cannot promise it is refused."""
     blur: Annotated[tuple[Blur, ...], Field(min_length=1)] = (0.0,)
     """Annealing: standard deviations [m] that smooth the energy, one solution after the other.
     Beyond a limb's radius the limbs get lost."""
@@ -63,6 +69,18 @@ class Direct(Method):
             )
         return self
 
+    @model_validator(mode="after")
+    def _solver_keeps_hard_limits(self) -> Direct:
+        if self.hard_limits and not self.solver.limits.hard:
+            able = [kind for kind in Solver.available() if _keeps_limits(kind)]
+            raise misplaced(
+                type(self),
+                f"solver '{self.solver.kind}' does not keep the limits of ball joints (they do: "
+                f"{', '.join(able)}); take one of these, or leave hard_limits out",
+                "solver",
+            )
+        return self
+
     def prepare(self, body: Body) -> DirectRegistrar:
         """Attach the shape model to the body.
 
@@ -72,6 +90,13 @@ class Direct(Method):
         for term in self.terms:
             term.check(body)
         return DirectRegistrar(self, body, self.shape.attach(body))
+
+
+def _keeps_limits(kind: str) -> bool:
+    try:
+        return Solver.load(kind).limits.hard
+    except PluginError:
+        return False
 
 
 @dataclass(frozen=True)
@@ -94,10 +119,12 @@ class DirectRegistrar(Registrar):
         expected: Pose,
         *others: Pose,
         blurs: Sequence[float] | None = None,
+        after: Registered | None = None,
     ) -> Registered:
         """The pose of least energy near the best of the given ones, through one or more blurs."""
         iterations = evaluations = 0
         pose = expected
+        multipliers = None if after is None else after.multipliers
         for blur in blurs or self.method.blur:
             bound = self._bound(observation, pose, expected, blur)
             if others:
@@ -105,9 +132,9 @@ class DirectRegistrar(Registrar):
                 evaluations += 1 + len(others)
                 others = ()
             coordinates = COORDINATES[self.method.coordinates](self.body.skeleton, pose)
-            problem = bound.problem(coordinates)
+            problem = bound.problem(coordinates, multipliers)
             solution = self.method.solver.minimize(problem)
-            pose = coordinates.pose(solution.x)
+            pose, multipliers = coordinates.pose(solution.x), solution.multipliers
             iterations += solution.iterations
             evaluations += solution.evaluations
         fit = Fit(solution.value, bound.explained(self.body, pose))
@@ -119,6 +146,7 @@ class DirectRegistrar(Registrar):
             iterations=iterations,
             evaluations=evaluations,
             message=solution.message,
+            multipliers=multipliers,
         )
 
     def fit(self, observation: Observation, pose: Pose) -> Fit:
@@ -173,6 +201,10 @@ class _Bound:
         )
         return np.array([np.nan]) if explained is None else explained
 
-    def problem(self, coordinates: Coordinates) -> RegistrationProblem:
+    def problem(
+        self, coordinates: Coordinates, multipliers: Multipliers | None
+    ) -> RegistrationProblem:
         """The problem in some coordinates of the pose."""
-        return RegistrationProblem(coordinates, self.primitives, self.similarities, self.joints)
+        return RegistrationProblem(
+            coordinates, self.primitives, self.similarities, self.joints, multipliers
+        )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +10,7 @@ from pydantic import Field
 
 from regkit.arrays import Array
 from regkit.errors import ConfigError, DataError
-from regkit.interfaces import Problem, Solution, Solver
+from regkit.interfaces import LimitKeeping, Problem, Solution, Solver
 
 Tolerance = Annotated[float, Field(ge=0.0)]
 
@@ -19,6 +19,9 @@ class GaussNewton(Solver):
     """Damped Gauss-Newton; it keeps all joint limits, and takes no step that raises the value."""
 
     kind: Literal["gauss_newton"] = "gauss_newton"
+    limits: ClassVar[LimitKeeping] = LimitKeeping(
+        hinges="each step is projected", balls="each step is projected", hard=True
+    )
 
     max_iterations: Annotated[int, Field(ge=1)] = 10
     """Steps at most, those counted that were refused."""

@@ -38,7 +38,7 @@ class Coasting(Follower):
         # What is hidden is expected to stay; it would run away if it went on as it moved last.
         last = past[-1].pose
         moved = [self._predicted(past[-2].pose, last)] if len(past) > 2 else []
-        found = self.registrar.register(observation, last, *moved)
+        found = self.registrar.register(observation, last, *moved, after=past[-1])
         if self.rescuer is None:
             return found
         return self.rescuer.checked(observation, found, past)

@@ -28,4 +28,4 @@ class Holding(Follower):
 
     def step(self, observation: Observation, past: Sequence[Registered]) -> Registered:
         """Register the frame from the last pose."""
-        return self.registrar.register(observation, past[-1].pose)
+        return self.registrar.register(observation, past[-1].pose, after=past[-1])

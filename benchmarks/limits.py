@@ -1,0 +1,237 @@
+"""How well each solver keeps joint limits, whether they agree without, and what a frame costs.
+
+    python benchmarks/limits.py [POSES]
+
+A person and a hand are drawn in random poses, many of them beyond their limits; points drawn from
+their Gaussians there are the data. From that pose, disturbed and brought within limits, every
+solver looks for the pose of least energy (kernel `likelihood`, G-SoG, no other term). One in twenty
+problems is solved to the end without any limits too, where all solvers should find the same energy.
+Then the shipped walk is tracked by `best` with each solver. One thread.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rich.console import Console
+from rich.progress import track
+from rich.table import Table
+
+from regkit.body import Body
+from regkit.experiment import Experiment
+from regkit.interfaces import Method, Registered, Solver, Template
+from regkit.observation import Observation
+from regkit.optional import one_blas_thread
+from regkit.problem import RegistrationProblem
+from regkit.skeleton import Pose
+from regkit.start import found_start
+
+SIZES = {"human": 1.75, "hand": 0.186}
+POINTS = 300
+DEMO = Path(__file__).parent.parent / "docs" / "examples" / "demo.yaml"
+
+LIMITED: dict[str, dict[str, Any]] = {
+    "ipopt": {"solver": {"kind": "ipopt"}},
+    "gauss_newton": {"solver": {"kind": "gauss_newton", "max_iterations": 100}},
+    "lbfgs": {"solver": {"kind": "lbfgs"}},
+    "lbfgs, term limits": {"solver": {"kind": "lbfgs"}, "terms": ["limits"]},
+}
+
+PRECISE: dict[str, dict[str, Any]] = {
+    "ipopt": {"max_iterations": 1000, "value_tolerance": 0.0, "reach": 10.0},
+    "gauss_newton": {"max_iterations": 3000, "value_tolerance": 1e-13, "resting": 0.0},
+    "lbfgs": {"max_iterations": 5000, "value_tolerance": 1e-15, "gradient_tolerance": 1e-9},
+}
+
+TRACKED: dict[str, dict[str, Any]] = {
+    "gauss_newton": {"kind": "gauss_newton", "max_iterations": 6, "value_tolerance": 0.03},
+    "ipopt": {"kind": "ipopt", "value_tolerance": 0.03},
+    "ipopt, tolerance 1e-5": {"kind": "ipopt"},
+    "lbfgs": {"kind": "lbfgs"},
+}
+
+
+def problems(body: Body, count: int) -> Iterator[tuple[Observation, Pose]]:
+    """Data of random poses, and a start within the limits for each."""
+    random = np.random.default_rng(0)
+    bones = body.skeleton
+    gaussians = body.gaussians["gsog"]
+    root = np.eye(4)
+    root[2, 3] = 2.0
+    joints = np.arange(bones.freedoms) >= bones.ball_freedoms.start
+    for _ in range(count):
+        step = random.uniform(0.2, 1.0) * joints * random.normal(size=bones.freedoms)
+        target = bones.retract(bones.rest(root), step)
+        placed = gaussians.place(body.place(target).transforms)
+        chosen = random.integers(len(gaussians), size=POINTS)
+        spread = gaussians.scales[chosen] * random.normal(size=(POINTS, 3))
+        points = placed.centres[chosen] + np.einsum("nij,nj->ni", placed.axes[chosen], spread)
+        data = Observation(points, np.ones(POINTS), np.full(POINTS, (0.005 * body.size) ** 2))
+        disturbed = bones.retract(target, 0.1 * joints * random.normal(size=bones.freedoms))
+        yield data, bones.limits.projected(disturbed)
+
+
+def unlimited(body: Body) -> Body:
+    """The same body without any limit."""
+    limits = body.skeleton.limits
+    free = replace(
+        limits,
+        hinge=np.broadcast_to([-np.inf, np.inf], limits.hinge.shape),
+        twist=np.broadcast_to([-np.inf, np.inf], limits.twist.shape),
+        swing=np.full_like(limits.swing, np.inf),
+    )
+    return replace(body, skeleton=replace(body.skeleton, limits=free))
+
+
+def solved(
+    body: Body, given: list[tuple[Observation, Pose]], title: str, options: dict[str, Any]
+) -> tuple[list[Registered], list[float]]:
+    """The outcome of a method on all problems, and the time that each took [s]."""
+    method = Method.load("direct").model_validate(
+        {"kind": "direct", "shape": "gsog", "kernel": "likelihood", **options}
+    )
+    registrar = method.prepare(body)
+    found, seconds = [], []
+    console = Console(stderr=True)
+    for data, start in track(given, title, console=console, disable=not console.is_terminal):
+        begun = time.perf_counter()
+        found.append(registrar.register(data, start))
+        seconds.append(time.perf_counter() - begun)
+    return found, seconds
+
+
+def limited_table(body: Body, given: list[tuple[Observation, Pose]]) -> dict[str, Any]:
+    """Every solver within limits: the largest violation, the energy, the time."""
+    columns = ("worst [rad]", "beyond 1e-6 rad [%]", "energy", "converged [%]", "median [ms]")
+    table = Table("solver", *columns, title=f"{body.name}, {len(given)} poses")
+    plain = Method.load("direct")(shape="gsog", kernel="likelihood", solver="lbfgs").prepare(body)
+    figures = {}
+    for name, options in LIMITED.items():
+        found, seconds = solved(body, given, f"{body.name}: {name}", options)
+        worst = np.array([body.skeleton.limits.violation(one.pose).max() for one in found])
+        # A term's energy is no part of it.
+        energies = [
+            plain.fit(data, one.pose).energy for (data, _), one in zip(given, found, strict=True)
+        ]
+        values = (
+            float(worst.max()),
+            100.0 * float((worst > 1e-6).mean()),
+            float(np.mean(energies)),
+            100.0 * float(np.mean([one.converged for one in found])),
+            1000.0 * float(np.median(seconds)),
+        )
+        table.add_row(name, *(f"{value:.3g}" for value in values))
+        figures[name] = dict(zip(columns, (float(f"{v:.4g}") for v in values), strict=True))
+    Console().print(table)
+    return figures
+
+
+def agreement_table(body: Body, given: list[tuple[Observation, Pose]]) -> dict[str, Any]:
+    """Every solver without limits: how near its energy is to the least that any found."""
+    columns = ("within 1e-6 [%]", "median difference", "largest", "median [ms]")
+    title = f"{body.name} without limits, {len(given)} poses: energy against the least, relative"
+    table = Table("solver", *columns, title=title)
+    outcomes = {
+        kind: solved(body, given, f"{body.name}: {kind}", {"solver": {"kind": kind, **options}})
+        for kind, options in PRECISE.items()
+    }
+    energies = np.array([[one.energy for one in found] for found, _ in outcomes.values()])
+    differences = (energies - energies.min(axis=0)) / np.abs(energies.min(axis=0))
+    figures = {}
+    for (kind, (_, seconds)), own in zip(outcomes.items(), differences, strict=True):
+        values = (
+            100.0 * float((own < 1e-6).mean()),
+            float(np.median(own)),
+            float(own.max()),
+            1000.0 * float(np.median(seconds)),
+        )
+        table.add_row(kind, *(f"{value:.3g}" for value in values))
+        figures[kind] = dict(zip(columns, (float(f"{v:.4g}") for v in values), strict=True))
+    agreed = 100.0 * float((differences.max(axis=0) < 1e-6).mean())
+    Console().print(table, f"All agree to 1e-6 in {agreed:.0f} %; else one is in another minimum.")
+    return figures | {"all agree [%]": agreed}
+
+
+def tracking_table() -> dict[str, Any]:
+    """The shipped walk by `best` with each solver: time per frame, and where it goes."""
+    columns = ("ms per frame", "of that evaluation", "ratio", "evaluations", "energy")
+    table = Table("solver", *columns, title="shipped walk, best, G-SoG")
+    experiment = Experiment.read(DEMO)
+    (sequence,) = experiment.dataset.chosen()
+    data = [experiment.observer.observe(frame) for frame in sequence.frames()]
+    start = found_start(experiment.template, data[0])
+    figures: dict[str, Any] = {}
+    for name, options in TRACKED.items():
+        solver = Solver.load(options["kind"]).model_validate(options)
+        method = experiment.methods["best"].model_copy(update={"solver": solver})
+        rounds = [tracked(method, start.body, start.pose, data) for _ in range(3)]
+        found, seconds, evaluating = min(rounds, key=lambda one: one[1])
+        each = 1000.0 * seconds / len(data)
+        first = figures.get("gauss_newton", {"ms per frame": each})
+        values = (
+            each,
+            1000.0 * evaluating / len(data),
+            each / first["ms per frame"],
+            float(np.mean([one.evaluations for one in found])),
+            float(np.mean([one.energy for one in found])),
+        )
+        table.add_row(name, *(f"{value:.4g}" for value in values))
+        figures[name] = dict(zip(columns, (float(f"{v:.4g}") for v in values), strict=True))
+    Console().print(table)
+    return figures
+
+
+def tracked(
+    method: Method, body: Body, start: Pose, data: list[Observation]
+) -> tuple[list[Registered], float, float]:
+    """A track, the time that it took, and how much of that was in evaluations [s]."""
+    assert method.tracker is not None
+    follower = method.tracker.follow(method.prepare(body))
+    evaluating = 0.0
+    own = RegistrationProblem.normal_equations, RegistrationProblem.value_and_gradient
+
+    def timed(function: Any) -> Any:
+        def call(problem: RegistrationProblem, x: Any) -> Any:
+            nonlocal evaluating
+            begun = time.perf_counter()
+            result = function(problem, x)
+            evaluating += time.perf_counter() - begun
+            return result
+
+        return call
+
+    RegistrationProblem.normal_equations, RegistrationProblem.value_and_gradient = map(timed, own)  # type: ignore[method-assign]
+    try:
+        past = [Registered.given(start)]
+        begun = time.perf_counter()
+        for observation in data:
+            past.append(follower.step(observation, past))
+        return past[1:], time.perf_counter() - begun, evaluating
+    finally:
+        RegistrationProblem.normal_equations, RegistrationProblem.value_and_gradient = own  # type: ignore[method-assign]
+
+
+def main() -> None:
+    """Print the tables, and their figures as one JSON object in the last line."""
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 1000
+    figures: dict[str, Any] = {"threads": 1, "poses": count}
+    with one_blas_thread():
+        for kind, size in SIZES.items():
+            body = Template.load(kind)().body(size)
+            given = list(problems(body, count))
+            figures[kind] = limited_table(body, given)
+            some = given[: max(1, count // 20)]
+            figures[f"{kind} without limits"] = agreement_table(unlimited(body), some)
+        figures["walk"] = tracking_table()
+    print(json.dumps(figures))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,305 @@
+"""IPOPT holds constraints exactly, and ends well or with a clear word when it is made to fail."""
+
+import os
+import signal
+import time
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from regkit.body import Body
+from regkit.coordinates import COORDINATES
+from regkit.errors import ConfigError
+from regkit.interfaces import Constraints, Method, Problem, Solver, Template
+from regkit.observation import Observation
+from regkit.problem import RegistrationProblem
+from regkit.skeleton import Pose
+
+SIZES = {"human": 1.75, "hand": 0.186}
+
+
+class Rows(Constraints):
+    """Linear rows and a half of the squared distance from the origin, to 1 at most."""
+
+    def __init__(self, matrix, lower, upper, disc: bool = True) -> None:
+        self.matrix = np.array(matrix, dtype=float)
+        self.disc = disc
+        self.lower, self.upper = np.array(lower, dtype=float), np.array(upper, dtype=float)
+        if disc:
+            self.lower, self.upper = np.append(self.lower, -np.inf), np.append(self.upper, 0.5)
+        self.names = tuple(f"row {index}" for index in range(len(self.lower)))
+
+    def values(self, x):
+        return np.append(self.matrix @ x, [0.5 * x @ x] if self.disc else [])
+
+    def jacobian(self, x):
+        return np.vstack([self.matrix, [x] if self.disc else np.zeros((0, len(x)))])
+
+    def curvature(self, x, multipliers):
+        return (multipliers[-1] if self.disc else 0.0) * np.eye(len(x))
+
+
+class Bowl(Problem):
+    """``1/2 |x - (2, 1, 0)|^2`` within rows; it can be made to misbehave after some evaluations."""
+
+    def __init__(self, rows: Constraints | None = None, misbehave=None, after: int = 2) -> None:
+        self.start = np.array([0.0, 0.0, 0.5])
+        self.lower, self.upper = np.full((2, 3), [[-np.inf], [np.inf]])
+        self.target = np.array([2.0, 1.0, 0.0])
+        self.rows, self.misbehave, self.after = rows, misbehave, after
+        self.evaluations = 0
+
+    def constraints(self):
+        return self.rows
+
+    def value_and_gradient(self, x):
+        self.evaluations += 1
+        value = 0.5 * float((x - self.target) @ (x - self.target))
+        if self.misbehave is not None and self.evaluations > self.after:
+            value = self.misbehave(value)
+        return value, x - self.target
+
+    def normal_equations(self, x):
+        return *self.value_and_gradient(x), np.eye(3)
+
+
+def ipopt(**options) -> Solver:
+    return Solver.load("ipopt").model_validate({"kind": "ipopt", "reach": 10.0, **options})
+
+
+def test_solution_is_the_nearest_point_within_a_disc():
+    solution = ipopt(value_tolerance=0.0).minimize(Bowl(Rows(np.zeros((0, 3)), [], [])))
+    expected = np.array([2.0, 1.0, 0.0]) / np.sqrt(5.0)
+    np.testing.assert_allclose(solution.x, expected, atol=1e-6)
+    assert solution.converged
+    # The force that the disc holds: target - x = multiplier x.
+    assert solution.multipliers.constraints[0] == pytest.approx(np.sqrt(5.0) - 1.0, abs=1e-5)
+
+
+def test_equation_holds():
+    rows = Rows([[1.0, 1.0, 1.0]], [0.3], [0.3])
+    solution = ipopt(value_tolerance=0.0).minimize(Bowl(rows))
+    assert solution.x.sum() == pytest.approx(0.3, abs=1e-8)
+    assert rows.violations(solution.x).max() <= 1e-8
+    assert solution.converged
+
+
+def test_constraints_that_contradict_one_another_are_told():
+    rows = Rows([[1.0, 0.0, 0.0], [1.0, 0.0, 0.0]], [1.0, -np.inf], [np.inf, 0.5], disc=False)
+    with pytest.raises(ConfigError, match=r"no pose that keeps all limits: 'row \d' is missed by"):
+        ipopt().minimize(Bowl(rows))
+
+
+def test_equations_that_are_too_many_are_told():
+    rows = Rows(np.ones((5, 3)), np.arange(5.0), np.arange(5.0), disc=False)
+    with pytest.raises(ConfigError, match="no pose that keeps all limits"):
+        ipopt().minimize(Bowl(rows))
+
+
+def test_one_iteration_gives_the_best_point_within_the_limits():
+    rows = Rows(np.zeros((0, 3)), [], [])
+    problem = Bowl(rows)
+    solution = ipopt(max_iterations=1).minimize(problem)
+    assert not solution.converged
+    assert solution.message == "max_iterations were taken"
+    assert solution.value <= Bowl().value_and_gradient(problem.start)[0]
+    assert rows.violations(solution.x).max() <= 1e-8
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf])
+def test_value_that_is_not_finite_ends_at_the_best_point(value):
+    solution = ipopt().minimize(Bowl(Rows(np.zeros((0, 3)), [], []), lambda _: value, after=3))
+    assert np.isfinite(solution.value)
+    assert not solution.converged
+    assert solution.message
+
+
+def test_what_a_problem_raises_comes_through():
+    def fail(_: float) -> float:
+        raise ZeroDivisionError("in the kernel")
+
+    with pytest.raises(ZeroDivisionError, match="in the kernel"):
+        ipopt().minimize(Bowl(misbehave=fail))
+
+
+def test_interrupt_comes_through():
+    def interrupt(value: float) -> float:
+        os.kill(os.getpid(), signal.SIGINT)
+        return value
+
+    handler = signal.getsignal(signal.SIGINT)
+    with pytest.raises(KeyboardInterrupt):
+        ipopt().minimize(Bowl(misbehave=interrupt))
+    assert signal.getsignal(signal.SIGINT) is handler
+
+
+def test_time_runs_out_at_the_best_point_within_the_limits():
+    def slow(value: float) -> float:
+        time.sleep(0.05)
+        return value
+
+    class Projecting(Bowl):
+        def projected(self, x):
+            return x / max(1.0, np.linalg.norm(x))
+
+    rows = Rows(np.zeros((0, 3)), [], [])
+    problem = Projecting(rows, slow)
+    begun = time.perf_counter()
+    solution = ipopt(max_seconds=0.1, value_tolerance=0.0).minimize(problem)
+    assert time.perf_counter() - begun < 5.0
+    assert not solution.converged
+    assert solution.message == "max_seconds ran out"
+    assert rows.violations(solution.x).max() <= 1e-8
+    assert solution.value < Bowl().value_and_gradient(problem.start)[0]
+
+
+def test_variable_that_reaches_too_far_is_told():
+    solution = ipopt(reach=0.5).minimize(Bowl())
+    assert not solution.converged
+    assert "reach" in solution.message
+    assert (np.abs(solution.x - Bowl().start) <= 0.5 + 1e-9).all()
+
+
+def test_solution_without_curvature_is_found():
+    class Plain(Bowl):
+        def normal_equations(self, x):
+            return None
+
+    solution = ipopt(value_tolerance=0.0).minimize(Plain(Rows(np.zeros((0, 3)), [], [])))
+    np.testing.assert_allclose(solution.x, [2 / 5**0.5, 1 / 5**0.5, 0.0], atol=1e-5)
+    assert solution.converged
+
+
+def test_multipliers_spare_iterations():
+    rows = Rows(np.zeros((0, 3)), [], [])
+    first = ipopt(value_tolerance=0.0).minimize(Bowl(rows))
+    near = Bowl(rows)
+    near.start = first.x + np.array([0.0, -0.01, 0.01])
+    cold = ipopt(value_tolerance=0.0).minimize(near)
+    near.multipliers = first.multipliers
+    warm = ipopt(value_tolerance=0.0).minimize(near)
+    assert warm.iterations < cold.iterations
+    np.testing.assert_allclose(warm.x, cold.x, atol=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"tol": 1e-3}, "'tol' is the field gradient_tolerance here"),
+        ({"no_such": 1}, "'no_such: 1' is not taken by IPOPT: No such IPOPT option: no_such"),
+        ({"mu_strategy": "adaptiv"}, '"adaptiv" is not a valid setting'),
+        ({"mu_init": -1.0}, "is not a valid setting"),
+        ({"mu_init": "much"}, "type mismatch"),
+    ],
+)
+def test_options_that_ipopt_does_not_take_are_refused(options, message):
+    with pytest.raises(ValidationError) as caught:
+        ipopt(options=options)
+    assert message in str(caught.value)
+
+
+def test_options_of_ipopt_are_passed_on():
+    assert ipopt(options={"mu_strategy": "monotone", "mu_init": 0.1}).minimize(Bowl()).converged
+
+
+@pytest.mark.parametrize("name", list(COORDINATES))
+def test_derivatives_of_constraints_are_exact(linkage, random, name):
+    bones = linkage.skeleton
+    start = bones.retract(bones.rest(), 0.5 * random.normal(size=bones.freedoms))
+    coordinates = COORDINATES[name](bones, start)
+    rows = coordinates.constraints()
+    multipliers = random.normal(size=len(rows.names))
+    step = 1e-6
+    for _ in range(5):
+        x = coordinates.origin() + 0.3 * random.normal(size=len(coordinates.origin()))
+        ends = [(x + step * e, x - step * e) for e in np.eye(len(x))]
+        slopes = [(rows.values(a) - rows.values(b)) / (2 * step) for a, b in ends]
+        np.testing.assert_allclose(rows.jacobian(x), np.transpose(slopes), atol=1e-7)
+        bends = [multipliers @ (rows.jacobian(a) - rows.jacobian(b)) / (2 * step) for a, b in ends]
+        np.testing.assert_allclose(rows.curvature(x, multipliers), bends, atol=1e-6)
+
+
+def beyond_limits(body: Body, random: np.random.Generator) -> tuple[Observation, Pose]:
+    """Data of a pose that may be beyond the limits, and a start within them."""
+    bones, gaussians = body.skeleton, body.gaussians["gsog"]
+    joints = np.arange(bones.freedoms) >= bones.ball_freedoms.start
+    step = random.uniform(0.2, 1.0) * joints * random.normal(size=bones.freedoms)
+    target = bones.retract(bones.rest(), step)
+    placed = gaussians.place(body.place(target).transforms)
+    chosen = random.integers(len(gaussians), size=200)
+    spread = gaussians.scales[chosen] * random.normal(size=(200, 3))
+    points = placed.centres[chosen] + np.einsum("nij,nj->ni", placed.axes[chosen], spread)
+    data = Observation(points, np.ones(200), np.full(200, (0.005 * body.size) ** 2))
+    disturbed = bones.retract(target, 0.1 * joints * random.normal(size=bones.freedoms))
+    return data, bones.limits.projected(disturbed)
+
+
+@pytest.mark.parametrize("coordinates", list(COORDINATES))
+@pytest.mark.parametrize("kind", list(SIZES))
+@pytest.mark.parametrize("solver", [k for k in Solver.available() if Solver.load(k).limits.hard])
+def test_hard_limits_are_kept(kind, solver, coordinates, random):
+    body = Template.load(kind)().body(SIZES[kind])
+    method = Method.load("direct")(
+        shape="gsog", kernel="likelihood", solver=solver, coordinates=coordinates, hard_limits=True
+    )
+    registrar = method.prepare(body)
+    pressed = 0
+    for _ in range(10):
+        data, start = beyond_limits(body, random)
+        found = registrar.register(data, start)
+        violation = body.skeleton.limits.violation(found.pose).max()
+        assert violation <= 1e-6
+        assert found.energy <= registrar.register(data, start).energy + 1e-12
+        if found.multipliers is not None:
+            held = np.concatenate([found.multipliers.bounds, found.multipliers.constraints])
+            pressed += np.abs(held).max() > 1e-3
+    # The poses are such that limits hold them; else nothing was tested.
+    assert solver != "ipopt" or pressed >= 8
+
+
+def test_solvers_agree_where_no_limit_holds(linkage, random):
+    """From the same start near the truth: the same minimum, to a millionth of its energy."""
+    bones = linkage.skeleton
+    shape = Method.load("direct")(shape="gsog", kernel="likelihood", solver="lbfgs").shape
+    gaussians = shape.attach(linkage)
+    truth = bones.retract(bones.rest(), 0.1 * random.normal(size=bones.freedoms))
+    placed = gaussians.place(linkage.place(truth).transforms)
+    chosen = random.integers(len(gaussians), size=400)
+    spread = gaussians.scales[chosen] * random.normal(size=(400, 3))
+    points = placed.centres[chosen] + np.einsum("nij,nj->ni", placed.axes[chosen], spread)
+    data = Observation(points, np.ones(400), np.full(400, 0.01**2))
+    start = bones.retract(truth, 0.05 * random.normal(size=bones.freedoms))
+    energies = {}
+    for solver in (
+        {"kind": "ipopt", "max_iterations": 500, "value_tolerance": 0.0},
+        {"kind": "gauss_newton", "max_iterations": 2000, "value_tolerance": 1e-13, "resting": 0.0},
+        {"kind": "lbfgs", "max_iterations": 5000, "value_tolerance": 1e-15,
+         "gradient_tolerance": 1e-10},
+    ):  # fmt: skip
+        method = Method.load("direct")(shape="gsog", kernel="likelihood", solver=solver)
+        energies[solver["kind"]] = method.prepare(linkage).register(data, start).energy
+    np.testing.assert_allclose(list(energies.values()), energies["ipopt"], rtol=1e-6)
+
+
+def test_multipliers_pass_from_frame_to_frame(random):
+    body = Template.load("human")().body(SIZES["human"])
+    method = Method.load("direct")(shape="gsog", kernel="likelihood", solver="ipopt")
+    registrar = method.prepare(body)
+    data, start = beyond_limits(body, random)
+    first = registrar.register(data, start)
+    cold = registrar.register(data, first.pose)
+    warm = registrar.register(data, first.pose, after=first)
+    assert warm.iterations <= cold.iterations
+    assert warm.energy == pytest.approx(cold.energy, rel=1e-3)
+
+
+def test_hard_limits_refuse_a_solver_that_cannot_keep_them():
+    with pytest.raises(ValidationError, match="'lbfgs' does not keep the limits of ball joints"):
+        Method.load("direct")(shape="gsog", kernel="likelihood", solver="lbfgs", hard_limits=True)
+
+
+def test_body_without_ball_limits_has_no_constraints(linkage):
+    body = Template.load("hand")().body(0.186)
+    coordinates = COORDINATES["tangent"](body.skeleton, body.skeleton.rest())
+    assert RegistrationProblem(coordinates, body.gaussians["gsog"], []).constraints() is None
