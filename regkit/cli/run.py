@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from rich.box import SIMPLE_HEAD
 from rich.markup import escape
 from rich.progress import (
     BarColumn,
@@ -68,7 +69,10 @@ def run(
 def _table(measures: dict[str, dict[str, Measure]]) -> Table:
     from regkit.report.tables import COLUMNS, rows
 
-    table = Table("method", "seq.")
+    # A terminal of 80 characters holds all figures: titles may break there, names may not.
+    table = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
+    table.add_column("method", no_wrap=True)
+    table.add_column("seq.")
     for title in COLUMNS.values():
         table.add_column(escape(title), justify="right")
     for row in rows(measures):

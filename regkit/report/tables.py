@@ -12,6 +12,7 @@ COLUMNS = {
     "near_percent": "near [%]",
     "lost_frames": "lost",
     "surface_distance_mm": "surf. [mm]",
+    "limit_violation_deg": "limits [°]",
     "fps": "fps",
 }
 """The figures that are shown, and what a table calls them."""
@@ -49,8 +50,8 @@ def report(
         "*near* is how many raw distances are below 6 % of the body's size (10 cm on a person). A "
         "frame is *lost* when less than half of its joints are that near. *Surf.* is the median "
         "distance of the observed points (after averaging in voxels or leaves) to the body's "
-        "surface, *fps* the frames observed and registered in a second. A dash is a figure that "
-        "cannot be had."
+        "surface, *limits* the mean of each frame's largest violation of a joint limit, *fps* the "
+        "frames observed and registered in a second. A dash is a figure that cannot be had."
     )
     failed = [(m, s, why) for m, by in failures.items() for s, why in by.items()]
     if failed:

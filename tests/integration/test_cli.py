@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from regkit.errors import PluginError
-from regkit.interfaces import SLOTS, ShapeModel
+from regkit.interfaces import SLOTS, ShapeModel, Solver
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = sorted((ROOT / "docs" / "examples").glob("*.yaml"))
@@ -61,6 +61,13 @@ def test_plugins_lists_every_kind_of_every_group(regkit):
             assert f" {kind} " in ended.out
     assert "broken" not in ended.out
     assert "L-BFGS-B" in ended.out
+
+
+def test_plugins_says_what_each_solver_does_with_limits(regkit):
+    table = regkit("plugins").out.rsplit("joint limits", 1)[1]
+    for kind in Solver.available():
+        (line,) = [line for line in table.splitlines() if f" {kind} " in line]
+        assert ("refused" in line) is not Solver.load(kind).limits.hard
 
 
 def test_plugins_lists_those_of_a_file(regkit, tmp_path):

@@ -1,5 +1,7 @@
 """Plug-ins of a user's own, in a file."""
 
+import runpy
+
 import numpy as np
 import pytest
 from small_experiment import EXAMPLES, QUICK, add_method
@@ -145,3 +147,11 @@ def test_term_of_the_how_to_page_has_the_derivative_that_it_claims(linkage, rand
         for e in np.eye(bones.freedoms)
     ]
     np.testing.assert_allclose(energy(pose).force, np.array(numerical) / 2e-6, atol=1e-8)
+
+
+def test_hand_of_the_how_to_page_touches_the_table(capsys):
+    distances = runpy.run_path(str(EXAMPLES / "touching_hand.py"))["main"]()
+    assert abs(distances["touching"]) < 1e-6
+    # Without the constraint the data, which show no index finger, do not bring it there.
+    assert abs(distances["free"]) > 0.005
+    assert capsys.readouterr().out.count("Solve_Succeeded") == 2
