@@ -20,6 +20,7 @@ from rich.progress import (
 from rich.table import Table
 
 from regkit.cli.console import PluginFiles, errors, output, run_plugin_files
+from regkit.cli.interrupt import Interrupt
 from regkit.errors import RegkitError
 from regkit.metrics import Measure
 
@@ -51,7 +52,7 @@ def run(
     config = Experiment.read(experiment, settings or ())
     folder = out or Path("results") / config.name / f"{datetime.now():%Y%m%d-%H%M%S}"
     try:
-        with _ProgressBar() as bar:
+        with Interrupt() as interrupt, _ProgressBar(interrupt) as bar:
             outcome = run_experiment(config, folder, bar, only=only or ())
     except KeyboardInterrupt:
         errors.print(
@@ -81,9 +82,13 @@ def _table(measures: dict[str, dict[str, Measure]]) -> Table:
 
 
 class _ProgressBar:
-    """Progress on a terminal, silence in a pipe; failures are told in both."""
+    """Progress on a terminal, silence in a pipe; failures are told in both.
 
-    def __init__(self) -> None:
+    Between two frames it lets an interrupt be answered.
+    """
+
+    def __init__(self, interrupt: Interrupt) -> None:
+        self._interrupt = interrupt
         self._bar = Progress(
             TextColumn("{task.description}"),
             BarColumn(),
@@ -103,10 +108,12 @@ class _ProgressBar:
 
     def begin(self, method: str, sequence: str, frames: int) -> None:
         """Show a bar for a sequence."""
+        self._interrupt.check()
         self._task = self._bar.add_task(f"{method}  {sequence}", total=frames)
 
     def advance(self) -> None:
         """Move the bar by one frame."""
+        self._interrupt.check()
         if self._task is not None:
             self._bar.advance(self._task)
 

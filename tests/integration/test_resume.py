@@ -1,6 +1,8 @@
 """A run that is begun again does what is missing, and nothing is lost."""
 
 import json
+import os
+import signal
 from typing import Literal
 
 import pytest
@@ -49,7 +51,17 @@ def test_resumed_run_does_only_what_is_missing(regkit, files):
             assert figures["mean"][name] == metrics[method]["mean"][name]
 
 
-def test_interrupted_run_is_completed_later(regkit, files):
+def raised() -> None:
+    raise KeyboardInterrupt
+
+
+def pressed() -> None:
+    """Ctrl-C, as a terminal sends it."""
+    os.kill(os.getpid(), signal.SIGINT)
+
+
+@pytest.mark.parametrize("interrupt", [raised, pressed])
+def test_interrupted_run_is_completed_later(regkit, files, interrupt):
     """What is finished when the user interrupts is kept, and the rest is done the next time."""
     steps = counting()
 
@@ -63,7 +75,7 @@ def test_interrupted_run_is_completed_later(regkit, files):
             def grow_impatient() -> None:
                 steps.append("")
                 if len(steps) == FRAMES + 2:
-                    raise KeyboardInterrupt
+                    interrupt()
 
             return Stepping(registrar, grow_impatient)
 

@@ -1,0 +1,43 @@
+"""Ctrl-C in a long run: it is answered between two frames, where nothing is half done."""
+
+from __future__ import annotations
+
+import signal
+from types import TracebackType
+
+
+class Interrupt:
+    """A context that notes Ctrl-C; ``check`` answers it, and a second Ctrl-C ends at once.
+
+    An exception in the middle of compiled code would reach the program as another error, and look
+    like a fault of the sequence.
+    """
+
+    def __init__(self) -> None:
+        self._asked = False
+        self._former = signal.getsignal(signal.SIGINT)
+
+    def __enter__(self) -> Interrupt:
+        signal.signal(signal.SIGINT, self._note)
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        signal.signal(signal.SIGINT, self._former)
+
+    def check(self) -> None:
+        """Raise what Ctrl-C would have raised.
+
+        Raises:
+            KeyboardInterrupt: If it was pressed.
+        """
+        if self._asked:
+            raise KeyboardInterrupt
+
+    def _note(self, *_: object) -> None:
+        self._asked = True
+        signal.signal(signal.SIGINT, signal.default_int_handler)
