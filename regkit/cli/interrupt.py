@@ -18,6 +18,7 @@ class Interrupt:
         self._former = signal.getsignal(signal.SIGINT)
 
     def __enter__(self) -> Interrupt:
+        """Note Ctrl-C from now on."""
         signal.signal(signal.SIGINT, self._note)
         return self
 
@@ -27,6 +28,7 @@ class Interrupt:
         error: BaseException | None,
         traceback: TracebackType | None,
     ) -> None:
+        """Leave Ctrl-C to who had it before."""
         signal.signal(signal.SIGINT, self._former)
 
     def check(self) -> None:
