@@ -1,4 +1,4 @@
-"""How well each solver keeps joint limits, whether they agree without, and what a frame costs.
+"""How well each solver keeps joint limits, and whether they agree without.
 
     python benchmarks/limits.py [POSES]
 
@@ -6,7 +6,7 @@ A person and a hand are drawn in random poses, many of them beyond their limits;
 their Gaussians there are the data. From that pose, disturbed and brought within limits, every
 solver looks for the pose of least energy (kernel `likelihood`, G-SoG, no other term). One in twenty
 problems is solved to the end without any limits too, where all solvers should find the same energy.
-Then the shipped walk is tracked by `best` with each solver. One thread.
+One thread; some ten minutes.
 """
 
 from __future__ import annotations
@@ -16,7 +16,6 @@ import sys
 import time
 from collections.abc import Iterator
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -25,17 +24,13 @@ from rich.progress import track
 from rich.table import Table
 
 from regkit.body import Body
-from regkit.experiment import Experiment
-from regkit.interfaces import Method, Registered, Solver, Template
+from regkit.interfaces import Method, Registered, Template
 from regkit.observation import Observation
 from regkit.optional import one_blas_thread
-from regkit.problem import RegistrationProblem
 from regkit.skeleton import Pose
-from regkit.start import found_start
 
 SIZES = {"human": 1.75, "hand": 0.186}
 POINTS = 300
-DEMO = Path(__file__).parent.parent / "docs" / "examples" / "demo.yaml"
 
 LIMITED: dict[str, dict[str, Any]] = {
     "ipopt": {"solver": {"kind": "ipopt"}},
@@ -48,13 +43,6 @@ PRECISE: dict[str, dict[str, Any]] = {
     "ipopt": {"max_iterations": 1000, "value_tolerance": 0.0, "reach": 10.0},
     "gauss_newton": {"max_iterations": 3000, "value_tolerance": 1e-13, "resting": 0.0},
     "lbfgs": {"max_iterations": 5000, "value_tolerance": 1e-15, "gradient_tolerance": 1e-9},
-}
-
-TRACKED: dict[str, dict[str, Any]] = {
-    "gauss_newton": {"kind": "gauss_newton", "max_iterations": 6, "value_tolerance": 0.03},
-    "ipopt": {"kind": "ipopt", "value_tolerance": 0.03},
-    "ipopt, tolerance 1e-5": {"kind": "ipopt"},
-    "lbfgs": {"kind": "lbfgs"},
 }
 
 
@@ -159,65 +147,6 @@ def agreement_table(body: Body, given: list[tuple[Observation, Pose]]) -> dict[s
     return figures | {"all agree [%]": agreed}
 
 
-def tracking_table() -> dict[str, Any]:
-    """The shipped walk by `best` with each solver: time per frame, and where it goes."""
-    columns = ("ms per frame", "of that evaluation", "ratio", "evaluations", "energy")
-    table = Table("solver", *columns, title="shipped walk, best, G-SoG")
-    experiment = Experiment.read(DEMO)
-    (sequence,) = experiment.dataset.chosen()
-    data = [experiment.observer.observe(frame) for frame in sequence.frames()]
-    start = found_start(experiment.template, data[0])
-    figures: dict[str, Any] = {}
-    for name, options in TRACKED.items():
-        solver = Solver.load(options["kind"]).model_validate(options)
-        method = experiment.methods["best"].model_copy(update={"solver": solver})
-        rounds = [tracked(method, start.body, start.pose, data) for _ in range(3)]
-        found, seconds, evaluating = min(rounds, key=lambda one: one[1])
-        each = 1000.0 * seconds / len(data)
-        first = figures.get("gauss_newton", {"ms per frame": each})
-        values = (
-            each,
-            1000.0 * evaluating / len(data),
-            each / first["ms per frame"],
-            float(np.mean([one.evaluations for one in found])),
-            float(np.mean([one.energy for one in found])),
-        )
-        table.add_row(name, *(f"{value:.4g}" for value in values))
-        figures[name] = dict(zip(columns, (float(f"{v:.4g}") for v in values), strict=True))
-    Console().print(table)
-    return figures
-
-
-def tracked(
-    method: Method, body: Body, start: Pose, data: list[Observation]
-) -> tuple[list[Registered], float, float]:
-    """A track, the time that it took, and how much of that was in evaluations [s]."""
-    assert method.tracker is not None
-    follower = method.tracker.follow(method.prepare(body))
-    evaluating = 0.0
-    own = RegistrationProblem.normal_equations, RegistrationProblem.value_and_gradient
-
-    def timed(function: Any) -> Any:
-        def call(problem: RegistrationProblem, x: Any) -> Any:
-            nonlocal evaluating
-            begun = time.perf_counter()
-            result = function(problem, x)
-            evaluating += time.perf_counter() - begun
-            return result
-
-        return call
-
-    RegistrationProblem.normal_equations, RegistrationProblem.value_and_gradient = map(timed, own)  # type: ignore[method-assign]
-    try:
-        past = [Registered.given(start)]
-        begun = time.perf_counter()
-        for observation in data:
-            past.append(follower.step(observation, past))
-        return past[1:], time.perf_counter() - begun, evaluating
-    finally:
-        RegistrationProblem.normal_equations, RegistrationProblem.value_and_gradient = own  # type: ignore[method-assign]
-
-
 def main() -> None:
     """Print the tables, and their figures as one JSON object in the last line."""
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 1000
@@ -229,7 +158,6 @@ def main() -> None:
             figures[kind] = limited_table(body, given)
             some = given[: max(1, count // 20)]
             figures[f"{kind} without limits"] = agreement_table(unlimited(body), some)
-        figures["walk"] = tracking_table()
     print(json.dumps(figures))
 
 

@@ -9,6 +9,7 @@ from typing import ClassVar
 import numpy as np
 
 from regkit.arrays import Array
+from regkit.errors import PluginError
 from regkit.plugin import Plugin
 
 
@@ -142,6 +143,17 @@ class Solver(Plugin, ABC):
         hinges="bounds", balls="not kept; the term `limits` penalises", hard=False
     )
     """What it does with joint limits; every solver keeps bounds."""
+
+    @classmethod
+    def keeping_limits(cls) -> list[str]:
+        """The installed solvers that never leave a joint limit; a broken one is none of them."""
+        able = []
+        for kind in cls.available():
+            try:
+                able += [kind] if cls.load(kind).limits.hard else []
+            except PluginError:
+                continue
+        return able
 
     @abstractmethod
     def minimize(self, problem: Problem) -> Solution:

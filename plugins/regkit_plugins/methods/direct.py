@@ -6,19 +6,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated, Literal
 
-import numpy as np
 from pydantic import Field, model_validator
 
-from regkit.arrays import Array
 from regkit.body import Body
-from regkit.coordinates import COORDINATES, Coordinates, CoordinatesName
-from regkit.errors import PluginError
+from regkit.coordinates import COORDINATES, CoordinatesName
 from regkit.interfaces import (
     Fit,
     JointEnergy,
     Kernel,
     Method,
-    Multipliers,
     Registered,
     Registrar,
     Scene,
@@ -31,8 +27,8 @@ from regkit.interfaces import (
 from regkit.model import misplaced
 from regkit.observation import Observation
 from regkit.primitives import Primitives
-from regkit.problem import RegistrationProblem
 from regkit.skeleton import Pose
+from regkit_plugins.methods.bound import Bound
 
 Blur = Annotated[float, Field(ge=0.0)]
 
@@ -72,11 +68,11 @@ class Direct(Method):
     @model_validator(mode="after")
     def _solver_keeps_hard_limits(self) -> Direct:
         if self.hard_limits and not self.solver.limits.hard:
-            able = [kind for kind in Solver.available() if _keeps_limits(kind)]
             raise misplaced(
                 type(self),
                 f"solver '{self.solver.kind}' does not keep the limits of ball joints (they do: "
-                f"{', '.join(able)}); take one of these, or leave hard_limits out",
+                f"{', '.join(Solver.keeping_limits())}); take one of these, or leave hard_limits "
+                "out",
                 "solver",
             )
         return self
@@ -90,13 +86,6 @@ class Direct(Method):
         for term in self.terms:
             term.check(body)
         return DirectRegistrar(self, body, self.shape.attach(body))
-
-
-def _keeps_limits(kind: str) -> bool:
-    try:
-        return Solver.load(kind).limits.hard
-    except PluginError:
-        return False
 
 
 @dataclass(frozen=True)
@@ -157,7 +146,7 @@ class DirectRegistrar(Registrar):
         strain = sum(joint(pose).energy for joint in bound.joints)
         return Fit(energy + strain, bound.explained(self.body, pose))
 
-    def _bound(self, observation: Observation, pose: Pose, expected: Pose, blur: float) -> _Bound:
+    def _bound(self, observation: Observation, pose: Pose, expected: Pose, blur: float) -> Bound:
         """The kernel and all terms bound to a frame at a pose."""
         placed = self.primitives.place(self.body.place(pose).transforms)
         scene = Scene(self.body, observation, expected, placed)
@@ -168,43 +157,8 @@ class DirectRegistrar(Registrar):
                 primitives = replace(primitives, weights=primitives.weights * effect.factors)
         placed = replace(placed, primitives=primitives)
         kernel = self.method.kernel.against(observation, placed, blur=blur)
-        return _Bound(
+        return Bound(
             primitives,
             (kernel, *(effect for effect in effects if isinstance(effect, Similarity))),
             tuple(effect for effect in effects if isinstance(effect, JointEnergy)),
-        )
-
-
-@dataclass(frozen=True)
-class _Bound:
-    """What is minimised in one frame.
-
-    Attributes:
-        primitives: With the weights that they have in this frame.
-        similarities: The kernel, and the terms that look at primitives.
-        joints: The terms that look at joints.
-    """
-
-    primitives: Primitives
-    similarities: tuple[Similarity, ...]
-    joints: tuple[JointEnergy, ...]
-
-    def misfit(self, body: Body, pose: Pose) -> float:
-        """The kernel's energy in a pose."""
-        placed = self.primitives.place(body.place(pose).transforms)
-        return self.similarities[0](placed).energy
-
-    def explained(self, body: Body, pose: Pose) -> Array:
-        """How far the kernel finds each point explained in a pose, (N,)."""
-        explained = self.similarities[0].explained(
-            self.primitives.place(body.place(pose).transforms)
-        )
-        return np.array([np.nan]) if explained is None else explained
-
-    def problem(
-        self, coordinates: Coordinates, multipliers: Multipliers | None
-    ) -> RegistrationProblem:
-        """The problem in some coordinates of the pose."""
-        return RegistrationProblem(
-            coordinates, self.primitives, self.similarities, self.joints, multipliers
         )

@@ -1,0 +1,106 @@
+"""What a frame costs with each solver, and how much of that is evaluation.
+
+    python benchmarks/solvers.py
+
+The shipped walk (176x144 pixels, G-SoG of 13 Gaussians) is tracked by `best` with each solver, each
+three times; the fastest counts. Observing and finding the start are not counted. One thread.
+"""
+
+from __future__ import annotations
+
+import json
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+
+from regkit.body import Body
+from regkit.experiment import Experiment
+from regkit.interfaces import Method, Registered, Solver
+from regkit.observation import Observation
+from regkit.optional import one_blas_thread
+from regkit.problem import RegistrationProblem
+from regkit.skeleton import Pose
+from regkit.start import found_start
+
+DEMO = Path(__file__).parent.parent / "docs" / "examples" / "demo.yaml"
+
+TRACKED: dict[str, dict[str, Any]] = {
+    "gauss_newton": {"kind": "gauss_newton", "max_iterations": 6, "value_tolerance": 0.03},
+    "ipopt": {"kind": "ipopt", "value_tolerance": 0.03},
+    "ipopt, tolerance 1e-5": {"kind": "ipopt"},
+    "lbfgs": {"kind": "lbfgs"},
+}
+
+
+def tracking_table() -> dict[str, Any]:
+    """The shipped walk by `best` with each solver: time per frame, and where it goes."""
+    columns = ("ms per frame", "of that evaluation", "ratio", "evaluations", "energy")
+    table = Table("solver", *columns, title="shipped walk, best, G-SoG")
+    experiment = Experiment.read(DEMO)
+    (sequence,) = experiment.dataset.chosen()
+    data = [experiment.observer.observe(frame) for frame in sequence.frames()]
+    start = found_start(experiment.template, data[0])
+    figures: dict[str, Any] = {}
+    for name, options in TRACKED.items():
+        solver = Solver.load(options["kind"]).model_validate(options)
+        method = experiment.methods["best"].model_copy(update={"solver": solver})
+        rounds = [tracked(method, start.body, start.pose, data) for _ in range(3)]
+        found, seconds, evaluating = min(rounds, key=lambda one: one[1])
+        each = 1000.0 * seconds / len(data)
+        first = figures.get("gauss_newton", {"ms per frame": each})
+        values = (
+            each,
+            1000.0 * evaluating / len(data),
+            each / first["ms per frame"],
+            float(np.mean([one.evaluations for one in found])),
+            float(np.mean([one.energy for one in found])),
+        )
+        table.add_row(name, *(f"{value:.4g}" for value in values))
+        figures[name] = dict(zip(columns, (float(f"{v:.4g}") for v in values), strict=True))
+    Console().print(table)
+    return figures
+
+
+def tracked(
+    method: Method, body: Body, start: Pose, data: list[Observation]
+) -> tuple[list[Registered], float, float]:
+    """A track, the time that it took, and how much of that was in evaluations [s]."""
+    assert method.tracker is not None
+    follower = method.tracker.follow(method.prepare(body))
+    evaluating = 0.0
+    own = RegistrationProblem.normal_equations, RegistrationProblem.value_and_gradient
+
+    def timed(function: Any) -> Any:
+        def call(problem: RegistrationProblem, x: Any) -> Any:
+            nonlocal evaluating
+            begun = time.perf_counter()
+            result = function(problem, x)
+            evaluating += time.perf_counter() - begun
+            return result
+
+        return call
+
+    RegistrationProblem.normal_equations, RegistrationProblem.value_and_gradient = map(timed, own)  # type: ignore[method-assign]
+    try:
+        past = [Registered.given(start)]
+        begun = time.perf_counter()
+        for observation in data:
+            past.append(follower.step(observation, past))
+        return past[1:], time.perf_counter() - begun, evaluating
+    finally:
+        RegistrationProblem.normal_equations, RegistrationProblem.value_and_gradient = own  # type: ignore[method-assign]
+
+
+def main() -> None:
+    """Print the table, and its figures as one JSON object in the last line."""
+    with one_blas_thread():
+        figures = tracking_table()
+    print(json.dumps({"threads": 1, **figures}))
+
+
+if __name__ == "__main__":
+    main()
