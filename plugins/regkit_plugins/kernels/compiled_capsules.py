@@ -34,10 +34,13 @@ def nearest_capsules(
     halves, radii, sines = capsules[:, 6].copy(), capsules[:, 7].copy(), capsules[:, 8].copy()
     bounds = radii + (1.0 + np.abs(sines)) * halves
     tangents = sines / np.sqrt(1.0 - sines**2)
+    likely = 0
     for i in range(count):
         px, py, pz = points[i, 0], points[i, 1], points[i, 2]
         least, reach = inf, inf
-        for k in range(len(capsules)):
+        # The capsule of the point before comes first, for it often is this one's, too.
+        for candidate in range(-1, len(capsules)):
+            k = likely if candidate < 0 else candidate
             x, y, z = px - capsules[k, 0], py - capsules[k, 1], pz - capsules[k, 2]
             square = x * x + y * y + z * z
             # What is nearer than the least cost allows has the point near its bounding sphere.
@@ -53,6 +56,7 @@ def nearest_capsules(
                 least = cost
                 reach = sqrt(cost) if cost > 0.0 else -sqrt(-cost)
                 owners[i], distances[i], places[i] = k, distance, at
+        likely = owners[i]
     return owners, distances, places
 
 

@@ -77,22 +77,23 @@ class SurfaceDistances(Similarity):
         self._front = kernel.side == "front" and observation.camera is not None
         weights = start.primitives.weights
         self._surprise = np.log(weights.max() / weights)
-        deviation = float(np.sqrt(self._weights @ observation.variances))
-        self._scale = deviation
+        self._robust = kernel.robust
+        self._deviation = float(np.sqrt(self._weights @ observation.variances))
+        self._scale = self._deviation
         _, residuals, _ = self._residuals(start)
-        self._loss = kernel.robust.bound(residuals, least=deviation, blur=blur)
+        self._loss = kernel.robust.bound(residuals, least=self._deviation, blur=blur)
         self._scale = self._loss.scale
-        self._constant = float(np.log(self._scale / deviation))
+        self._constant = float(np.log(self._scale / self._deviation))
 
     def explained(self, placed: Placed[TaperedCapsules]) -> Array | None:
         """How far each point is taken for the body's own, (N,); None by squares, which cannot tell.
 
-        It is the share that the robust loss leaves of the point's pull.
+        It is the share that the robust loss leaves of the point's pull. An estimated scale is that
+        of the residuals in this very pose, for those at the start hold the body's motion too.
         """
-        if not np.isfinite(self._loss.tuning):
-            return None
         _, residuals, _ = self._residuals(placed)
-        return self._loss.shares(residuals)
+        loss = self._robust.bound(residuals, least=self._deviation)
+        return loss.shares(residuals) if np.isfinite(loss.tuning) else None
 
     def __call__(self, placed: Placed[TaperedCapsules], *, curvature: bool = False) -> Response:
         """The energy, the exact wrenches and the Gauss-Newton blocks, sum w J J^T."""
