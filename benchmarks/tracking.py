@@ -42,12 +42,12 @@ PARTS = {
 
 
 class Bench:
-    """One example, ready to be tracked."""
+    """One example, ready to be tracked by one method, which may be given as in YAML."""
 
-    def __init__(self, example: str) -> None:
-        experiment = Experiment.read(EXAMPLES / example)
+    def __init__(self, example: str, method_text: str = "{preset: best}") -> None:
+        experiment = Experiment.read(EXAMPLES / example, [f"methods={{method: {method_text}}}"])
         (sequence,) = experiment.dataset.chosen()
-        method = experiment.methods["best"]
+        method = experiment.methods["method"]
         self.frames = list(sequence.frames())
         self.observer = experiment.observer
         start = found_start(experiment.template, self.observer.observe(self.frames[0]))

@@ -6,7 +6,8 @@ carries it; the *world* is where a kernel compares it with data.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Generic, Self, TypeVar
 
 import numpy as np
@@ -45,9 +46,7 @@ class Primitives:
 
     def scaled(self, factor: float) -> Self:
         """The same primitives on a skeleton whose lengths are multiplied by ``factor``."""
-        return type(self)(
-            self.segments, factor * self.centres, self.axes, factor * self.scales, self.weights
-        )
+        return replace(self, centres=factor * self.centres, scales=factor * self.scales)
 
 
 @dataclass(frozen=True)
@@ -63,6 +62,35 @@ class Gaussians(Primitives):
 @dataclass(frozen=True)
 class SurfaceGaussians(Gaussians):
     """Gaussians of which a camera, where there is one, sees only the front."""
+
+
+@dataclass(frozen=True)
+class TaperedCapsules(Primitives):
+    """Convex hulls of two spheres on the primitive's second axis; one sphere is a capsule too.
+
+    Terms take a primitive as the ellipsoid of two scales, here that which reaches as far as the
+    capsule along its axis and, in the middle, across it.
+
+    Attributes:
+        halves: Half the distance of the spheres' centres, which are at the primitive's centre plus
+            and minus so much of its second axis, (K,) [m].
+        radii: The radius of the sphere at minus and of that at plus, (K, 2) [m]; they differ by
+            less than the distance, so that neither sphere holds the other.
+    """
+
+    halves: Array
+    radii: Array
+
+    @cached_property
+    def sines(self) -> Array:
+        """How steeply the radius falls along the axis, (K,): sines of the cones' half angles."""
+        lengths = np.where(self.halves > 0.0, 2.0 * self.halves, 1.0)
+        return np.asarray((self.radii[:, 0] - self.radii[:, 1]) / lengths)
+
+    def scaled(self, factor: float) -> Self:
+        """The same capsules on a skeleton whose lengths are multiplied by ``factor``."""
+        larger = super().scaled(factor)
+        return replace(larger, halves=factor * self.halves, radii=factor * self.radii)
 
 
 P_co = TypeVar("P_co", bound=Primitives, covariant=True)

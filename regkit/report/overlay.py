@@ -7,13 +7,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.spatial import ConvexHull
 
 from regkit.arrays import Array
 from regkit.body import Body
 from regkit.files import replacing
 from regkit.interfaces import Registrar
 from regkit.observation import Truth
-from regkit.primitives import Gaussians
+from regkit.primitives import Gaussians, Primitives, TaperedCapsules
 from regkit.skeleton import Placement
 from regkit.tracking import Track, TrackedFrame
 
@@ -37,7 +38,8 @@ def draw_overlay(
 ) -> None:
     """Draw the first, the worst and the last frame from the front and from the side.
 
-    Gaussians are drawn as the outlines of their 2-sigma ellipsoids, reference joints as crosses.
+    Gaussians are drawn as the outlines of their 2-sigma ellipsoids, capsules and spheres as their
+    own, reference joints as crosses.
     The worst frame is the one whose points lie farthest from the body's surface.
     """
     # The object interface needs no display and leaves no global state behind.
@@ -75,6 +77,26 @@ def _bones(body: Body, placement: Placement) -> Iterator[tuple[Array, Array]]:
         yield origins[segment], marker
 
 
+def _outlines(
+    primitives: Primitives, placement: Placement, view: tuple[int, int]
+) -> Iterator[Array]:
+    """What a view shows of primitives, each a closed line (2, P) [m]."""
+    placed = primitives.place(placement.transforms)
+    if isinstance(primitives, Gaussians):
+        for centre, covariance in zip(placed.centres, placed.covariances(), strict=True):
+            # The outline of a projected ellipsoid is the ellipse of its projected covariance.
+            root = np.linalg.cholesky(covariance[np.ix_(view, view)])
+            yield centre[[*view]][:, None] + root @ _CIRCLE
+    elif isinstance(primitives, TaperedCapsules):
+        ways = primitives.halves[:, None] * placed.axes[:, :, 1]
+        ends = np.stack([placed.centres - ways, placed.centres + ways], axis=1)[:, :, [*view]]
+        for pair, radii in zip(ends, primitives.radii, strict=True):
+            circles = pair[:, :, None] + 0.5 * radii[:, None, None] * _CIRCLE
+            points = circles.transpose(0, 2, 1).reshape(-1, 2)
+            around = ConvexHull(points).vertices
+            yield points[[*around, around[0]]].T
+
+
 def _draw(
     plot: Axes,
     view: tuple[int, int],
@@ -87,14 +109,9 @@ def _draw(
     plot.scatter(points[:, across], points[:, down], s=2, c="0.72", linewidths=0)
     body = registrar.body
     placement = body.place(frame.registered.pose)
-    if isinstance(registrar.primitives, Gaussians):
-        placed = registrar.primitives.place(placement.transforms)
-        for centre, covariance in zip(placed.centres, placed.covariances(), strict=True):
-            # The outline of a projected ellipsoid is the ellipse of its projected covariance.
-            root = np.linalg.cholesky(covariance[np.ix_(view, view)])
-            outline = centre[[*view]][:, None] + root @ _CIRCLE
-            plot.fill(*outline, facecolor="tab:blue", alpha=0.10)
-            plot.plot(*outline, color="tab:blue", linewidth=0.8)
+    for outline in _outlines(registrar.primitives, placement, view):
+        plot.fill(*outline, facecolor="tab:blue", alpha=0.10)
+        plot.plot(*outline, color="tab:blue", linewidth=0.8)
     for start, end in _bones(body, placement):
         plot.plot(
             [start[across], end[across]], [start[down], end[down]], color="tab:orange", lw=1.5

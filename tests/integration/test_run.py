@@ -218,3 +218,14 @@ def test_example_runs_on_two_frames(regkit, tmp_path, request, path):
     for figures in methods.values():
         assert figures["mean"]["frames"] == FRAMES
         assert 0.0 < figures["mean"]["joint_error_raw_cm"] < 25.0
+
+
+@pytest.mark.slow
+def test_spheres_track_the_shipped_walk_to_a_centimetre(regkit, tmp_path):
+    """From the start that is found, in noise of 8 mm."""
+    example, out = EXAMPLES / "spheres.yaml", tmp_path / "out"
+    few = ("--set", "dataset.frames=5", "--only", "spheres")
+    assert regkit("run", example, "--out", out, *few).code == 0
+    figures = json.loads((out / "metrics.json").read_text())["methods"]["spheres"]["mean"]
+    assert figures["joint_error_raw_cm"] < 1.0
+    assert figures["lost_frames"] == 0

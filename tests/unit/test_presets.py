@@ -22,7 +22,7 @@ def method_of(tmp_path, text, *settings):
     return Experiment.read(file, settings).methods["mine"]
 
 
-@pytest.mark.parametrize("name", ["best", "paper"])
+@pytest.mark.parametrize("name", ["best", "paper", "spheres"])
 def test_preset_is_what_its_file_says(tmp_path, name):
     assert name in presets_of("regkit.methods")
     copied = preset_file("regkit.methods", name).read_text()
@@ -30,7 +30,8 @@ def test_preset_is_what_its_file_says(tmp_path, name):
     by_name = method_of(tmp_path, f"{{preset: {name}}}")
     assert by_name == method_of(tmp_path, "{preset: copy.yaml}")
     data = Document.read(tmp_path / "copy.yaml").data
-    assert [term.kind for term in by_name.terms] == data["terms"]
+    said = [term if isinstance(term, str) else term["kind"] for term in data["terms"]]
+    assert [term.kind for term in by_name.terms] == said
     assert by_name.tracker is not None
 
 
@@ -53,10 +54,14 @@ def test_another_kind_takes_the_place_of_all_that_the_preset_said_of_it(tmp_path
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
-        ("{preset: bets}", "no preset 'bets' (installed: best, paper; or name a .yaml file); "
-         "did you mean 'best'?"),
+        ("{preset: bets}", "no preset 'bets' (installed: best, paper, spheres; or name a .yaml "
+         "file); did you mean 'best'?"),
         ("{preset: nothing.yaml}", "nothing.yaml: there is no such file"),
         ("{preset: best, kernell: 1}", "methods.mine.kernell: no such field"),
+        ("{preset: spheres, shape: gsog}", "kernel 'sphere_distance' compares TaperedCapsules, but "
+         "shape 'gsog' makes Gaussians"),
+        ("{preset: spheres, terms: [clamp]}", "term 'clamp' looks at Gaussians, but shape 'sphere' "
+         "makes TaperedCapsules"),
     ],
 )  # fmt: skip
 def test_mistake_is_told_at_its_place(tmp_path, text, expected):

@@ -17,6 +17,7 @@ from regkit.rotation import vector_to_matrix
 from regkit_plugins.kernels.correlation import Correlation
 from regkit_plugins.shapes.gsog import GeneralizedSumOfGaussians
 from regkit_plugins.shapes.sog import SumOfGaussians
+from regkit_plugins.shapes.sphere import SphereMesh
 from regkit_plugins.terms.clamp import Clamp
 from regkit_plugins.terms.continuity import Continuity
 from regkit_plugins.terms.free_space import FreeSpace
@@ -26,6 +27,8 @@ from regkit_plugins.terms.visibility import Visibility
 
 CAMERA = Camera(width=176, height=144, fx=230.0, fy=230.0, cx=87.5, cy=71.5)
 ENERGIES = [Clamp(weight=2.0), Continuity(weight=0.3), FreeSpace(), Intersection(), LimitsTerm()]
+SHAPES = [SumOfGaussians(), GeneralizedSumOfGaussians(), SphereMesh()]
+PAIRS = [(t, s) for t in ENERGIES for s in SHAPES if issubclass(s.makes, t.accepts)]
 
 
 class Nothing(Similarity):
@@ -63,8 +66,7 @@ def problem_of(term, scene, primitives, chart):
 
 
 @pytest.mark.parametrize("coordinates", COORDINATES)
-@pytest.mark.parametrize("shape", [SumOfGaussians(), GeneralizedSumOfGaussians()], ids=["s", "g"])
-@pytest.mark.parametrize("term", ENERGIES, ids=lambda term: term.kind)
+@pytest.mark.parametrize(("term", "shape"), PAIRS, ids=lambda plugin: plugin.kind)
 def test_gradient_agrees_with_finite_differences(linkage, random, term, shape, coordinates):
     start = posed(linkage, random)
     scene, primitives = scene_at(linkage, random, shape, start)

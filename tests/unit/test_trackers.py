@@ -159,15 +159,16 @@ METHOD = """
 name: recovery
 dataset: {kind: depth, root: nowhere}
 template: human
-methods: {best: {preset: best}}
+methods: {method: {preset: PRESET}}
 """
 
 
-def test_recovery_brings_back_a_lost_arm(raised, random, tmp_path):
+@pytest.mark.parametrize("preset", ["best", "spheres"])
+def test_recovery_brings_back_a_lost_arm(raised, random, tmp_path, preset):
     body, hanging, truth = raised
     file = tmp_path / "experiment.yaml"
-    file.write_text(METHOD)
-    registrar = Experiment.read(file).methods["best"].prepare(body)
+    file.write_text(METHOD.replace("PRESET", preset))
+    registrar = Experiment.read(file).methods["method"].prepare(body)
     points = surface(body, truth, random)
     observation = Observation(points, np.ones(len(points)), np.full(len(points), 0.01**2))
     lost = registrar.register(observation, hanging)

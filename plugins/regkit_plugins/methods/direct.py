@@ -77,6 +77,16 @@ class Direct(Method):
             )
         return self
 
+    @model_validator(mode="after")
+    def _terms_fit_shape(self) -> Direct:
+        for term in self.terms:
+            if not issubclass(self.shape.makes, term.accepts):
+                raise ValueError(
+                    f"term '{term.kind}' looks at {term.accepts.__name__}, but shape "
+                    f"'{self.shape.kind}' makes {self.shape.makes.__name__}"
+                )
+        return self
+
     def prepare(self, body: Body) -> DirectRegistrar:
         """Attach the shape model to the body.
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
 
 from regkit.arrays import Array
 from regkit.interfaces import Response, Scene, Term
-from regkit.primitives import Gaussians, Placed
+from regkit.primitives import Gaussians, Placed, Primitives
 from regkit_plugins.kernels.correlation import SELF_SIMILARITY, Correlation, CorrelationSimilarity
 
 
@@ -22,6 +22,7 @@ class Clamp(Term):
     """
 
     kind: Literal["clamp"] = "clamp"
+    accepts: ClassVar[type[Primitives]] = Gaussians
 
     weight: Annotated[float, Field(gt=0.0)] = 1.0
     """Weight against the kernel's energy."""

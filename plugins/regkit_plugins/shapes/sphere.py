@@ -1,0 +1,98 @@
+"""A body as a sphere-mesh: its tapered capsules themselves, or spheres strung along them."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar, Literal
+
+import numpy as np
+from pydantic import Field
+
+from regkit.arrays import Array
+from regkit.body import Body
+from regkit.capsules import Capsules
+from regkit.errors import ConfigError
+from regkit.interfaces import ShapeModel
+from regkit.primitives import Primitives, TaperedCapsules
+
+
+class SphereMesh(ShapeModel):
+    """Spheres, and the surfaces that they sweep, along the template's capsules.
+
+    As ``capsules`` it is the sphere-mesh of Tkach, Pauly and Tagliasacchi (Sphere-meshes for
+    real-time hand modeling and tracking, 2016), of pills alone: it has no wedges between three
+    spheres. As ``spheres`` it is the set of spheres of Qian, Sun, Wei, Tang and Sun (Realtime and
+    robust hand tracking from depth, 2014).
+    """
+
+    kind: Literal["sphere"] = "sphere"
+    makes: ClassVar[type[Primitives]] = TaperedCapsules
+
+    variant: Literal["capsules", "spheres"] = "capsules"
+    """Whether the spheres at a capsule's ends are joined by the surface that a sphere on the way
+    from one to the other sweeps, or by more spheres."""
+    spacing: Annotated[float, Field(gt=0.0)] = 1.0
+    """Distance of neighbouring spheres, as a part of their radius; for the spheres alone."""
+
+    def attach(self, body: Body) -> TaperedCapsules:
+        """The template's capsules, or spheres on their axes.
+
+        Raises:
+            ConfigError: If the template has no capsules.
+        """
+        if not len(body.capsules):
+            raise ConfigError(
+                f"the template '{body.name}' has no capsules, which the shape '{self.kind}' is "
+                "made of"
+            )
+        if self.variant == "spheres":
+            return _joined(_strung_along(body.capsules, self.spacing))
+        return _joined(body.capsules)
+
+
+def _strung_along(capsules: Capsules, spacing: float) -> Capsules:
+    """Spheres from end to end of each capsule, as capsules of no length."""
+    owners, along = [], []
+    for index, (ends, radii) in enumerate(zip(capsules.ends, capsules.radii, strict=True)):
+        length = float(np.linalg.norm(ends[1] - ends[0]))
+        count = 1 + int(np.ceil(length / (spacing * radii.mean())))
+        owners += [index] * count
+        along += list(np.linspace(0.0, 1.0, count))
+    own, share = np.array(owners, dtype=np.intp), np.array(along)[:, None]
+    centres = (1.0 - share) * capsules.ends[own, 0] + share * capsules.ends[own, 1]
+    radii = (1.0 - share) * capsules.radii[own, :1] + share * capsules.radii[own, 1:]
+    return Capsules(
+        capsules.segments[own], np.repeat(centres[:, None], 2, axis=1), np.repeat(radii, 2, axis=1)
+    )
+
+
+def _joined(capsules: Capsules) -> TaperedCapsules:
+    """Capsules as primitives."""
+    ends, radii = capsules.ends.copy(), capsules.radii.copy()
+    lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    # Where one sphere holds the other, it is the hull of both.
+    held = np.flatnonzero(np.abs(radii[:, 1] - radii[:, 0]) >= lengths)
+    larger = radii[held].argmax(axis=1)
+    ends[held] = ends[held, larger, None]
+    radii[held] = radii[held, larger, None]
+    halves = 0.5 * np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    across = 0.5 * radii.mean(axis=1)
+    along = 0.5 * (halves + radii.mean(axis=1))
+    return TaperedCapsules(
+        segments=capsules.segments,
+        centres=ends.mean(axis=1),
+        axes=np.array([_frame(end - start) for start, end in ends]),
+        scales=np.column_stack([across, along, across]),
+        weights=np.ones(len(capsules)),
+        halves=halves,
+        radii=radii,
+    )
+
+
+def _frame(way: Array) -> Array:
+    """Axes (3, 3) of which the second has the direction of ``way`` (3,), which may be zero."""
+    length = float(np.linalg.norm(way))
+    unit = way / length if length > 0.0 else np.array([0.0, 1.0, 0.0])
+    helper = np.eye(3)[np.argmin(np.abs(unit))]
+    side = np.cross(unit, helper)
+    side /= np.linalg.norm(side)
+    return np.column_stack([side, unit, np.cross(side, unit)])
