@@ -35,7 +35,10 @@ class Proportions:
     girths: Array
 
     def applied(self, template: BodyDescription) -> BodyDescription:
-        """The template with these proportions; its size is what its height (along y) became."""
+        """The template with these proportions; its size is what its height (along y) became.
+
+        It has no mesh: the template's own would not fit it.
+        """
         order = parents_first(template.segments)
         stretches = {name: self._stretch(index) for index, name in enumerate(order)}
         segments = {
@@ -49,7 +52,9 @@ class Proportions:
             }
             for kind, by_segment in template.gaussians.items()
         }
-        subject = template.model_copy(update={"segments": segments, "gaussians": gaussians})
+        subject = template.model_copy(
+            update={"segments": segments, "gaussians": gaussians, "mesh": None}
+        )
         size = template.size.value * _height(subject) / _height(template)
         return subject.model_copy(
             update={"size": template.size.model_copy(update={"value": size, "range": (size, size)})}

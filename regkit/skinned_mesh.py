@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from regkit.arrays import Array, Indices, read_only
 from regkit.errors import DataError
+from regkit.files import write_arrays
 from regkit.rigid import rigid
 
 KEYS = (
@@ -68,6 +69,23 @@ class SkinnedMesh:
             arrays["skin_indices"].astype(np.intp),
             read_only(arrays["skin_weights"]),
         )
+
+    def write(self, path: Path) -> None:
+        """Write an ``.npz`` file that ``read`` takes.
+
+        Raises:
+            DataError: If the file cannot be written.
+        """
+        values = (
+            self.vertices.astype(np.float32),
+            self.faces.astype(np.uint32),
+            np.array(self.labels),
+            self.parents.astype(np.int16),
+            self.rest.astype(np.float32),
+            self.indices.astype(np.uint16),
+            self.weights.astype(np.float32),
+        )
+        write_arrays(path, dict(zip(KEYS, values, strict=True)))
 
     def reshaped(self, path: Path) -> SkinnedMesh:
         """The same mesh in the shape of another person, from an ``.npz`` file with ``SHAPE_KEYS``.
