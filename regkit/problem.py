@@ -55,8 +55,7 @@ class RegistrationProblem(Problem):
         if response.stiffness is None:
             return None
         strains = self._strains(placement)
-        stiffness = placed.gather_stiffness(response.stiffness, len(placement.skeleton.names))
-        matrix = placement.normal_matrix(stiffness)
+        matrix = placed.normal_matrix(response.stiffness, placement)
         for strain in strains:
             matrix += strain.stiffness
         differential = self._coordinates.differential(x)
@@ -93,8 +92,7 @@ class RegistrationProblem(Problem):
         response: Response,
         strains: list[Strain],
     ) -> tuple[float, Array]:
-        wrenches = placed.gather(response.wrenches, segments=len(placement.skeleton.names))
-        force = placement.pull_back(wrenches)
+        force = placed.pull_back(response.wrenches, placement)
         value = response.energy
         for strain in strains:
             force = force + strain.force

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 from regkit.arrays import Array
 from regkit.body import Body
 from regkit.interfaces.kernel import Similarity
 from regkit.observation import Observation
 from regkit.plugin import Plugin
-from regkit.primitives import Placed
+from regkit.primitives import Placed, Primitives
 from regkit.skeleton import Pose
 
 
@@ -70,6 +70,9 @@ class Term(Plugin, ABC):
     """One demand on a pose, which any kernel can be combined with."""
 
     group = "regkit.terms"
+
+    refuses: ClassVar[tuple[type[Primitives], ...]] = ()
+    """The primitives that it cannot be used with."""
 
     def check(self, body: Body) -> None:
         """Refuse a body that the term cannot be used with, before any frame is read.

@@ -61,6 +61,12 @@ class Direct(Method):
                 f"kernel '{self.kernel.kind}' compares {self.kernel.accepts.__name__}, but shape "
                 f"'{self.shape.kind}' makes {self.shape.makes.__name__}"
             )
+        for term in self.terms:
+            if issubclass(self.shape.makes, term.refuses):
+                raise ValueError(
+                    f"term '{term.kind}' is not for {self.shape.makes.__name__}, which shape "
+                    f"'{self.shape.kind}' makes; leave it out"
+                )
         return self
 
     def prepare(self, body: Body) -> DirectRegistrar:

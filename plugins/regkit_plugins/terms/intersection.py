@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
 
 from regkit.arrays import Array, Indices
 from regkit.interfaces import Response, Scene, Similarity, Term
-from regkit.primitives import Placed
+from regkit.primitives import Placed, Primitives
 from regkit.skeleton import Skeleton
+from regkit.surfels import Surfels
 from regkit_plugins.terms.compiled import overlaps
 
 REACH = 3.0
@@ -26,6 +27,7 @@ class Intersection(Term):
     """
 
     kind: Literal["intersection"] = "intersection"
+    refuses: ClassVar[tuple[type[Primitives], ...]] = (Surfels,)
 
     weight: Annotated[float, Field(gt=0.0)] = 0.3
     """Weight against the kernel's energy."""

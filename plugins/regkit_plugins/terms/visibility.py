@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
@@ -10,6 +10,7 @@ from pydantic import Field
 from regkit.arrays import Array
 from regkit.interfaces import Scene, Shares, Term
 from regkit.primitives import Placed, Primitives
+from regkit.surfels import Surfels
 from regkit_plugins.terms.compiled import free_rays
 
 
@@ -17,10 +18,11 @@ class Visibility(Term):
     """Weighs each primitive by how much of it the camera sees in the start pose.
 
     A few points of each primitive's outline are looked at; one is hidden if the ray to it passes
-    through another primitive before.
+    through another primitive before. The kernels of surfels have a way of their own.
     """
 
     kind: Literal["visibility"] = "visibility"
+    refuses: ClassVar[tuple[type[Primitives], ...]] = (Surfels,)
 
     least: Annotated[float, Field(gt=0.0, le=1.0)] = 0.05
     """What a wholly hidden primitive still weighs, so that it can come into sight again."""
