@@ -167,7 +167,7 @@ class MatchingSimilarity(Similarity):
 
     def _nearest(self, placed: Placed[Surfels], reach: float) -> tuple[Array, Indices]:
         """Distance (N,) [m] and number (N,) among the visible ones of the nearest surfel."""
-        tree = cKDTree(placed.centres[self._shown], balanced_tree=False, compact_nodes=False)
+        tree = cKDTree(placed.centres[self._shown])
         distances, nearest = tree.query(self._points, distance_upper_bound=reach)
         return np.asarray(distances), np.asarray(nearest)
 
