@@ -35,6 +35,9 @@ PARTS = {
     "rotation": "kinematics",
     "coordinates": "kinematics",
     "primitives": "kinematics",
+    "surfels": "kinematics",
+    "blending": "kinematics",
+    "gathering": "kinematics",
     "solvers": "solver",
     "problem": "solver",
 }
@@ -42,12 +45,12 @@ PARTS = {
 
 
 class Bench:
-    """One example, ready to be tracked."""
+    """One example, ready to be tracked by a method that is written as in YAML."""
 
-    def __init__(self, example: str) -> None:
-        experiment = Experiment.read(EXAMPLES / example)
+    def __init__(self, example: str, preset: str = "{preset: best}") -> None:
+        experiment = Experiment.read(EXAMPLES / example, [f"methods={{method: {preset}}}"])
         (sequence,) = experiment.dataset.chosen()
-        method = experiment.methods["best"]
+        method = experiment.methods["method"]
         self.frames = list(sequence.frames())
         self.observer = experiment.observer
         start = found_start(experiment.template, self.observer.observe(self.frames[0]))

@@ -15,7 +15,7 @@ from regkit.observation import Observation
 from regkit.primitives import Placed, Primitives
 from regkit.surfels import Surfels
 from regkit_plugins.kernels.compiled_surfels import pulled_surfels
-from regkit_plugins.kernels.robust import Robust
+from regkit_plugins.kernels.robust import Loss, Robust
 from regkit_plugins.kernels.visible_surfels import visible
 
 
@@ -34,6 +34,10 @@ class MatchingKernel(Kernel):
 
     robust: Robust = Robust(loss="tukey")
     """What residuals cost."""
+    noise: Annotated[float, Field(gt=0.0)] | None = 1.5
+    """Scale of the loss in standard deviations of the data, where ``robust`` has none; null for
+    that of each frame's residuals. What is estimated anew in every pose makes light of a lost limb,
+    and a tracker that compares energies is misled."""
     reach: Annotated[float, Field(gt=0.0)] = 10.0
     """No point has a partner that is farther away, in scales of the loss."""
     angle_deg: Annotated[float, Field(gt=0.0, le=180.0)] = 60.0
@@ -95,15 +99,15 @@ class MatchingSimilarity(Similarity):
         self._kernel = kernel
         self._points = observation.points
         self._weights = observation.weights / observation.weights.sum()
-        self._facing = observation.normals
         self._oriented = observation.camera is not None
+        self._facing = observation.normals
+        if self._facing is not None and self._oriented:
+            away = np.einsum("ni,ni->n", self._facing, self._points) > 0.0
+            self._facing = np.where(away[:, None], -self._facing, self._facing)
         self._sliding, self._normals = sliding, normals
         self._shown = visible(start) if self._oriented else np.arange(len(start))
         self._cloud = cKDTree(observation.points) if kernel.way_back > 0.0 else None
-        least = float(np.sqrt(observation.variances.mean()))
-        nearest = self._nearest(start, np.inf)[1]
-        offsets, own = self._offsets(start, np.arange(len(nearest)), self._shown[nearest])
-        self._loss = kernel.robust.bound(self._sizes(offsets, own), least=least, blur=blur)
+        self._loss = self._bound_loss(float(np.sqrt(observation.variances.mean())), start, blur)
         self._reach = kernel.reach * self._loss.scale
         self._fixed = self._matched(start) if kernel.matches == "fixed" else None
 
@@ -132,6 +136,18 @@ class MatchingSimilarity(Similarity):
         explained = np.zeros(len(self._points))
         explained[found.points] = self._loss.shares(self._sizes(offsets, normals))
         return explained
+
+    def _bound_loss(self, deviation: float, start: Placed[Surfels], blur: float) -> Loss:
+        """The loss, for data of a standard deviation [m]."""
+        robust, noise = self._kernel.robust, self._kernel.noise
+        if robust.scale is None and noise is not None:
+            robust = robust.model_copy(update={"scale": noise * deviation})
+        residuals = np.zeros(0)
+        if robust.scale is None:
+            _, nearest = self._nearest(start, np.inf)
+            ways = self._offsets(start, np.arange(len(nearest)), self._shown[nearest])
+            residuals = self._sizes(*ways)
+        return robust.bound(residuals, least=deviation, blur=blur)
 
     def _matched(self, placed: Placed[Surfels]) -> Matches:
         """The pairs, from the data and, where it is asked for, from the surfels."""

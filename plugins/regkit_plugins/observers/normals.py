@@ -9,7 +9,7 @@ from regkit.arrays import Array
 
 
 def normals(points: Array, neighbours: int) -> Array:
-    """The unit normal (N, 3) of the plane through each point's neighbours, towards the origin.
+    """The unit normal (N, 3) of the plane through each point's neighbours, of either sign.
 
     It is the direction in which the neighbours, the point among them, spread least.
     """
@@ -17,6 +17,4 @@ def normals(points: Array, neighbours: int) -> Array:
     near = points[cKDTree(points).query(points, k=count)[1]]
     offsets = near - near.mean(axis=1, keepdims=True)
     _, vectors = np.linalg.eigh(offsets.swapaxes(1, 2) @ offsets)
-    found = vectors[:, :, 0]
-    away = np.einsum("ni,ni->n", found, points) > 0.0
-    return np.asarray(np.where(away[:, None], -found, found))
+    return np.asarray(vectors[:, :, 0])

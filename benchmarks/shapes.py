@@ -1,0 +1,82 @@
+"""What stands best for a body: Gaussians, spheres or a mesh; on equal data, starts and trackers.
+
+    python benchmarks/shapes.py [UTD_MHAD]
+
+Errors are means over the suite's 13 sequences of people and 6 of hands, with templates of the right
+lengths; then over the six of the small body with the template of the average one, whose shape is
+another's; and, where its folder is given, over 14 real Kinect sequences of UTD-MHAD. Frames per
+second are those of the shipped walk and hand, one after the other on one thread.
+"""
+
+from __future__ import annotations
+
+import sys
+from importlib.metadata import entry_points
+from pathlib import Path
+
+from _suite import HEADER, last_line, row, tracked, tracked_utd
+from tracking import Bench
+
+from regkit.optional import one_blas_thread
+
+METHODS = {
+    "SoG": "{preset: best, shape: {kind: sog, surface: visible}}",
+    "G-SoG": "{preset: best}",
+    "spheres": "{preset: spheres}",
+    "mesh, point to point": "{preset: icp, kernel: point_to_point}",
+    "mesh, point to plane": "{preset: icp}",
+    "mesh, point to plane, textbook": (
+        "{preset: icp, kernel: {matches: fixed}, blur: [0.0, 0.0, 0.0]}"
+    ),
+}
+
+
+def installed() -> dict[str, str]:
+    """The methods whose presets there are."""
+    presets = entry_points(group="regkit.methods.presets").names
+    return {name: text for name, text in METHODS.items() if _preset(text) in presets}
+
+
+def _preset(text: str) -> str:
+    return text.removeprefix("{preset: ").split(",")[0].rstrip("}")
+
+
+def speeds(methods: dict[str, str]) -> dict[str, dict[str, float]]:
+    """Frames per second on the shipped sequences, and their ratio to those of G-SoG."""
+    figures: dict[str, dict[str, float]] = {}
+    print("\n| method | walk [fps] | of G-SoG | hand [fps] | of G-SoG |\n|---|--:|--:|--:|--:|")
+    with one_blas_thread():
+        for name, text in methods.items():
+            own = {}
+            for body, example in (("walk", "demo.yaml"), ("hand", "hand.yaml")):
+                bench = Bench(example, text)
+                own[body] = len(bench.frames) / bench.seconds()
+            figures[name] = own
+    for name, own in figures.items():
+        cells = [f"{fps:.0f} | {fps / figures['G-SoG'][body]:.2f}" for body, fps in own.items()]
+        print(f"| {name} | {' | '.join(cells)} |")
+    return figures
+
+
+def main() -> None:
+    """Print the tables, and their figures as one JSON object in the last line."""
+    methods = installed()
+    figures: dict[str, object] = {"speed": speeds(methods)}
+    parts = {"human": None, "hand": None, "human_small": "human"}
+    for kind, template in parts.items():
+        what = kind if template is None else f"{kind} with the average person's template"
+        print(f"\n{what}\n\n{HEADER}")
+        figures[what] = {
+            name: row(name, tracked(kind, text, template=template))
+            for name, text in methods.items()
+        }
+    if len(sys.argv) > 1:
+        print(f"\nUTD-MHAD\n\n{HEADER}")
+        figures["utd"] = {
+            name: row(name, tracked_utd(Path(sys.argv[1]), text)) for name, text in methods.items()
+        }
+    last_line(figures)
+
+
+if __name__ == "__main__":
+    main()
