@@ -139,6 +139,26 @@ class SkinnedMesh:
             np.einsum("vij,vj->vi", blended[:, :, :3], self.vertices) + blended[:, :, 3]
         )
 
+    def stretched(self, matrices: Array) -> SkinnedMesh:
+        """The mesh at rest with every bone stretched, so that joints stay together.
+
+        Args:
+            matrices: What happens to positions in each bone's frame, (J, 3, 3).
+        """
+        inverse = np.linalg.inv(self.rest)
+        origins = self.rest[:, :3, 3].copy()
+        for bone in np.flatnonzero(self.parents >= 0):
+            parent = self.parents[bone]
+            local = inverse[parent, :3, :3] @ (self.rest[bone, :3, 3] - self.rest[parent, :3, 3])
+            way = self.rest[parent, :3, :3] @ matrices[parent] @ local
+            origins[bone] = origins[parent] + way
+        rest = rigid(self.rest[:, :3, :3], origins)
+        carriers = np.zeros((len(rest), 4, 4))
+        carriers[:, :3, :3] = rest[:, :3, :3] @ matrices
+        carriers[:, :3, 3] = origins
+        carriers[:, 3, 3] = 1.0
+        return replace(self, vertices=self.posed(carriers), rest=rest)
+
     def turned(self, rotations: Array, root: Array) -> Array:
         """Bone poses ``T_world_bone`` (J, 4, 4) with every bone turned from its direction at rest.
 

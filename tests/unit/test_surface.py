@@ -9,7 +9,7 @@ from regkit.body import BodyDescription
 from regkit.document import Document
 from regkit.errors import DataError
 from regkit.optional import open3d
-from regkit.rigid import rigid
+from regkit.rigid import inverse, moved, rigid
 from regkit.rotation import vector_to_matrix
 from regkit.skinned_mesh import SkinnedMesh
 from regkit.surface import SkinnedSurface, surface_in, vertex_normals
@@ -168,6 +168,21 @@ def test_mesh_is_written_as_it_is_read(tmp_path):
 def test_reflected_mesh_faces_outward():
     normals = vertex_normals(*(getattr(reflected(CUBE), name) for name in ("vertices", "faces")))
     assert (normals * (reflected(CUBE).vertices - [-0.5, 0.5, 0.5])).sum(axis=1).min() > 0.0
+
+
+def test_stretched_bones_carry_their_skin_and_their_children(random):
+    """In its own frame a bone stretches the vertices that follow it alone, and nothing else."""
+    rest = rigid(vector_to_matrix(random.normal(size=(2, 3))), random.normal(size=(2, 3)))
+    weights = np.array([[1.0, 0.0]] * 4 + [[0.0, 1.0]] * 4)
+    mesh = replace(CUBE, rest=rest, weights=weights)
+    matrices = np.array([np.diag([2.0, 1.0, 0.5]), np.diag([1.0, 3.0, 1.0])])
+    found = mesh.stretched(matrices)
+    np.testing.assert_allclose(found.rest[:, :3, :3], rest[:, :3, :3])
+    for bone, own in ((0, slice(0, 4)), (1, slice(4, 8))):
+        before, after = (moved(inverse(one.rest[bone]), one.vertices[own]) for one in (mesh, found))
+        np.testing.assert_allclose(after, before @ matrices[bone].T, atol=1e-12)
+    ways = [moved(inverse(one.rest[0]), one.rest[1:, :3, 3]) for one in (mesh, found)]
+    np.testing.assert_allclose(ways[1], ways[0] @ matrices[0].T, atol=1e-12)
 
 
 def described(linkage_text, tmp_path, mesh):
