@@ -104,38 +104,30 @@ def gathered_stiffness(
     lengths: Array,
     count: int,
 ) -> Array:
-    """Blocks (K, 6, 6) on points and normals as (6 S, 6 S), about the segments' origins.
+    """Blocks (K, 6, 6) on points and normals as (S, 6, 6), about the segments' origins.
 
-    A point that several segments carry ties each of them to each.
+    Each carrier gets M^T B M with its own map M; the blocks between different ones are left out.
     """
-    gathered = np.zeros((6 * count, 6 * count))
-    carriers = segments.shape[1]
-    maps, half = np.zeros((carriers, 6, 6)), np.empty((6, 6))
+    gathered = np.zeros((count, 6, 6))
+    carried, half = np.zeros((6, 6)), np.empty((6, 6))
     for k in range(len(blocks)):
         block = blocks[k]
         if block[0, 0] + block[1, 1] + block[2, 2] == 0.0:
             continue
-        for a in range(carriers):
-            if blend[k, a] > 0.0:
-                _set_map(maps[a], blend[k, a], arms[k, a], turned[k, a], axes[k, :, 2], lengths[k])
-        for b in range(carriers):
-            if blend[k, b] == 0.0:
+        for a in range(segments.shape[1]):
+            if blend[k, a] == 0.0:
                 continue
+            _set_map(carried, blend[k, a], arms[k, a], turned[k, a], axes[k, :, 2], lengths[k])
+            own = gathered[segments[k, a]]
             for i in range(6):
                 for j in range(6):
                     half[i, j] = 0.0
                     for e in range(6):
-                        half[i, j] += block[i, e] * maps[b, e, j]
-            for a in range(carriers):
-                if blend[k, a] == 0.0:
-                    continue
-                row, column = 6 * segments[k, a], 6 * segments[k, b]
-                for i in range(6):
-                    for j in range(6):
-                        total = 0.0
-                        for e in range(6):
-                            total += maps[a, e, i] * half[e, j]
-                        gathered[row + i, column + j] += total
+                        half[i, j] += block[i, e] * carried[e, j]
+            for i in range(6):
+                for j in range(6):
+                    for e in range(6):
+                        own[i, j] += carried[e, i] * half[e, j]
     return gathered
 
 

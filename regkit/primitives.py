@@ -12,7 +12,6 @@ from typing import Generic, Self, TypeVar
 import numpy as np
 
 from regkit.arrays import Array, Indices
-from regkit.skeleton import Placement
 
 
 @dataclass(frozen=True)
@@ -91,23 +90,17 @@ class Placed(Generic[P_co]):
         """``R diag(scales^2) R^T`` in the world, (K, 3, 3) [m^2]."""
         return (self.axes * self.primitives.scales[:, None, :] ** 2) @ np.swapaxes(self.axes, 1, 2)
 
-    def pull_back(self, wrenches: Array, placement: Placement) -> Array:
-        """The generalised force (n,) of wrenches (K, 6) on the primitives, so placed."""
+    def gather(self, wrenches: Array, segments: int) -> Array:
+        """Wrenches (K, 6) on the primitives as (S, 6), summed about the segments' origins."""
         # Imported when first used, for Numba takes its time to load.
         from regkit.gathering import gathered_wrenches
 
         arms = self.centres - self.carriers
-        segments = len(placement.skeleton.names)
-        return placement.pull_back(
-            gathered_wrenches(wrenches, arms, self.primitives.segments, segments)
-        )
+        return gathered_wrenches(wrenches, arms, self.primitives.segments, segments)
 
-    def normal_matrix(self, stiffness: Array, placement: Placement) -> Array:
-        """The Gauss-Newton matrix (n, n) of blocks (K, 6, 6) on the primitives, so placed."""
+    def gather_stiffness(self, stiffness: Array, segments: int) -> Array:
+        """Blocks (K, 6, 6) on the primitives as (S, 6, 6), summed about the segments' origins."""
         from regkit.gathering import gathered_stiffness
 
         arms = self.centres - self.carriers
-        segments = len(placement.skeleton.names)
-        return placement.normal_matrix(
-            gathered_stiffness(stiffness, arms, self.primitives.segments, segments)
-        )
+        return gathered_stiffness(stiffness, arms, self.primitives.segments, segments)

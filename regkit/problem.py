@@ -55,7 +55,8 @@ class RegistrationProblem(Problem):
         if response.stiffness is None:
             return None
         strains = self._strains(placement)
-        matrix = placed.normal_matrix(response.stiffness, placement)
+        stiffness = placed.gather_stiffness(response.stiffness, len(placement.skeleton.names))
+        matrix = placement.normal_matrix(stiffness)
         for strain in strains:
             matrix += strain.stiffness
         differential = self._coordinates.differential(x)
@@ -92,7 +93,8 @@ class RegistrationProblem(Problem):
         response: Response,
         strains: list[Strain],
     ) -> tuple[float, Array]:
-        force = placed.pull_back(response.wrenches, placement)
+        wrenches = placed.gather(response.wrenches, segments=len(placement.skeleton.names))
+        force = placement.pull_back(wrenches)
         value = response.energy
         for strain in strains:
             force = force + strain.force

@@ -9,7 +9,6 @@ import numpy as np
 
 from regkit.arrays import Array
 from regkit.primitives import Placed, Primitives
-from regkit.skeleton import Placement
 from regkit.surface import SkinnedSurface
 
 
@@ -79,8 +78,9 @@ S_co = TypeVar("S_co", bound=Surfels, covariant=True)
 class PlacedSurfels(Placed[S_co]):
     """Surfels in the world.
 
-    A force on one is divided among its carriers, and its stiffness ties them to one another. What
-    would only turn it about its own normal does nothing.
+    A force on one is divided among its carriers. So is its stiffness: each carrier gets what it
+    would feel if it moved alone. That the carriers of a point feel one another is left out of the
+    curvature, which costs no rounds; it is a matter of the step, never of the gradient.
 
     Attributes:
         arms: From the origin of each carrier to where it carries the surfel, (K, A, 3) [m].
@@ -92,12 +92,15 @@ class PlacedSurfels(Placed[S_co]):
     turned: Array
     lengths: Array
 
-    def pull_back(self, wrenches: Array, placement: Placement) -> Array:
-        """The generalised force (n,) of wrenches (K, 6) on the surfels, so placed."""
+    def gather(self, wrenches: Array, segments: int) -> Array:
+        """Wrenches (K, 6) on the surfels as (S, 6), summed about the segments' origins.
+
+        What would only turn a surfel about its own normal does nothing.
+        """
         from regkit.blending import gathered_wrenches
 
         skin = self.primitives.surface
-        gathered = gathered_wrenches(
+        return gathered_wrenches(
             wrenches,
             skin.segments,
             skin.blend,
@@ -105,16 +108,15 @@ class PlacedSurfels(Placed[S_co]):
             self.turned,
             self.axes,
             self.lengths,
-            len(placement.skeleton.names),
+            segments,
         )
-        return placement.pull_back(gathered)
 
-    def normal_matrix(self, stiffness: Array, placement: Placement) -> Array:
-        """The Gauss-Newton matrix (n, n) of blocks (K, 6, 6) on the surfels, so placed."""
+    def gather_stiffness(self, stiffness: Array, segments: int) -> Array:
+        """Blocks (K, 6, 6) on the surfels as (S, 6, 6), about the segments' origins."""
         from regkit.blending import gathered_stiffness
 
         skin = self.primitives.surface
-        gathered = gathered_stiffness(
+        return gathered_stiffness(
             stiffness,
             skin.segments,
             skin.blend,
@@ -122,9 +124,8 @@ class PlacedSurfels(Placed[S_co]):
             self.turned,
             self.axes,
             self.lengths,
-            len(placement.skeleton.names),
+            segments,
         )
-        return placement.coupled_normal_matrix(gathered)
 
 
 def _axes(normals: Array) -> Array:

@@ -85,15 +85,10 @@ class Placement:
         return np.asarray(wrenches.ravel() @ self.jacobian.reshape(-1, self.skeleton.freedoms))
 
     def normal_matrix(self, stiffness: Array) -> Array:
-        """The Gauss-Newton matrix (n, n) of blocks (S, 6, 6) about the segments' origins."""
+        """The Gauss-Newton matrix (n, n) of (S, 6, 6) blocks about the segments' origins."""
         freedoms = self.skeleton.freedoms
         loaded = stiffness @ self.jacobian
         return np.asarray(self.jacobian.reshape(-1, freedoms).T @ loaded.reshape(-1, freedoms))
-
-    def coupled_normal_matrix(self, stiffness: Array) -> Array:
-        """The same of a matrix (6 S, 6 S), whose blocks off the diagonal tie segments together."""
-        flat = self.jacobian.reshape(-1, self.skeleton.freedoms)
-        return np.asarray(flat.T @ (stiffness @ flat))
 
     @cached_property
     def jacobian(self) -> Array:

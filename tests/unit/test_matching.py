@@ -138,8 +138,22 @@ def test_gradient_agrees_with_finite_differences(skinned, random, name, coordina
     assert np.linalg.eigvalsh(matrix).min() > -1e-9 * np.abs(matrix).max()
 
 
+def unblended(body):
+    """The same skin, whose points follow one segment each."""
+    skin = body.surface
+    alone = replace(
+        skin,
+        segments=skin.segments[:, :1],
+        points=skin.points[:, :1],
+        blend=np.ones((len(skin), 1)),
+        normals=skin.normals[:, :1],
+    )
+    return replace(body, surface=alone)
+
+
 def test_normal_matrix_is_that_of_the_residuals(skinned, random):
     """J^T W J by brute force, with the derivatives of the residuals by finite differences."""
+    skinned = unblended(skinned)
     start, surfels, data = scene(skinned, random)
     bones = skinned.skeleton
     kernel = PointToPlane(
@@ -168,15 +182,7 @@ def test_normal_matrix_is_that_of_the_residuals(skinned, random):
 
 def test_surfels_of_one_segment_each_feel_what_rigid_primitives_feel(skinned, random):
     """Blending adds nothing where there is nothing to blend."""
-    surface = skinned.surface
-    alone = replace(
-        surface,
-        segments=surface.segments[:, :1],
-        points=surface.points[:, :1],
-        blend=np.ones((len(surface), 1)),
-        normals=surface.normals[:, :1],
-    )
-    start, surfels, _ = scene(replace(skinned, surface=alone), random)
+    start, surfels, _ = scene(unblended(skinned), random)
     placement = skinned.place(start)
     placed = surfels.place(placement.transforms)
     rigidly = super(type(surfels), surfels).place(placement.transforms)
@@ -186,13 +192,14 @@ def test_surfels_of_one_segment_each_feel_what_rigid_primitives_feel(skinned, ra
     # A surfel does not spin about its normal.
     normals = placed.axes[:, :, 2]
     wrenches[:, 3:] -= (wrenches[:, 3:] * normals).sum(axis=1, keepdims=True) * normals
+    segments = len(skinned.skeleton.names)
     np.testing.assert_allclose(
-        placed.pull_back(wrenches, placement), rigidly.pull_back(wrenches, placement), atol=1e-12
+        placed.gather(wrenches, segments), rigidly.gather(wrenches, segments), atol=1e-12
     )
     blocks = wrenches[:, :, None] * wrenches[:, None, :]
     np.testing.assert_allclose(
-        placed.normal_matrix(blocks, placement),
-        rigidly.normal_matrix(blocks, placement),
+        placed.gather_stiffness(blocks, segments),
+        rigidly.gather_stiffness(blocks, segments),
         atol=1e-11,
     )
 
