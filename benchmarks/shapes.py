@@ -23,7 +23,7 @@ METHODS = {
     "SoG": "{preset: best, shape: {kind: sog, surface: visible}}",
     "G-SoG": "{preset: best}",
     "spheres": "{preset: spheres}",
-    "mesh, point to point": "{preset: icp, kernel: point_to_point}",
+    "mesh, point to point": "{preset: icp, kernel: {kind: point_to_point, way_back: 0.5}}",
     "mesh, point to plane": "{preset: icp}",
     "mesh, point to plane, textbook": (
         "{preset: icp, kernel: {matches: fixed}, blur: [0.0, 0.0, 0.0]}"

@@ -35,8 +35,9 @@ KERNELS = {
     "both_ways": PointToPoint(**WIDE, way_back=0.5),
     "geman_mcclure": PointToPlane(**WIDE, robust=Robust(loss="geman_mcclure", scale=0.1)),
     "point_to_plane": PointToPlane(**WIDE),
-    "plane_alone": PointToPlane(**WIDE, sliding=0.0, robust=Robust(loss="squares", scale=0.1)),
+    "plane_alone": PointToPlane(**WIDE, point_share=0.0, robust=Robust(loss="squares", scale=0.1)),
     "data_normals": PointToPlane(**WIDE, normals="data", way_back=0.2),
+    "angle": PointToPlane(**WIDE, angle_deg=80),
     "fixed": PointToPlane(**WIDE, matches="fixed"),
 }
 
@@ -157,7 +158,7 @@ def test_normal_matrix_is_that_of_the_residuals(skinned, random):
     start, surfels, data = scene(skinned, random)
     bones = skinned.skeleton
     kernel = PointToPlane(
-        sliding=0.3, reach=1e6, matches="fixed", robust=Robust(loss="squares", scale=1.0)
+        point_share=0.3, reach=1e6, matches="fixed", robust=Robust(loss="squares", scale=1.0)
     )
     data = replace(data, normals=None, camera=None)
     placed = surfels.place(skinned.place(start).transforms)
@@ -295,7 +296,7 @@ def test_point_that_faces_elsewhere_has_no_partner(random):
     normals = signs * placed.axes[visible(placed), :, 2]
     normals[0] = np.roll(normals[0], 1)
     data = replace(data, normals=normals)
-    for kernel in (PointToPoint(), PointToPlane()):
+    for kernel in (PointToPoint(angle_deg=60), PointToPlane(angle_deg=60)):
         explained = kernel.against(data, placed).explained(placed)
         assert explained[0] == 0.0
         assert (explained[1:] > 0.99).all()
@@ -313,8 +314,9 @@ def test_observer_gives_normals_of_a_plane(random):
 def test_missing_normals_are_told(skinned, random):
     start, surfels, data = scene(skinned, random)
     placed = surfels.place(skinned.place(start).transforms)
-    with pytest.raises(ConfigError, match=r"observer\.normals"):
-        PointToPlane(normals="data").against(replace(data, normals=None), placed)
+    for kernel in (PointToPlane(normals="data"), PointToPoint(angle_deg=60)):
+        with pytest.raises(ConfigError, match=r"observer\.normals"):
+            kernel.against(replace(data, normals=None), placed)
 
 
 def test_body_without_a_mesh_is_told(linkage):

@@ -14,7 +14,7 @@ def pulled_surfels(
     offsets: Array,
     normals: Array,
     tensions: Array,
-    sliding: float,
+    point_share: float,
     turning: bool,
     count: int,
 ) -> tuple[Array, Array]:
@@ -29,7 +29,7 @@ def pulled_surfels(
         offsets: q, (M, 3) [m].
         normals: n, (M, 3).
         tensions: (M,) [1/m^2].
-        sliding: t.
+        point_share: t.
         turning: Whether n turns with the surfel.
         count: K.
     """
@@ -49,11 +49,11 @@ def pulled_surfels(
             way[5] = n[0] * q[1] - n[1] * q[0]
         wrench, block = wrenches[owners[match]], blocks[owners[match]]
         for i in range(6):
-            pull = (1.0 - sliding) * tension * way[i]
+            pull = (1.0 - point_share) * tension * way[i]
             wrench[i] += along * pull
             for j in range(6):
                 block[i, j] += pull * way[j]
         for i in range(3):
-            wrench[i] -= sliding * tension * q[i]
-            block[i, i] += sliding * tension
+            wrench[i] -= point_share * tension * q[i]
+            block[i, i] += point_share * tension
     return wrenches, blocks

@@ -10,6 +10,7 @@ from pydantic import Field
 from scipy.spatial import cKDTree
 
 from regkit.arrays import Array, Indices
+from regkit.errors import ConfigError
 from regkit.interfaces import Kernel, Response, Similarity
 from regkit.observation import Observation
 from regkit.primitives import Placed, Primitives
@@ -40,8 +41,8 @@ class MatchingKernel(Kernel):
     and a tracker that compares energies is misled."""
     reach: Annotated[float, Field(gt=0.0)] = 10.0
     """No point has a partner that is farther away, in scales of the loss."""
-    angle_deg: Annotated[float, Field(gt=0.0, le=180.0)] = 60.0
-    """Nor one whose normal differs by more [deg], where the observer gives the data normals."""
+    angle_deg: Annotated[float, Field(gt=0.0, le=180.0)] | None = None
+    """Nor one whose normal differs by more [deg]; the observer has to give the data's normals."""
     matches: Literal["renewed", "fixed"] = "renewed"
     """Whether partners are sought at every evaluation, or once where a solution begins.
 
@@ -52,6 +53,21 @@ class MatchingKernel(Kernel):
     way_back: Annotated[float, Field(ge=0.0)] = 0.0
     """Weight of the pairs in the other direction, from each visible surfel to the nearest point;
     they draw in parts of the body near which there are no data."""
+
+
+def given_normals(observation: Observation, option: str) -> Array:
+    """The data's normals (N, 3), which an option of a kernel needs.
+
+    Raises:
+        ConfigError: If the observer gives none.
+    """
+    if observation.normals is None:
+        raise ConfigError(
+            f"{option} needs the data's normals, but the observer gives none; set "
+            "observer.normals (kind points), or leave it out",
+            place=f"kernel.{option}",
+        )
+    return observation.normals
 
 
 @dataclass(frozen=True)
@@ -82,7 +98,7 @@ class MatchingSimilarity(Similarity):
         observation: The data.
         start: The surfels in the start pose; what is hidden there takes no part.
         blur: Standard deviation [m] that widens the loss.
-        sliding: t; with one there is no need of normals.
+        point_share: t; with one there is no need of normals.
         normals: Those of the data, (N, 3), to be taken instead of the surfels'.
     """
 
@@ -93,18 +109,20 @@ class MatchingSimilarity(Similarity):
         start: Placed[Surfels],
         blur: float,
         *,
-        sliding: float,
+        point_share: float,
         normals: Array | None = None,
     ) -> None:
         self._kernel = kernel
         self._points = observation.points
         self._weights = observation.weights / observation.weights.sum()
         self._oriented = observation.camera is not None
-        self._facing = observation.normals
-        if self._facing is not None and self._oriented:
-            away = np.einsum("ni,ni->n", self._facing, self._points) > 0.0
-            self._facing = np.where(away[:, None], -self._facing, self._facing)
-        self._sliding, self._normals = sliding, normals
+        self._facing: Array | None = None
+        if kernel.angle_deg is not None:
+            self._facing = given_normals(observation, "angle_deg")
+            if self._oriented:
+                away = np.einsum("ni,ni->n", self._facing, self._points) > 0.0
+                self._facing = np.where(away[:, None], -self._facing, self._facing)
+        self._point_share, self._normals = point_share, normals
         self._shown = visible(start) if self._oriented else np.arange(len(start))
         self._cloud = cKDTree(observation.points) if kernel.way_back > 0.0 else None
         self._loss = self._bound_loss(float(np.sqrt(observation.variances.mean())), start, blur)
@@ -123,7 +141,7 @@ class MatchingSimilarity(Similarity):
             offsets,
             normals,
             matches.weights * self._loss.weights(sizes),
-            self._sliding,
+            self._point_share,
             self._normals is None,
             len(placed),
         )
@@ -172,7 +190,7 @@ class MatchingSimilarity(Similarity):
         distances, nearest = self._nearest(placed, self._reach)
         points = np.flatnonzero(distances < self._reach)
         surfels = self._shown[nearest[points]]
-        if self._facing is not None:
+        if self._facing is not None and self._kernel.angle_deg is not None:
             alike = (self._facing[points] * placed.axes[surfels, :, 2]).sum(axis=1)
             # Without a camera it is not known to which side the data's normals point.
             alike = alike if self._oriented else np.abs(alike)
@@ -199,4 +217,6 @@ class MatchingSimilarity(Similarity):
         """The residuals r, (M,) [m]."""
         along = np.einsum("mi,mi->m", offsets, normals)
         squares = np.einsum("mi,mi->m", offsets, offsets)
-        return np.asarray(np.sqrt((1.0 - self._sliding) * along**2 + self._sliding * squares))
+        return np.asarray(
+            np.sqrt((1.0 - self._point_share) * along**2 + self._point_share * squares)
+        )

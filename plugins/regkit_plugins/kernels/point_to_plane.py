@@ -6,11 +6,14 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from regkit.errors import ConfigError
 from regkit.observation import Observation
 from regkit.primitives import Placed
 from regkit.surfels import Surfels
-from regkit_plugins.kernels.matching import MatchingKernel, MatchingSimilarity
+from regkit_plugins.kernels.matching import (
+    MatchingKernel,
+    MatchingSimilarity,
+    given_normals,
+)
 
 
 class PointToPlane(MatchingKernel):
@@ -28,7 +31,7 @@ class PointToPlane(MatchingKernel):
     normals: Literal["model", "data"] = "model"
     """Whose planes: those of the surfels, which turn with their segments, or those of the data,
     which the observer has to give."""
-    sliding: Annotated[float, Field(ge=0.0, le=1.0)] = 0.1
+    point_share: Annotated[float, Field(ge=0.0, le=1.0)] = 0.1
     """Share of the squared distance to the point itself in that to the plane, which keeps ends of
     limbs where they are; with one it is point_to_point."""
 
@@ -38,15 +41,9 @@ class PointToPlane(MatchingKernel):
         """Bind the kernel to a frame's data.
 
         Raises:
-            ConfigError: If the data's normals are asked for, and there are none.
+            ConfigError: If the data's normals are needed, and there are none.
         """
-        normals = observation.normals if self.normals == "data" else None
-        if self.normals == "data" and normals is None:
-            raise ConfigError(
-                "point_to_plane is to take the data's normals, but the observer gives none; set "
-                "observer.normals (points), or take normals: model",
-                place="kernel.normals",
-            )
+        normals = given_normals(observation, "normals") if self.normals == "data" else None
         return MatchingSimilarity(
-            self, observation, start, blur, sliding=self.sliding, normals=normals
+            self, observation, start, blur, point_share=self.point_share, normals=normals
         )

@@ -22,4 +22,4 @@ class PointToPoint(MatchingKernel):
         self, observation: Observation, start: Placed[Surfels], *, blur: float = 0.0
     ) -> MatchingSimilarity:
         """Bind the kernel to a frame's data."""
-        return MatchingSimilarity(self, observation, start, blur, sliding=1.0)
+        return MatchingSimilarity(self, observation, start, blur, point_share=1.0)
