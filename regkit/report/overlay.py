@@ -15,6 +15,7 @@ from regkit.interfaces import Registrar
 from regkit.observation import Truth
 from regkit.primitives import Gaussians
 from regkit.skeleton import Placement
+from regkit.surfels import Surfels
 from regkit.tracking import Track, TrackedFrame
 
 if TYPE_CHECKING:
@@ -37,7 +38,8 @@ def draw_overlay(
 ) -> None:
     """Draw the first, the worst and the last frame from the front and from the side.
 
-    Gaussians are drawn as the outlines of their 2-sigma ellipsoids, reference joints as crosses.
+    Gaussians are drawn as the outlines of their 2-sigma ellipsoids, the vertices of a mesh as dots,
+    and reference joints as crosses.
     The worst frame is the one whose points lie farthest from the body's surface.
     """
     # The object interface needs no display and leaves no global state behind.
@@ -95,6 +97,9 @@ def _draw(
             outline = centre[[*view]][:, None] + root @ _CIRCLE
             plot.fill(*outline, facecolor="tab:blue", alpha=0.10)
             plot.plot(*outline, color="tab:blue", linewidth=0.8)
+    if isinstance(registrar.primitives, Surfels):
+        vertices = registrar.primitives.place(placement.transforms).centres
+        plot.plot(vertices[:, across], vertices[:, down], ",", color="tab:blue", alpha=0.6)
     for start, end in _bones(body, placement):
         plot.plot(
             [start[across], end[across]], [start[down], end[down]], color="tab:orange", lw=1.5
