@@ -17,6 +17,7 @@ from pathlib import Path
 from _suite import HEADER, last_line, row, tracked, tracked_utd
 from tracking import ROUNDS, Bench
 
+from regkit.metrics import Measure
 from regkit.optional import one_blas_thread
 
 METHODS = {
@@ -61,6 +62,18 @@ def speeds(methods: dict[str, str]) -> dict[str, dict[str, float]]:
     return figures
 
 
+def print_each(measures: dict[str, dict[str, Measure]]) -> None:
+    """Print the errors of every method on every sequence."""
+    print("\n| raw / adjusted [cm] | " + " | ".join(measures) + " |")
+    print("|---|" + "--:|" * len(measures))
+    for sequence in next(iter(measures.values())):
+        cells = [
+            f"{own[sequence].joint_error_raw_cm:.2f} / {own[sequence].joint_error_adjusted_cm:.2f}"
+            for own in measures.values()
+        ]
+        print(f"| {sequence} | {' | '.join(cells)} |")
+
+
 def main() -> None:
     """Print the tables, and their figures as one JSON object in the last line."""
     methods = installed()
@@ -69,10 +82,9 @@ def main() -> None:
     for kind, template in parts.items():
         what = kind if template is None else f"{kind} with the average person's template"
         print(f"\n{what}\n\n{HEADER}")
-        figures[what] = {
-            name: row(name, tracked(kind, text, template=template))
-            for name, text in methods.items()
-        }
+        measures = {name: tracked(kind, text, template=template) for name, text in methods.items()}
+        figures[what] = {name: row(name, measure) for name, measure in measures.items()}
+        print_each(measures)
     if len(sys.argv) > 1:
         print(f"\nUTD-MHAD\n\n{HEADER}")
         figures["utd"] = {
