@@ -218,3 +218,15 @@ def test_example_runs_on_two_frames(regkit, tmp_path, request, path):
     for figures in methods.values():
         assert figures["mean"]["frames"] == FRAMES
         assert 0.0 < figures["mean"]["joint_error_raw_cm"] < 25.0
+
+
+def test_preset_icp_follows_the_shipped_walk(regkit, tmp_path):
+    """The mesh is the person's own, and the start is found."""
+    out = tmp_path / "out"
+    settings = ("methods={icp: {preset: icp}}", "dataset.frames=3")
+    options = [option for setting in settings for option in ("--set", setting)]
+    ended = regkit("run", EXAMPLES / "demo.yaml", "--out", out, *options)
+    assert ended.code == 0, ended.err
+    measure = json.loads((out / "icp" / "human_walk" / "measure.json").read_text())
+    assert measure["joint_error_raw_cm"] < 2.0
+    assert (out / "icp" / "human_walk" / "overlay.png").is_file()

@@ -22,7 +22,7 @@ def method_of(tmp_path, text, *settings):
     return Experiment.read(file, settings).methods["mine"]
 
 
-@pytest.mark.parametrize("name", ["best", "paper"])
+@pytest.mark.parametrize("name", ["best", "icp", "paper"])
 def test_preset_is_what_its_file_says(tmp_path, name):
     assert name in presets_of("regkit.methods")
     copied = preset_file("regkit.methods", name).read_text()

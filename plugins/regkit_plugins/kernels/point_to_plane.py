@@ -9,11 +9,8 @@ from pydantic import Field
 from regkit.observation import Observation
 from regkit.primitives import Placed
 from regkit.surfels import Surfels
-from regkit_plugins.kernels.matching import (
-    MatchingKernel,
-    MatchingSimilarity,
-    given_normals,
-)
+from regkit_plugins.kernels.matches import MatchingSimilarity
+from regkit_plugins.kernels.matching import MatchingKernel, given_normals
 
 
 class PointToPlane(MatchingKernel):

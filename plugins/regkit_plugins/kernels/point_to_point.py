@@ -7,7 +7,8 @@ from typing import Literal
 from regkit.observation import Observation
 from regkit.primitives import Placed
 from regkit.surfels import Surfels
-from regkit_plugins.kernels.matching import MatchingKernel, MatchingSimilarity
+from regkit_plugins.kernels.matches import MatchingSimilarity
+from regkit_plugins.kernels.matching import MatchingKernel
 
 
 class PointToPoint(MatchingKernel):
