@@ -29,6 +29,8 @@ METHODS = {
     "mesh, point to plane, textbook": (
         "{preset: icp, kernel: {matches: fixed}, blur: [0.0, 0.0, 0.0]}"
     ),
+    "G-SoG, without free_space": "{preset: best, terms: [visibility, intersection, continuity]}",
+    "mesh, point to plane, without free_space": "{preset: icp, terms: [continuity]}",
 }
 
 
