@@ -17,6 +17,9 @@ from regkit.metrics import Measure
 FOLDER = Path("results/suite")
 """Where the sequences are, made when they are not there (two minutes)."""
 
+UTD = Path(__file__).parent.parent / "docs" / "examples" / "utd.yaml"
+"""The experiment on real data."""
+
 OBSERVERS = {
     "human": "{kind: points, voxel: 0.03, sigma: 0.01}",
     "hand": "{kind: points, voxel: 0.008, sigma: 0.003}",
@@ -85,6 +88,14 @@ def _tracked(
         experiment = Experiment.read(file, (*settings, f"dataset.sequences=[{sequence}]"))
         outcome = run(experiment, Path(temporary) / "out", Silent())
     return f"{folder.name}/{sequence}", outcome.measures["method"][sequence]
+
+
+def tracked_utd(folder: Path, method: str) -> dict[str, Measure]:
+    """The figures of a method on the sequences of UTD-MHAD in a folder, by name."""
+    with TemporaryDirectory() as temporary:
+        settings = (f"dataset.root={folder.absolute()}", f"methods={{method: {method}}}")
+        experiment = Experiment.read(UTD, settings)
+        return run(experiment, Path(temporary) / "out", Silent()).measures["method"]
 
 
 def mean(measures: dict[str, Measure], figure: str) -> float:

@@ -50,7 +50,12 @@ class Primitives:
 
 
 @dataclass(frozen=True)
-class Gaussians(Primitives):
+class Volumes(Primitives):
+    """Primitives that fill a part of space, which terms take as the ellipsoids of two scales."""
+
+
+@dataclass(frozen=True)
+class Gaussians(Volumes):
     """Un-normalised Gaussians, eqs. 1 and 3; the scales are standard deviations.
 
     ``G(x) = weight * exp(-1/2 (x - m)^T C^-1 (x - m))`` with the covariance C = R diag(scales^2)
@@ -65,7 +70,7 @@ class SurfaceGaussians(Gaussians):
 
 
 @dataclass(frozen=True)
-class TaperedCapsules(Primitives):
+class TaperedCapsules(Volumes):
     """Convex hulls of two spheres on the primitive's second axis; one sphere is a capsule too.
 
     Terms take a primitive as the ellipsoid of two scales, here that which reaches as far as the

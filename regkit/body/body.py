@@ -65,6 +65,7 @@ class Body:
         gaussians: Gaussians that the template lists for a shape model, by the shape's kind.
         stances: Likely poses for the first frame.
         upright: Whether y points up in the first frame, with the front towards the camera.
+        surface: Its skinned mesh or cloud, if the template brings one.
         size: Height of a person, length of a hand, or another length that a person would name [m].
     """
 

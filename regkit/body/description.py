@@ -11,12 +11,13 @@ from regkit.arrays import read_only
 from regkit.body.body import Body, Markers, Stance
 from regkit.capsules import Capsules
 from regkit.errors import ConfigError
-from regkit.model import Model, did_you_mean, misplaced
+from regkit.model import InputPath, Model, did_you_mean, misplaced
 from regkit.primitives import Gaussians
 from regkit.rotation import vector_to_matrix
 from regkit.skeleton import PoseDescription, SkeletonDescription
 from regkit.skeleton.compile import compiled
 from regkit.skeleton.joints import Range, Vector
+from regkit.surface import SkinnedSurface, surface_in
 
 Deviation = Annotated[float, Field(gt=1e-6)]
 
@@ -66,6 +67,9 @@ class BodyDescription(SkeletonDescription):
     gaussians: dict[str, dict[str, tuple[GaussianDescription, ...]]] = Field(default_factory=dict)
     """By the kind of shape model (sog, gsog), then by segment; others are made from the
     capsules."""
+    mesh: InputPath | None = None
+    """A skinned mesh for shape models that take one: an ``.npz`` file whose bones have the names of
+    segments."""
 
     @model_validator(mode="after")
     def _gaussians_are_on_segments(self) -> BodyDescription:
@@ -87,6 +91,7 @@ class BodyDescription(SkeletonDescription):
 
         Raises:
             ConfigError: If a stance names a joint that there is not.
+            DataError: If the mesh is missing or wrong.
         """
         scale = size / self.size.value
         skeleton = compiled(self, scale)
@@ -127,7 +132,11 @@ class BodyDescription(SkeletonDescription):
             stances=tuple(stances),
             size=size,
             upright=self.upright,
+            surface=self._surface(skeleton.names, scale),
         )
+
+    def _surface(self, segments: tuple[str, ...], scale: float) -> SkinnedSurface | None:
+        return None if self.mesh is None else surface_in(self.mesh, segments).scaled(scale)
 
 
 def _gaussians(

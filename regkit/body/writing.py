@@ -33,9 +33,13 @@ _RESERVED = ("true", "false", "null")
 
 _UPRIGHT = "In the first frame y points up and the front to the camera; a hand may be anyhow."
 
+_BESIDE = "The skin: vertices that follow the segments, in a file beside this one."
+
 
 def template_text(body: BodyDescription, opening: str, comments: Mapping[str, str]) -> str:
     """The YAML of a template; lengths have four decimals [m] and angles one [deg].
+
+    Its mesh, if it has one, has to lie beside it.
 
     Args:
         body: The template.
@@ -74,6 +78,8 @@ def template_text(body: BodyDescription, opening: str, comments: Mapping[str, st
         for name, several in by_segment.items():
             lines.append(f"    {_key(name)}")
             lines += [f"      - {_gaussian(one)}" for one in several]
+    if body.mesh is not None:
+        lines += ["", *_comment(_BESIDE), f"mesh: {json.dumps(body.mesh.name)}"]
     return "\n".join(lines) + "\n"
 
 

@@ -14,6 +14,7 @@ from regkit.rotation import vector_to_matrix
 from regkit.skeleton import SegmentDescription
 from regkit.skeleton.description import CapsuleDescription, parents_first
 from regkit.skeleton.joints import Vector
+from regkit.skinned_mesh import SkinnedMesh
 
 
 @dataclass(frozen=True)
@@ -35,7 +36,10 @@ class Proportions:
     girths: Array
 
     def applied(self, template: BodyDescription) -> BodyDescription:
-        """The template with these proportions; its size is what its height (along y) became."""
+        """The template with these proportions; its size is what its height (along y) became.
+
+        It has no mesh: the template's own would not fit it, but ``skin`` does.
+        """
         order = parents_first(template.segments)
         stretches = {name: self._stretch(index) for index, name in enumerate(order)}
         segments = {
@@ -49,10 +53,31 @@ class Proportions:
             }
             for kind, by_segment in template.gaussians.items()
         }
-        subject = template.model_copy(update={"segments": segments, "gaussians": gaussians})
+        subject = template.model_copy(
+            update={"segments": segments, "gaussians": gaussians, "mesh": None}
+        )
         size = template.size.value * _height(subject) / _height(template)
         return subject.model_copy(
             update={"size": template.size.model_copy(update={"value": size, "range": (size, size)})}
+        )
+
+    def skin(self, template: BodyDescription) -> SkinnedMesh | None:
+        """The template's mesh with these proportions, if it has one.
+
+        Raises:
+            DataError: If the mesh is missing or wrong.
+        """
+        if template.mesh is None:
+            return None
+        mesh = SkinnedMesh.read(template.mesh)
+        order = parents_first(template.segments)
+        return mesh.stretched(
+            np.array(
+                [
+                    self._stretch(order.index(label)).matrix if label in order else np.eye(3)
+                    for label in mesh.labels
+                ]
+            )
         )
 
     def _stretch(self, segment: int) -> _Stretch:

@@ -71,7 +71,13 @@ def calibrate(
     with _ProgressBars() as bars:
         subject = found.calibration(frames).subject(seen, bars)
     opening = OPENING.format(frames=subject.frames, sequence=seen.name, file=out.name)
-    write_text(out, template_text(subject.description, opening, {}))
+    description = subject.description
+    skin = subject.proportions.skin(found.template.description())
+    if skin is not None:
+        mesh = out.with_name(f"{out.stem}_mesh.npz")
+        skin.write(mesh)
+        description = description.model_copy(update={"mesh": mesh})
+    write_text(out, template_text(description, opening, {}))
     _tell(subject, found.template.description().size.value)
     output.print(f"written: {out}", highlight=False, soft_wrap=True)
 

@@ -16,6 +16,7 @@ from regkit.interfaces import Registrar
 from regkit.observation import Truth
 from regkit.primitives import Gaussians, Primitives, TaperedCapsules
 from regkit.skeleton import Placement
+from regkit.surfels import Surfels
 from regkit.tracking import Track, TrackedFrame
 
 if TYPE_CHECKING:
@@ -39,7 +40,7 @@ def draw_overlay(
     """Draw the first, the worst and the last frame from the front and from the side.
 
     Gaussians are drawn as the outlines of their 2-sigma ellipsoids, capsules and spheres as their
-    own, reference joints as crosses.
+    own, the vertices of a mesh as dots, reference joints as crosses.
     The worst frame is the one whose points lie farthest from the body's surface.
     """
     # The object interface needs no display and leaves no global state behind.
@@ -112,6 +113,9 @@ def _draw(
     for outline in _outlines(registrar.primitives, placement, view):
         plot.fill(*outline, facecolor="tab:blue", alpha=0.10)
         plot.plot(*outline, color="tab:blue", linewidth=0.8)
+    if isinstance(registrar.primitives, Surfels):
+        vertices = registrar.primitives.place(placement.transforms).centres
+        plot.plot(vertices[:, across], vertices[:, down], ",", color="tab:blue", alpha=0.6)
     for start, end in _bones(body, placement):
         plot.plot(
             [start[across], end[across]], [start[down], end[down]], color="tab:orange", lw=1.5

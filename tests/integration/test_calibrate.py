@@ -1,5 +1,6 @@
 """``regkit calibrate``: a template of the person seen, and what it refuses."""
 
+import numpy as np
 import pytest
 
 from regkit.body import BodyDescription
@@ -28,6 +29,11 @@ def test_calibrate_writes_a_template_that_experiments_can_use(regkit, files, sub
     assert "2 frames of the sequence first" in description.sources[-1]
     left, right = (description.segments[f"{side}_shin"].offset for side in ("left", "right"))
     assert left == pytest.approx(right)
+    # The skin has the same proportions.
+    body = description.body("subject", description.size.value)
+    transforms = body.place(body.skeleton.rest()).transforms
+    gaps = body.capsules.place(transforms).surface_distance(body.surface.place(transforms))
+    assert np.median(np.abs(gaps)) < 0.012
     template = f"template={{kind: file, path: {subject}}}"
     ended = regkit(
         "run", files.experiment, "--out", files.out, "--set", template, "--set", "start=null"

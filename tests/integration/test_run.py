@@ -229,3 +229,15 @@ def test_spheres_track_the_shipped_walk_to_a_centimetre(regkit, tmp_path):
     figures = json.loads((out / "metrics.json").read_text())["methods"]["spheres"]["mean"]
     assert figures["joint_error_raw_cm"] < 1.0
     assert figures["lost_frames"] == 0
+
+
+def test_preset_icp_follows_the_shipped_walk(regkit, tmp_path):
+    """The mesh is the person's own, and the start is found."""
+    out = tmp_path / "out"
+    settings = ("methods={icp: {preset: icp}}", "dataset.frames=3")
+    options = [option for setting in settings for option in ("--set", setting)]
+    ended = regkit("run", EXAMPLES / "demo.yaml", "--out", out, *options)
+    assert ended.code == 0, ended.err
+    measure = json.loads((out / "icp" / "human_walk" / "measure.json").read_text())
+    assert measure["joint_error_raw_cm"] < 2.0
+    assert (out / "icp" / "human_walk" / "overlay.png").is_file()

@@ -22,7 +22,7 @@ def method_of(tmp_path, text, *settings):
     return Experiment.read(file, settings).methods["mine"]
 
 
-@pytest.mark.parametrize("name", ["best", "paper", "spheres"])
+@pytest.mark.parametrize("name", ["best", "icp", "paper", "spheres"])
 def test_preset_is_what_its_file_says(tmp_path, name):
     assert name in presets_of("regkit.methods")
     copied = preset_file("regkit.methods", name).read_text()
@@ -54,8 +54,8 @@ def test_another_kind_takes_the_place_of_all_that_the_preset_said_of_it(tmp_path
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
-        ("{preset: bets}", "no preset 'bets' (installed: best, paper, spheres; or name a .yaml "
-         "file); did you mean 'best'?"),
+        ("{preset: bets}", "no preset 'bets' (installed: best, icp, paper, spheres; or name a "
+         ".yaml file); did you mean 'best'?"),
         ("{preset: nothing.yaml}", "nothing.yaml: there is no such file"),
         ("{preset: best, kernell: 1}", "methods.mine.kernell: no such field"),
         ("{preset: spheres, shape: gsog}", "kernel 'sphere_distance' compares TaperedCapsules, but "

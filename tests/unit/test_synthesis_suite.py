@@ -145,7 +145,7 @@ def fitted(request, tmp_path_factory):
     """A body of the suite, and the template that is fitted to it."""
     body = SUITE[request.param]
     path = tmp_path_factory.mktemp("suite") / f"{request.param}.yaml"
-    path.write_text(body.template(body.mesh()))
+    body.template(body.mesh()).write(path)
     return request.param, Document.read(path).validated(BodyDescription)
 
 

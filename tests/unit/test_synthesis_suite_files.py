@@ -9,10 +9,12 @@ import numpy as np
 import pytest
 
 from regkit_plugins.datasets.depth import DepthFolders
+from regkit_plugins.fitting.templates import FittedTemplate
 from regkit_plugins.synthesis import suite
 from regkit_plugins.synthesis.__main__ import main
 from regkit_plugins.synthesis.scene import FPS, SR305
 from regkit_plugins.synthesis.suite import SUITE, rendered
+from regkit_plugins.templates.reading import FOLDER, description_in
 
 
 class _Fixed:
@@ -23,6 +25,12 @@ class _Fixed:
 
     def scene(self, name, body, mesh):
         return self._scene
+
+
+def _untouched(mesh):
+    """A template that nothing was fitted for."""
+    human = description_in(FOLDER / "human.yaml")
+    return FittedTemplate(human, mesh, lambda description: "title: none\n")
 
 
 def _few(name, take):
@@ -56,9 +64,7 @@ def test_command_writes_templates_and_sequences_that_can_be_read(tmp_path, monke
         "hand_slim": _few("hand_slim", "signs"),
     }
     small = {
-        name: replace(
-            SUITE[name], template=lambda mesh: "title: none\n", takes={"some": _Fixed(scene)}
-        )
+        name: replace(SUITE[name], template=_untouched, takes={"some": _Fixed(scene)})
         for name, scene in scenes.items()
     }
     for module in ("suite", "__main__"):
@@ -66,7 +72,7 @@ def test_command_writes_templates_and_sequences_that_can_be_read(tmp_path, monke
     monkeypatch.setattr(sys, "argv", ["synthesis", str(tmp_path), "--suite"])
     assert main() == 0
     assert sorted(path.name for path in tmp_path.iterdir()) == sorted(
-        [*small, *(f"{name}.yaml" for name in small)]
+        [*small, *(name + end for name in small for end in (".yaml", "_mesh.npz"))]
     )
     assert "hand_slim.yaml" in capsys.readouterr().out
     for name, scene in scenes.items():

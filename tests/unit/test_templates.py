@@ -16,10 +16,10 @@ from regkit.model import Model, Text
 from regkit.primitives import Gaussians
 from regkit.rotation import from_vector
 from regkit.skeleton import PoseDescription
+from regkit.skinned_mesh import SkinnedMesh
 from regkit_plugins.fitting.hand_layout import hand_layout
 from regkit_plugins.fitting.human_layout import human_layout
 from regkit_plugins.fitting.straight import Layout
-from regkit_plugins.synthesis.skinned_mesh import SkinnedMesh
 from regkit_plugins.templates.file import FileTemplate
 from regkit_plugins.templates.hand import Hand
 from regkit_plugins.templates.human import Human

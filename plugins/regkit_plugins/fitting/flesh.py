@@ -10,8 +10,8 @@ from scipy.spatial import cKDTree
 from regkit.arrays import Array, Indices
 from regkit.optional import open3d
 from regkit.rigid import moved
+from regkit.skinned_mesh import SkinnedMesh
 from regkit_plugins.fitting.straight import Layout
-from regkit_plugins.synthesis.skinned_mesh import SkinnedMesh
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ from regkit.body import BodyDescription
 from regkit.body.description import GaussianDescription, SizeDescription
 from regkit.rigid import moved
 from regkit.skeleton import PoseDescription, SegmentDescription
+from regkit.skinned_mesh import SkinnedMesh
 from regkit_plugins.fitting import mirror
 from regkit_plugins.fitting.capsules import Piece, fitted
 from regkit_plugins.fitting.flesh import Flesh, flesh_of
@@ -16,7 +17,6 @@ from regkit_plugins.fitting.hand_layout import FINGERS, PALM, HandLayout, hand_l
 from regkit_plugins.fitting.hand_limits import SOURCES, STANCES, hand_joints
 from regkit_plugins.fitting.moments import balls, clusters, gaussian
 from regkit_plugins.synthesis.landmarks import hand_landmarks
-from regkit_plugins.synthesis.skinned_mesh import SkinnedMesh
 
 SPACING = 0.0012
 """Distance of the points inside the mesh [m]: some 130,000 points."""

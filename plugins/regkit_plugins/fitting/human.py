@@ -10,6 +10,7 @@ from regkit.body.description import GaussianDescription, SizeDescription
 from regkit.rigid import moved
 from regkit.skeleton import PoseDescription, SegmentDescription
 from regkit.skeleton.joints import FixedJoint
+from regkit.skinned_mesh import SkinnedMesh
 from regkit_plugins.fitting import mirror
 from regkit_plugins.fitting.capsules import fitted
 from regkit_plugins.fitting.flesh import Flesh, flesh_of
@@ -26,7 +27,6 @@ from regkit_plugins.fitting.human_limits import JOINTS, SOURCES, STANCES
 from regkit_plugins.fitting.moments import balls, gaussian, symmetric_balls
 from regkit_plugins.fitting.straight import Layout
 from regkit_plugins.synthesis.landmarks import human_landmarks
-from regkit_plugins.synthesis.skinned_mesh import SkinnedMesh
 
 SPACING = 0.008
 """Distance of the points inside the mesh [m]: some 100,000 points."""

@@ -6,6 +6,7 @@ import numpy as np
 
 from regkit.rigid import moved
 from regkit.rotation import between
+from regkit.skinned_mesh import SkinnedMesh
 from regkit_plugins.fitting.capsules import Piece
 from regkit_plugins.fitting.straight import (
     DOWN,
@@ -17,7 +18,6 @@ from regkit_plugins.fitting.straight import (
     mesh_axes,
     unit,
 )
-from regkit_plugins.synthesis.skinned_mesh import SkinnedMesh
 
 BONES = {
     "pelvis": ("Hips", "LHipJoint", "RHipJoint", "LowerBack"),

@@ -48,7 +48,7 @@ def ball(points: Array) -> GaussianDescription:
 
 def balls(points: Array, count: int) -> tuple[GaussianDescription, ...]:
     """``count`` isotropic Gaussians with the moments of clusters of ``points`` (N, 3) [m]."""
-    owners = clusters(points, _spread(points, count))
+    owners = clusters(points, points[spread(points, count)])
     return tuple(ball(points[owners == index]) for index in range(count))
 
 
@@ -61,7 +61,7 @@ def symmetric_balls(points: Array, pairs: int, middle: int) -> tuple[GaussianDes
         middle: How many lie in the plane.
     """
     half = points[points[:, 0] > 0.0]
-    start = _spread(half, pairs + middle)
+    start = half[spread(half, pairs + middle)]
     start = start[np.argsort(-start[:, 0], kind="stable")]
     owners = clusters(half, start, in_plane=middle)
     balls: list[GaussianDescription] = []
@@ -94,11 +94,11 @@ def clusters(points: Array, centres: Array, in_plane: int = 0) -> Indices:
     return np.asarray(owners)
 
 
-def _spread(points: Array, count: int) -> Array:
-    """``count`` of the points, (K, 3), each as far as can be from those before it."""
-    chosen = [points[np.argmax(((points - points.mean(axis=0)) ** 2).sum(axis=1))]]
-    distances = ((points - chosen[0]) ** 2).sum(axis=1)
+def spread(points: Array, count: int) -> Indices:
+    """``count`` of the points, (K,), each as far as can be from those before it."""
+    chosen = [int(((points - points.mean(axis=0)) ** 2).sum(axis=1).argmax())]
+    distances = ((points - points[chosen[0]]) ** 2).sum(axis=1)
     while len(chosen) < count:
-        chosen.append(points[np.argmax(distances)])
-        distances = np.minimum(distances, ((points - chosen[-1]) ** 2).sum(axis=1))
+        chosen.append(int(distances.argmax()))
+        distances = np.minimum(distances, ((points - points[chosen[-1]]) ** 2).sum(axis=1))
     return np.array(chosen)

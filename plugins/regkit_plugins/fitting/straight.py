@@ -9,7 +9,7 @@ import numpy as np
 
 from regkit.arrays import Array
 from regkit.rigid import moved, rigid
-from regkit_plugins.synthesis.skinned_mesh import SkinnedMesh
+from regkit.skinned_mesh import SkinnedMesh
 
 LEFT = np.array([1.0, 0.0, 0.0])
 DOWN = np.array([0.0, -1.0, 0.0])

@@ -83,7 +83,7 @@ class Direct(Method):
             if not issubclass(self.shape.makes, term.accepts):
                 raise ValueError(
                     f"term '{term.kind}' looks at {term.accepts.__name__}, but shape "
-                    f"'{self.shape.kind}' makes {self.shape.makes.__name__}"
+                    f"'{self.shape.kind}' makes {self.shape.makes.__name__}; leave it out"
                 )
         return self
 

@@ -11,6 +11,7 @@ from regkit.arrays import Array
 from regkit.interfaces import Observer
 from regkit.observation import Frame, Observation
 from regkit_plugins.observers.crop import Crop
+from regkit_plugins.observers.normals import normals
 
 Length = Annotated[float, Field(gt=0.0)]
 
@@ -24,6 +25,8 @@ class PointsObserver(Observer):
     """Standard deviation of each Gaussian [m]."""
     voxel: Annotated[float, Field(ge=1e-4)] | None = None
     """Side of the cubes whose points are averaged to one [m]; every point counts without it."""
+    normals: Annotated[int, Field(ge=3)] | None = None
+    """Give each point the normal of the plane through so many of its neighbours; none without."""
     crop: Crop = Crop()
     """What part of the frame is looked at."""
 
@@ -38,7 +41,14 @@ class PointsObserver(Observer):
         if self.voxel is not None:
             points = _averaged(points, self.voxel)
         ones = np.ones(len(points))
-        return Observation(points, ones, self.sigma**2 * ones, frame.camera, frame.depth)
+        return Observation(
+            points,
+            ones,
+            self.sigma**2 * ones,
+            frame.camera,
+            frame.depth,
+            None if self.normals is None else normals(points, self.normals),
+        )
 
 
 def _averaged(points: Array, voxel: float) -> Array:

@@ -5,5 +5,6 @@ from pathlib import Path
 _FOLDER = Path(__file__).parent
 
 BEST = _FOLDER / "best.yaml"
+ICP = _FOLDER / "icp.yaml"
 PAPER = _FOLDER / "paper.yaml"
 SPHERES = _FOLDER / "spheres.yaml"

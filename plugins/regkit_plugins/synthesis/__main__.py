@@ -7,7 +7,6 @@ import sys
 from pathlib import Path
 
 from regkit.errors import RegkitError
-from regkit.files import write_text
 from regkit_plugins.synthesis.samples import hand_gestures, human_walk
 from regkit_plugins.synthesis.sequence import DepthSequence
 from regkit_plugins.synthesis.suite import SUITE, rendered
@@ -48,9 +47,8 @@ def _write_suite(out: Path, seed: int) -> None:
     for name, body in SUITE.items():
         for take in body.takes:
             _write(rendered(name, take, seed), out / name / take)
-        template = out / f"{name}.yaml"
-        write_text(template, body.template(body.mesh()))
-        print(template, flush=True)
+        for path in body.template(body.mesh()).write(out / f"{name}.yaml"):
+            print(path, flush=True)
 
 
 def _write(sequence: DepthSequence, folder: Path) -> None:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from math import radians
 from pathlib import Path
 
+from regkit.skinned_mesh import SkinnedMesh
 from regkit_plugins.synthesis.hand_poses import HandPose
 from regkit_plugins.synthesis.handywork import read_handywork
 from regkit_plugins.synthesis.iwer import read_iwer
 from regkit_plugins.synthesis.motion_clip import MotionClip
-from regkit_plugins.synthesis.skinned_mesh import SkinnedMesh
 
 ASSETS = Path(__file__).resolve().parent.parent / "assets"
 

@@ -10,11 +10,11 @@ import numpy as np
 from regkit.arrays import Array
 from regkit.rigid import rigid
 from regkit.rotation import vector_to_matrix
+from regkit.skinned_mesh import SkinnedMesh
 from regkit_plugins.synthesis.gestures import Gestures
 from regkit_plugins.synthesis.landmarks import hand_landmarks
 from regkit_plugins.synthesis.retarget_hand import HandMotion
 from regkit_plugins.synthesis.scene import SR305, Scene, Sensor
-from regkit_plugins.synthesis.skinned_mesh import SkinnedMesh
 
 _R_CAMERA_PALM = np.array([[-1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]])
 """The fingers point up in the image, and the palm looks into the camera."""

@@ -9,7 +9,7 @@ import numpy as np
 
 from regkit.arrays import Array
 from regkit.rigid import moved
-from regkit_plugins.synthesis.skinned_mesh import SkinnedMesh
+from regkit.skinned_mesh import SkinnedMesh
 
 _HUMAN_BONES = {
     "shoulder": "Arm",

@@ -11,12 +11,12 @@ import numpy as np
 from regkit.arrays import Array
 from regkit.rigid import rigid
 from regkit.rotation import vector_to_matrix
+from regkit.skinned_mesh import SkinnedMesh
 from regkit_plugins.synthesis import assets
 from regkit_plugins.synthesis.landmarks import human_landmarks
 from regkit_plugins.synthesis.motion_clip import ClipPose, MotionClip
 from regkit_plugins.synthesis.retarget_body import BodyMotion
 from regkit_plugins.synthesis.scene import SR4000, Scene
-from regkit_plugins.synthesis.skinned_mesh import SkinnedMesh
 
 _R_CAMERA_BODY = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 """From x left, y backward, z up to x right, y down, z forward: the body looks into the camera."""

@@ -8,9 +8,9 @@ import numpy as np
 
 from regkit.arrays import Array
 from regkit.rotation import between, from_matrix, to_matrix
+from regkit.skinned_mesh import SkinnedMesh
 from regkit_plugins.synthesis.mending import interpolated
 from regkit_plugins.synthesis.motion_clip import ClipPose
-from regkit_plugins.synthesis.skinned_mesh import SkinnedMesh
 
 R_BODY_CLIP = np.array([[0.0, 0.0, -1.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
 """From the clip's axes (x forward, y up, z right) to the mesh's (x left, y backward, z up)."""

@@ -9,8 +9,8 @@ import numpy as np
 
 from regkit.arrays import Array
 from regkit.rigid import rigid
+from regkit.skinned_mesh import SkinnedMesh
 from regkit_plugins.synthesis.hand_poses import CHAINS, HandPose
-from regkit_plugins.synthesis.skinned_mesh import SkinnedMesh
 
 _R_JOINT_BONE = np.array([[-1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, -1.0, 0.0]])
 """From the axes of a bone of a right finger (x to the thumb's side, y along it, z out of the palm)

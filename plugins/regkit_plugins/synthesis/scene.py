@@ -9,10 +9,10 @@ import numpy as np
 
 from regkit.arrays import Array
 from regkit.camera import Camera
+from regkit.skinned_mesh import SkinnedMesh
 from regkit_plugins.synthesis.landmarks import Landmark, placed
 from regkit_plugins.synthesis.raycast import measured, ray_cast
 from regkit_plugins.synthesis.sequence import DepthSequence
-from regkit_plugins.synthesis.skinned_mesh import SkinnedMesh
 
 FPS = 30.0
 

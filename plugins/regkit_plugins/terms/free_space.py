@@ -51,13 +51,14 @@ class SilhouetteGaps(Similarity):
         count = len(scales)
         ordered = np.sort(scales, axis=1)
         sizes = ordered[:, 1:].prod(axis=1)
-        # Each primitive has three points, all alike for a sphere.
-        self._weights = np.repeat(term.weight * sizes / sizes.sum() / 3.0, 3)
-        self._widths = np.repeat(ordered[:, 0], 3)
+        # Three points of each primitive, of which one is enough for balls.
+        self._each = 1 if (ordered[:, 0] == ordered[:, 2]).all() else 3
+        self._weights = np.repeat(term.weight * sizes / sizes.sum() / self._each, self._each)
+        self._widths = np.repeat(ordered[:, 0], self._each)
         self._margins = term.margin * self._widths
-        self._offsets = np.zeros((count, 3, 3))
+        self._offsets = np.zeros((count, 3, self._each))
         along = np.arange(count), scales.argmax(axis=1)
-        for column, sign in ((1, 1.0), (2, -1.0)):
+        for column, sign in ((1, 1.0), (2, -1.0))[: self._each - 1]:
             self._offsets[*along, column] = sign * REACH * (ordered[:, 2] - ordered[:, 0])
         self._silhouette = scene.observation.silhouette
 
@@ -76,11 +77,11 @@ class SilhouetteGaps(Similarity):
         energy = float(self._weights @ (root - 1.0))
         tension = self._weights / (root * self._widths)
         ways = np.concatenate([slopes, cross(arms.reshape(-1, 3), slopes)], axis=1)
-        wrenches = ((tension * ratio)[:, None] * ways).reshape(count, 3, 6).sum(axis=1)
+        wrenches = ((tension * ratio)[:, None] * ways).reshape(count, -1, 6).sum(axis=1)
         stiffness = None
         if curvature:
             scaled = (tension / self._widths)[:, None] * ways
-            stiffness = scaled.reshape(count, 3, 6).swapaxes(1, 2) @ ways.reshape(count, 3, 6)
+            stiffness = scaled.reshape(count, -1, 6).swapaxes(1, 2) @ ways.reshape(count, -1, 6)
         return Response(energy, wrenches, stiffness)
 
 

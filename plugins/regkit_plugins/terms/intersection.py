@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
 
 from regkit.arrays import Array, Indices
 from regkit.interfaces import Response, Scene, Similarity, Term
-from regkit.primitives import Placed
+from regkit.primitives import Placed, Primitives, Volumes
 from regkit.skeleton import Skeleton
 from regkit_plugins.terms.compiled import overlaps
 
@@ -26,6 +26,7 @@ class Intersection(Term):
     """
 
     kind: Literal["intersection"] = "intersection"
+    accepts: ClassVar[type[Primitives]] = Volumes
 
     weight: Annotated[float, Field(gt=0.0)] = 0.3
     """Weight against the kernel's energy."""

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
 
 from regkit.arrays import Array
 from regkit.interfaces import Scene, Shares, Term
-from regkit.primitives import Placed, Primitives
+from regkit.primitives import Placed, Primitives, Volumes
 from regkit_plugins.terms.compiled import free_rays
 
 
@@ -17,10 +17,11 @@ class Visibility(Term):
     """Weighs each primitive by how much of it the camera sees in the start pose.
 
     A few points of each primitive's outline are looked at; one is hidden if the ray to it passes
-    through another primitive before.
+    through another primitive before. The kernels of surfels have a way of their own.
     """
 
     kind: Literal["visibility"] = "visibility"
+    accepts: ClassVar[type[Primitives]] = Volumes
 
     least: Annotated[float, Field(gt=0.0, le=1.0)] = 0.05
     """What a wholly hidden primitive still weighs, so that it can come into sight again."""

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from regkit.arrays import Array, Indices, read_only
 from regkit.errors import DataError
+from regkit.files import write_arrays
 from regkit.rigid import rigid
 
 KEYS = (
@@ -69,6 +70,23 @@ class SkinnedMesh:
             read_only(arrays["skin_weights"]),
         )
 
+    def write(self, path: Path) -> None:
+        """Write an ``.npz`` file that ``read`` takes.
+
+        Raises:
+            DataError: If the file cannot be written.
+        """
+        values = (
+            self.vertices.astype(np.float32),
+            self.faces.astype(np.uint32),
+            np.array(self.labels),
+            self.parents.astype(np.int16),
+            self.rest.astype(np.float32),
+            self.indices.astype(np.uint16),
+            self.weights.astype(np.float32),
+        )
+        write_arrays(path, dict(zip(KEYS, values, strict=True)))
+
     def reshaped(self, path: Path) -> SkinnedMesh:
         """The same mesh in the shape of another person, from an ``.npz`` file with ``SHAPE_KEYS``.
 
@@ -120,6 +138,26 @@ class SkinnedMesh:
         return np.asarray(
             np.einsum("vij,vj->vi", blended[:, :, :3], self.vertices) + blended[:, :, 3]
         )
+
+    def stretched(self, matrices: Array) -> SkinnedMesh:
+        """The mesh at rest with every bone stretched, so that joints stay together.
+
+        Args:
+            matrices: What happens to positions in each bone's frame, (J, 3, 3).
+        """
+        inverse = np.linalg.inv(self.rest)
+        origins = self.rest[:, :3, 3].copy()
+        for bone in np.flatnonzero(self.parents >= 0):
+            parent = self.parents[bone]
+            local = inverse[parent, :3, :3] @ (self.rest[bone, :3, 3] - self.rest[parent, :3, 3])
+            way = self.rest[parent, :3, :3] @ matrices[parent] @ local
+            origins[bone] = origins[parent] + way
+        rest = rigid(self.rest[:, :3, :3], origins)
+        carriers = np.zeros((len(rest), 4, 4))
+        carriers[:, :3, :3] = rest[:, :3, :3] @ matrices
+        carriers[:, :3, 3] = origins
+        carriers[:, 3, 3] = 1.0
+        return replace(self, vertices=self.posed(carriers), rest=rest)
 
     def turned(self, rotations: Array, root: Array) -> Array:
         """Bone poses ``T_world_bone`` (J, 4, 4) with every bone turned from its direction at rest.

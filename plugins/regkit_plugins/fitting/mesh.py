@@ -1,0 +1,117 @@
+"""The templates' meshes: fewer vertices, which follow segments instead of bones."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+
+from regkit.arrays import Indices
+from regkit.body import BodyDescription
+from regkit.rigid import moved, rigid
+from regkit.skinned_mesh import SkinnedMesh
+from regkit.surface import vertex_normals
+from regkit_plugins.fitting.moments import spread
+from regkit_plugins.fitting.straight import Layout
+
+
+def on_segments(mesh: SkinnedMesh, layout: Layout, template: BodyDescription) -> SkinnedMesh:
+    """The same vertices, in the template's axes, with the template's segments for bones.
+
+    A vertex follows a segment by as much as it followed all of the segment's bones together.
+    """
+    names = tuple(template.segments)
+    owners = np.array([names.index(layout.owners[label]) for label in mesh.labels])
+    weights = np.zeros((len(mesh.vertices), len(names)))
+    np.add.at(weights, (np.arange(len(weights))[:, None], owners[mesh.indices]), mesh.weights)
+    carriers = int((weights > 0.0).sum(axis=1).max())
+    indices = np.argsort(-weights, axis=1, kind="stable")[:, :carriers]
+    weights = np.take_along_axis(weights, indices, axis=1)
+    frames = [layout.frames[name] for name in names]
+    return SkinnedMesh(
+        vertices=moved(layout.T_template_mesh, mesh.vertices),
+        faces=mesh.faces,
+        labels=names,
+        parents=np.array([_parent(template, name) for name in names]),
+        rest=rigid(
+            np.array([frame.rotation.T for frame in frames]),
+            np.array([frame.origin for frame in frames]),
+        ),
+        indices=indices,
+        weights=weights / weights.sum(axis=1, keepdims=True),
+    )
+
+
+def decimated(mesh: SkinnedMesh, count: int) -> SkinnedMesh:
+    """The largest piece of a mesh with ``count`` of its vertices, spread evenly over its surface.
+
+    Every other vertex joins the nearest of these; vertices are near when they lie and face alike,
+    so that the two sides of a finger stay apart. Triangles between three of them are kept. What is
+    not tied to the largest piece (eyes, a tongue) is left out.
+
+    Source: Valette, Chassery, Approximated centroidal Voronoi diagrams for uniform polygonal mesh
+    coarsening, Computer Graphics Forum 23, 2004; here the clusters are those of spread vertices.
+    """
+    mesh = _largest_piece(mesh)
+    if count >= len(mesh.vertices):
+        return mesh
+    features = np.concatenate(
+        [mesh.vertices, _spacing(mesh, count) * vertex_normals(mesh.vertices, mesh.faces)], axis=1
+    )
+    kept = spread(features, count)
+    cluster = np.asarray(cKDTree(features[kept]).query(features)[1])
+    corners = cluster[mesh.faces]
+    ordered = np.sort(corners, axis=1)
+    triangles = corners[(ordered[:, 0] < ordered[:, 1]) & (ordered[:, 1] < ordered[:, 2])]
+    _, first = np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)
+    return _subset(replace(mesh, faces=kept[triangles[np.sort(first)]]), kept)
+
+
+def reflected(mesh: SkinnedMesh) -> SkinnedMesh:
+    """The mirror image in the plane x = 0: a left hand from a right one."""
+    mirror = np.diag([-1.0, 1.0, 1.0, 1.0])
+    return replace(
+        mesh,
+        vertices=mesh.vertices @ mirror[:3, :3],
+        faces=mesh.faces[:, ::-1],
+        rest=mirror @ mesh.rest @ mirror,
+    )
+
+
+def _largest_piece(mesh: SkinnedMesh) -> SkinnedMesh:
+    count = len(mesh.vertices)
+    ends = np.concatenate([mesh.faces[:, :2], mesh.faces[:, 1:]])
+    ties = coo_array((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=(count, count))
+    _, piece = connected_components(ties, directed=False)
+    largest = np.bincount(piece).argmax()
+    own = replace(mesh, faces=mesh.faces[piece[mesh.faces[:, 0]] == largest])
+    return _subset(own, np.flatnonzero(piece == largest))
+
+
+def _subset(mesh: SkinnedMesh, kept: Indices) -> SkinnedMesh:
+    """Some vertices of a mesh whose faces have only these."""
+    number = np.zeros(len(mesh.vertices), dtype=np.intp)
+    number[kept] = np.arange(len(kept))
+    return replace(
+        mesh,
+        vertices=mesh.vertices[kept],
+        faces=number[mesh.faces],
+        indices=mesh.indices[kept],
+        weights=mesh.weights[kept],
+    )
+
+
+def _spacing(mesh: SkinnedMesh, count: int) -> float:
+    """About how far apart so many vertices are on the surface [m]."""
+    corners = mesh.vertices[mesh.faces]
+    edges = corners[:, 1:] - corners[:, :1]
+    area = 0.5 * float(np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1).sum())
+    return float(np.sqrt(area / count))
+
+
+def _parent(template: BodyDescription, name: str) -> int:
+    parent = template.segments[name].parent
+    return -1 if parent is None else list(template.segments).index(parent)
