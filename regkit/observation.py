@@ -39,6 +39,8 @@ class Observation:
         camera: The camera, if it is known; it looks along z from the origin.
         depth: The depth image (H, W) [m] that the points come from, zero where nothing was
             measured, if there is one.
+        normals: Unit normals of the surface at the points, (N, 3), of either sign, if they are
+            known.
     """
 
     points: Array
@@ -46,6 +48,7 @@ class Observation:
     variances: Array
     camera: Camera | None = None
     depth: Array | None = None
+    normals: Array | None = None
 
     @cached_property
     def silhouette(self) -> Silhouette | None:

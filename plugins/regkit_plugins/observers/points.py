@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
-from regkit.arrays import Array
+from regkit.clouds import thinned
 from regkit.interfaces import Observer
 from regkit.observation import Frame, Observation
 from regkit_plugins.observers.crop import Crop
@@ -36,18 +36,6 @@ class PointsObserver(Observer):
         frame = self.crop.cropped(frame)
         points = frame.points
         if self.voxel is not None:
-            points = _averaged(points, self.voxel)
+            points = thinned(points, self.voxel)
         ones = np.ones(len(points))
         return Observation(points, ones, self.sigma**2 * ones, frame.camera, frame.depth)
-
-
-def _averaged(points: Array, voxel: float) -> Array:
-    """The mean of the points in each occupied voxel, (M, 3)."""
-    cells = np.floor(points / voxel).astype(np.int64)
-    cells -= cells.min(axis=0)
-    # One number for each cell sorts much faster than three.
-    _, height, depth = cells.max(axis=0) + 1
-    numbers = (cells[:, 0] * height + cells[:, 1]) * depth + cells[:, 2]
-    _, cell, counts = np.unique(numbers, return_inverse=True, return_counts=True)
-    sums = [np.bincount(cell, weights=column) for column in points.T]
-    return np.column_stack(sums) / counts[:, None]

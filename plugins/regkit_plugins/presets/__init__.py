@@ -6,3 +6,4 @@ _FOLDER = Path(__file__).parent
 
 BEST = _FOLDER / "best.yaml"
 PAPER = _FOLDER / "paper.yaml"
+RIGID = _FOLDER / "rigid.yaml"
