@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from regkit.alignment.body import cloud_body
+from regkit.alignment.determined import hidden_motion
 from regkit.alignment.evaluation import Agreement, agreement
 from regkit.alignment.starts import beginning
 from regkit.arrays import Array
@@ -37,6 +38,7 @@ class Alignment:
         start: How the start was found.
         voxel: Side of the cubes to which both clouds were thinned [m]; None if they were not.
         points: How many points of the source and of the target were compared.
+        hidden: A motion of the source that its surface hardly shows, in words, if there is one.
         seconds: Time to thin, to find the start and to register.
         converged: Whether the method met a tolerance.
         message: Why it ended.
@@ -48,6 +50,7 @@ class Alignment:
     start: str
     voxel: float | None
     points: tuple[int, int]
+    hidden: str | None
     seconds: float
     converged: bool
     message: str
@@ -106,6 +109,7 @@ def align(
         start=begin.told,
         voxel=voxel or None,
         points=(len(few), len(seen)),
+        hidden=hidden_motion(few),
         seconds=seconds,
         converged=found.converged,
         message=found.message,

@@ -73,7 +73,7 @@ def register(
     run_plugin_files(plugin)
     if out is not None:
         check_writable(out, place=f"--out {out}")
-    chosen = _method(method)
+    chosen = named_method(method)
     points = read_cloud(source)
     found = align(
         points,
@@ -88,6 +88,14 @@ def register(
         typer.echo(json.dumps(_figures(found, method, aligned), indent=2, allow_nan=False))
     else:
         output.print(_table(found, method))
+    if found.hidden is not None:
+        errors.print(
+            f"warning: {found.hidden} of the source slides its surface along itself: that part of "
+            "the result means little",
+            style="yellow",
+            highlight=False,
+            soft_wrap=True,
+        )
     if not aligned:
         errors.print(
             f"error: no alignment was found: {100.0 * found.agreement.fitness:.0f} % of the source "
@@ -104,7 +112,7 @@ def register(
         errors.print(f"written: {out}", highlight=False, soft_wrap=True)
 
 
-def _method(text: str) -> Method:
+def named_method(text: str) -> Method:
     """The method that ``--method`` names.
 
     Raises:
@@ -143,6 +151,7 @@ def _figures(found: Alignment, method: str, aligned: bool) -> dict[str, Any]:
         "distance": agreement.distance,
         "fitness_at_start": found.before.fitness,
         "start": found.start,
+        "hidden_motion": found.hidden,
         "method": method,
         "voxel": found.voxel,
         "points": list(found.points),

@@ -44,7 +44,8 @@ def read_cloud(path: Path) -> Array:
     """
     place = str(path)
     if not path.is_file():
-        raise DataError("there is no such file", place=place)
+        told = "this is a folder, not a file" if path.is_dir() else "there is no such file"
+        raise DataError(told, place=place)
     suffix = path.suffix.lower()
     if suffix == ".npz":
         points = _archived(path)

@@ -63,7 +63,10 @@ def test_shape_of_a_plugin_file_is_run(regkit, files, tmp_path):
     add_method(files.experiment, "beads", "{kind: beads, factor: 0.7}")
     refused = regkit("run", files.experiment, "--out", files.out)
     assert refused.code == 1
-    assert "no plug-in 'beads' in regkit.shapes (installed: gsog, sog)" in refused.err
+    assert (
+        "no plug-in 'beads' in regkit.shapes (installed: cloud_gsog, cloud_sog, gsog, sog)"
+        in refused.err
+    )
     ended = regkit(
         "run", files.experiment, "--out", files.out, "--plugin", file, "--only", "beads", *QUICK
     )

@@ -53,8 +53,8 @@ def test_another_kind_takes_the_place_of_all_that_the_preset_said_of_it(tmp_path
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
-        ("{preset: bets}", "no preset 'bets' (installed: best, paper; or name a .yaml file); "
-         "did you mean 'best'?"),
+        ("{preset: bets}", "no preset 'bets' (installed: best, paper, rigid; or name a .yaml "
+         "file); did you mean 'best'?"),
         ("{preset: nothing.yaml}", "nothing.yaml: there is no such file"),
         ("{preset: best, kernell: 1}", "methods.mine.kernell: no such field"),
     ],
