@@ -50,7 +50,6 @@ METHODS = {
     "Open3D, generalized": f"{{{{{ICP}: generalized}}}}",
     "small_gicp, GICP": "{{kind: small_gicp, distance: {distance}}}",
     "probreg, CPD": "{{kind: probreg_cpd}}",
-    "probreg, CPD, w = 0.3": "{{kind: probreg_cpd, outliers: 0.3}}",
     "probreg, FilterReg": "{{kind: probreg_filterreg, shrinking: true}}",
     "biocpd, CPD": "{{kind: biocpd}}",
 }

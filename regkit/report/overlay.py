@@ -87,7 +87,10 @@ def _draw(
     plot.scatter(points[:, across], points[:, down], s=2, c="0.72", linewidths=0)
     body = registrar.body
     placement = body.place(frame.registered.pose)
-    if isinstance(registrar.primitives, Gaussians):
+    if body.surface is not None and not len(body.capsules):
+        surface = body.surface.place(placement.transforms)
+        plot.scatter(surface[:, across], surface[:, down], s=1, c="tab:blue", linewidths=0)
+    elif isinstance(registrar.primitives, Gaussians):
         placed = registrar.primitives.place(placement.transforms)
         for centre, covariance in zip(placed.centres, placed.covariances(), strict=True):
             # The outline of a projected ellipsoid is the ellipse of its projected covariance.
