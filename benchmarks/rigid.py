@@ -44,6 +44,8 @@ CONDITIONS: dict[str, dict[str, float]] = {
 ICP = "kind: open3d_icp, distance: {distance}, estimation"
 METHODS = {
     "regkit, G-SoG": "{{preset: rigid}}",
+    "regkit, round data": "{{preset: rigid, kernel: {{flatness: 1}}}}",
+    "regkit, finest only": "{{preset: rigid, coarsest: 0.001}}",
     "regkit, SoG": "{{preset: rigid, shape: {{kind: cloud_sog}}, kernel: {{flatness: 1}}}}",
     "Open3D, point to point": f"{{{{{ICP}: point_to_point}}}}",
     "Open3D, point to plane": f"{{{{{ICP}: point_to_plane}}}}",
@@ -155,10 +157,34 @@ def robustness(points: Array) -> dict[str, object]:
     return figures
 
 
-def aligned(pair: Pair, method: Method, voxel: float = 0.0) -> tuple[float, float, float]:
+def any_orientation(points: Array) -> dict[str, object]:
+    """The bunny turned by 150 degrees, with the starts that look for the orientation."""
+    print(f"\n| bunny, 150 deg, of {SEEDS} | {' | '.join(CONDITIONS)} | time [s] |")
+    print("|---|" + "--:|" * (len(CONDITIONS) + 1))
+    figures: dict[str, object] = {}
+    chosen = dict(methods(distance=0.2))
+    for name in ("regkit, G-SoG", "small_gicp, GICP"):
+        for start in ("rotations", "features"):
+            counts, seconds = [], []
+            for values in CONDITIONS.values():
+                pairs = [bunny(points, 150.0, seed, **values) for seed in range(SEEDS)]
+                runs = [aligned(pair, chosen[name], start=start) for pair in pairs]
+                seconds += [took for _, _, took in runs]
+                good = [turn < WITHIN_DEG and shift < WITHIN_SIZE for turn, shift, _ in runs]
+                counts.append(sum(good))
+            took = float(np.nanmedian(seconds))
+            row = f"{name}, --start {start}"
+            print(f"| {row} | {' | '.join(map(str, counts))} | {took:.2f} |", flush=True)
+            figures[row] = {"success": dict(zip(CONDITIONS, counts, strict=True)), "seconds": took}
+    return figures
+
+
+def aligned(
+    pair: Pair, method: Method, voxel: float = 0.0, start: str = "centroids"
+) -> tuple[float, float, float]:
     """Rotation error [deg], translation error as a part of the size, and seconds."""
     try:
-        found = align(pair.source, pair.target, method, voxel=voxel, start="centroids")
+        found = align(pair.source, pair.target, method, voxel=voxel, start=start)
     except DependencyError:
         raise
     except RegkitError:
@@ -224,7 +250,9 @@ def main() -> None:
         sys.exit(f"the reference data are not at {DATA}")
     with threadpool_limits(1):
         figures: dict[str, object] = {"threads": 1, "all points": ours_on_all_points()}
-        figures["bunny"] = robustness(read_cloud(DATA / "rigid_misc" / "bunny_source.txt"))
+        points = read_cloud(DATA / "rigid_misc" / "bunny_source.txt")
+        figures["bunny"] = robustness(points)
+        figures["bunny, any orientation"] = any_orientation(points)
         for count, voxel in ((35_000, 0.25), (35_000, 0.0), (20_000, 0.0)):
             figures[f"lidar {count}, voxel {voxel}"] = lidar(count, voxel)
     print(json.dumps(figures))

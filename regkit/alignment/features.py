@@ -38,7 +38,9 @@ def by_features(source: Array, target: Array) -> Array:
                 cloud, search(radius=5.0 * voxel, max_nn=100)
             )
         )
-    transform = np.asarray(_matched(library, clouds, features, 1.5 * voxel))
+    # Its warnings go to standard output, where results belong.
+    with library.utility.VerbosityContextManager(library.utility.VerbosityLevel.Error):
+        transform = _matched(library, clouds, features, 1.5 * voxel)
     if np.array_equal(transform, np.eye(4)):
         raise DataError("too few features of the clouds match; take another --start")
     return transform

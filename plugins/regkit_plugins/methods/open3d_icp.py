@@ -33,13 +33,19 @@ class Open3DICP(RigidMethod):
     def aligned(self, source: Array, target: Array, start: Array, size: float) -> Aligned:
         """Align by ``open3d.pipelines.registration``."""
         library = self.library()
+        # Its warnings go to standard output, where results belong.
+        with library.utility.VerbosityContextManager(library.utility.VerbosityLevel.Error):
+            return self._aligned(library, source, target, start, self.distance * size)
+
+    def _aligned(
+        self, library: Any, source: Array, target: Array, start: Array, distance: float
+    ) -> Aligned:
         clouds = [
             library.geometry.PointCloud(library.utility.Vector3dVector(points))
             for points in (source, target)
         ]
         pipeline = library.pipelines.registration
         criteria = pipeline.ICPConvergenceCriteria(max_iteration=self.max_iterations)
-        distance = self.distance * size
         if self.estimation == "generalized":
             result = pipeline.registration_generalized_icp(
                 *clouds,

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from functools import lru_cache
+from pathlib import Path
+from typing import Annotated, Literal, Self
 
 import numpy as np
-from pydantic import Field
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
 
 from regkit.alignment import cloud_body, cloud_description
 from regkit.arrays import Array
 from regkit.body import Body, BodyDescription
 from regkit.clouds import read_cloud, thinned
 from regkit.clouds.checks import check_shape
+from regkit.errors import RegkitError
 from regkit.interfaces.template import Template
 from regkit.model import InputPath
 from regkit.skeleton.joints import Vector
@@ -30,6 +34,15 @@ class CloudTemplate(Template):
     """Side of the cubes whose points are averaged to one [m]; every point is taken without it."""
     markers: dict[str, Vector] = Field(default_factory=dict)
     """Named points in the file's coordinates [m], to be compared with reference points."""
+
+    @model_validator(mode="after")
+    def _read_early(self) -> Self:
+        try:
+            self._points()
+        except RegkitError as error:
+            # This type of error keeps pydantic's input out of the message, which has the path.
+            raise PydanticCustomError("plugin_error", "{error}", {"error": str(error)}) from error
+        return self
 
     def description(self) -> BodyDescription:
         """One free segment.
@@ -54,10 +67,18 @@ class CloudTemplate(Template):
         return cloud_body(self.name(), points - points.mean(axis=0), self._markers(points))
 
     def _points(self) -> Array:
-        points = read_cloud(self.path)
-        check_shape(points, place=str(self.path))
+        changed = self.path.stat().st_mtime_ns if self.path.is_file() else 0
+        points = _read(self.path, changed)
         return points if self.voxel is None else thinned(points, self.voxel)
 
     def _markers(self, points: Array) -> dict[str, Array]:
         centre = points.mean(axis=0)
         return {name: np.array(at) - centre for name, at in self.markers.items()}
+
+
+@lru_cache(maxsize=8)
+def _read(path: Path, changed: int) -> Array:
+    """The points of a file, which is read again only if it has changed."""
+    points = read_cloud(path)
+    check_shape(points, place=str(path))
+    return points
