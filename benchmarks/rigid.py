@@ -19,6 +19,7 @@ import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from threadpoolctl import threadpool_limits
@@ -115,12 +116,12 @@ def methods(distance: float) -> Iterator[tuple[str, Method]]:
         yield name, named_method(text.format(distance=distance))
 
 
-def robustness(points: Array) -> dict[str, object]:
+def robustness(points: Array) -> dict[str, dict[str, Any]]:
     """The bunny's table."""
     heads = [*CONDITIONS, *(f"{angle} deg" for angle in ANGLES), "of 200"]
     print(f"\n| bunny | {' | '.join(heads)} | rotation [deg] | shift [%] | time [ms] |")
     print("|---|" + "--:|" * (len(heads) + 3))
-    figures: dict[str, object] = {}
+    figures: dict[str, dict[str, Any]] = {}
     for name, method in methods(distance=0.2):
         found: dict[tuple[str, int], int] = {}
         errors, seconds = [], []
@@ -154,6 +155,14 @@ def robustness(points: Array) -> dict[str, object]:
             "shift_percent": round(100 * float(shift), 3),
             "milliseconds": round(took, 2),
         }
+    return with_ratios(figures)
+
+
+def with_ratios(figures: dict[str, dict[str, Any]]) -> dict[str, dict[str, Any]]:
+    """The figures, with every time as a ratio to that of small_gicp in the same run."""
+    base = figures.get("small_gicp, GICP", {}).get("milliseconds")
+    for row in figures.values():
+        row["time_to_small_gicp"] = round(row["milliseconds"] / base, 2) if base else None
     return figures
 
 
@@ -192,7 +201,7 @@ def aligned(
     return (*pair.errors(found.transform), found.seconds)
 
 
-def lidar(count: int, voxel: float) -> dict[str, object]:
+def lidar(count: int, voxel: float) -> dict[str, dict[str, Any]]:
     """The table of the LiDAR pair with so many points of each, thinned to voxels [m] or not."""
     folder = DATA / "rigid_lidar_mit"
     random = np.random.default_rng(0)
@@ -203,7 +212,7 @@ def lidar(count: int, voxel: float) -> dict[str, object]:
     thin = f"in voxels of {voxel} m" if voxel else "all"
     print(f"\n| LiDAR, {count} points, {thin} | rotation [deg] | shift [mm] | time [ms] |")
     print("|---|--:|--:|--:|")
-    figures: dict[str, object] = {}
+    figures: dict[str, dict[str, Any]] = {}
     # small_gicp's own default distance is 1 m.
     for name, method in methods(distance=1.0 / size):
         if not voxel and ("CPD" in name or "FilterReg" in name):
@@ -222,7 +231,7 @@ def lidar(count: int, voxel: float) -> dict[str, object]:
             "shift_mm": round(1000 * size * shift, 2),
             "milliseconds": round(took, 1),
         }
-    return figures
+    return with_ratios(figures)
 
 
 def peak_memory() -> int:

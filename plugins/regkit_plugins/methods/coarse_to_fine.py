@@ -41,9 +41,9 @@ class CoarseToFine(Method):
     """What makes the energy small between two searches for neighbours."""
     coarsest: Part = 0.1
     """Side of the first voxels, as a part of the body's size."""
-    finest: Part = 0.7
+    finest: Part = 1.0
     """Side of the last voxels, as a part of the distance of neighbouring points."""
-    resolutions: Annotated[int, Field(ge=1)] = 8
+    resolutions: Annotated[int, Field(ge=1)] = 6
     """How many there are, their voxels shrinking evenly."""
     width: Part = 2.0
     """Standard deviation of a pair of Gaussians in the surface, in voxels."""
