@@ -6,10 +6,7 @@ import numpy as np
 import pytest
 
 from regkit.clouds import write_cloud
-from regkit.document import Document
-from regkit.errors import ConfigError
-from regkit.interfaces import Template
-from regkit.model import Model
+from regkit.errors import DataError
 from regkit.observation import Observation
 from regkit.rigid import moved, rigid
 from regkit.rotation import vector_to_matrix
@@ -65,10 +62,6 @@ def test_start_is_found_in_any_orientation(template, lump, turn):
     assert off.mean() < 0.03
 
 
-class Named(Model):
-    template: Template
-
-
 @pytest.mark.parametrize(
     ("content", "expected"),
     [
@@ -77,13 +70,12 @@ class Named(Model):
         ("words\nand more\n", "a.txt:2: not a row that begins with x y z: 'and more'"),
     ],
 )
-def test_cloud_that_cannot_be_is_told_when_the_configuration_is_read(tmp_path, content, expected):
+def test_cloud_that_cannot_be_is_told(tmp_path, content, expected):
     path = tmp_path / "a.txt"
     if content is not None:
         path.write_text(content)
-    document = Document({"template": {"kind": "cloud", "path": str(path)}}, {(): "here"})
-    with pytest.raises(ConfigError) as caught:
-        document.validated(Named)
+    with pytest.raises(DataError) as caught:
+        CloudTemplate(path=path).description()
     assert expected in str(caught.value)
 
 

@@ -4,18 +4,16 @@ from __future__ import annotations
 
 from functools import lru_cache
 from pathlib import Path
-from typing import Annotated, Literal, Self
+from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
+from pydantic import Field
 
 from regkit.alignment import cloud_body, cloud_description
 from regkit.arrays import Array
 from regkit.body import Body, BodyDescription
 from regkit.clouds import read_cloud, thinned
 from regkit.clouds.checks import check_shape
-from regkit.errors import RegkitError
 from regkit.interfaces.template import Template
 from regkit.model import InputPath
 from regkit.skeleton.joints import Vector
@@ -34,15 +32,6 @@ class CloudTemplate(Template):
     """Side of the cubes whose points are averaged to one [m]; every point is taken without it."""
     markers: dict[str, Vector] = Field(default_factory=dict)
     """Named points in the file's coordinates [m], to be compared with reference points."""
-
-    @model_validator(mode="after")
-    def _read_early(self) -> Self:
-        try:
-            self._points()
-        except RegkitError as error:
-            # This type of error keeps pydantic's input out of the message, which has the path.
-            raise PydanticCustomError("plugin_error", "{error}", {"error": str(error)}) from error
-        return self
 
     def description(self) -> BodyDescription:
         """One free segment.
