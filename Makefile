@@ -29,6 +29,7 @@ lint: $(ready)
 
 samples: $(ready) ## Make the sample sequences again
 	@$(bin)/python -m regkit_plugins.synthesis docs/examples/data
+	@$(bin)/python -m regkit_plugins.synthesis.mannequin docs/examples/data/mannequin
 
 templates: $(ready) ## Fit the templates to the meshes again
 	@$(bin)/python -m regkit_plugins.fitting plugins/regkit_plugins/templates

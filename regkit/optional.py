@@ -65,6 +65,24 @@ def casadi() -> Any:
         ) from None
 
 
+def library(module: str, *, install: str) -> Any:
+    """A library that only some plug-ins need.
+
+    Args:
+        module: Its name in Python.
+        install: The command that installs it.
+
+    Raises:
+        DependencyError: If it is missing or cannot be loaded.
+    """
+    try:
+        return importlib.import_module(module)
+    except ModuleNotFoundError as error:
+        raise DependencyError(f"{error.name} is not installed; run: {install}") from None
+    except (ImportError, OSError) as error:
+        raise DependencyError(f"{module} cannot be loaded ({error}); run: {install}") from None
+
+
 def one_blas_thread() -> AbstractContextManager[object]:
     """A context in which NumPy's matrix products use one thread.
 

@@ -13,7 +13,7 @@ from regkit.body import Body
 from regkit.errors import DataError, RegkitError
 from regkit.interfaces import Observer, Registered, Registrar, Sequence, Tracker
 from regkit.observation import Observation
-from regkit.skeleton import Pose
+from regkit.skeleton import Placement, Pose
 
 
 @dataclass(frozen=True)
@@ -72,6 +72,19 @@ def _check_near(body: Body, pose: Pose, observation: Observation) -> None:
         )
 
 
+def _surface_distance(body: Body, placement: Placement, points: Array) -> float:
+    """Median distance [m] of points to the body's capsules, or to the points of its surface."""
+    if len(body.capsules):
+        placed = body.capsules.place(placement.transforms)
+        return float(np.median(np.abs(placed.surface_distance(points))))
+    if body.surface is None:
+        return float("nan")
+    from scipy.spatial import KDTree
+
+    distances, _ = KDTree(body.surface.place(placement.transforms)).query(points)
+    return float(np.median(distances))
+
+
 @dataclass(frozen=True)
 class Track:
     """A tracked sequence as arrays over its T frames.
@@ -109,12 +122,8 @@ class Track:
         poses = [frame.registered.pose for frame in frames]
         placements = [body.place(pose) for pose in poses]
         distances = [
-            np.median(np.abs(body.capsules.place(placement.transforms).surface_distance(points)))
-            if len(body.capsules)
-            else np.nan
-            for placement, points in zip(
-                placements, (frame.observation.points for frame in frames), strict=True
-            )
+            _surface_distance(body, placement, frame.observation.points)
+            for placement, frame in zip(placements, frames, strict=True)
         ]
         return cls(
             root=np.array([pose.root for pose in poses]),

@@ -73,3 +73,14 @@ def reference_data() -> Path:
     if not REFERENCE_DATA.is_dir():
         pytest.skip(f"the reference data are not at {REFERENCE_DATA}")
     return REFERENCE_DATA
+
+
+@pytest.fixture(scope="session")
+def lump() -> np.ndarray:
+    """1,500 points on a closed surface without symmetry, about 0.4 m long, away from the origin."""
+    random = np.random.default_rng(3)
+    directions = random.normal(size=(1500, 3))
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    x, y, z = directions.T
+    radii = 1.0 + 0.3 * np.sin(3.0 * x + 1.0) * y + 0.35 * np.cos(2.0 * z) * x + 0.2 * y * z
+    return 0.1 * radii[:, None] * directions * [1.6, 1.0, 0.7] + [0.5, -0.2, 1.0]

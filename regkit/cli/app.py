@@ -10,18 +10,19 @@ from regkit.cli.calibrate import calibrate
 from regkit.cli.console import print_error
 from regkit.cli.doctor import doctor
 from regkit.cli.plugins import plugins
+from regkit.cli.register import register
 from regkit.cli.run import run
 from regkit.cli.schema import schema
 from regkit.cli.validate import validate
 from regkit.errors import RegkitError
 
 app = typer.Typer(
-    help="Register articulated shape models to point clouds and depth frames.",
+    help="Register articulated and rigid shape models to point clouds and depth frames.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
 )
-for command in (run, calibrate, validate, plugins, schema, doctor):
+for command in (run, register, calibrate, validate, plugins, schema, doctor):
     app.command()(command)
 
 

@@ -110,12 +110,16 @@ def _draw(
     plot.scatter(points[:, across], points[:, down], s=2, c="0.72", linewidths=0)
     body = registrar.body
     placement = body.place(frame.registered.pose)
-    for outline in _outlines(registrar.primitives, placement, view):
-        plot.fill(*outline, facecolor="tab:blue", alpha=0.10)
-        plot.plot(*outline, color="tab:blue", linewidth=0.8)
-    if isinstance(registrar.primitives, Surfels):
-        vertices = registrar.primitives.place(placement.transforms).centres
-        plot.plot(vertices[:, across], vertices[:, down], ",", color="tab:blue", alpha=0.6)
+    if body.surface is not None and not len(body.capsules):
+        surface = body.surface.place(placement.transforms)
+        plot.scatter(surface[:, across], surface[:, down], s=1, c="tab:blue", linewidths=0)
+    else:
+        for outline in _outlines(registrar.primitives, placement, view):
+            plot.fill(*outline, facecolor="tab:blue", alpha=0.10)
+            plot.plot(*outline, color="tab:blue", linewidth=0.8)
+        if isinstance(registrar.primitives, Surfels):
+            vertices = registrar.primitives.place(placement.transforms).centres
+            plot.plot(vertices[:, across], vertices[:, down], ",", color="tab:blue", alpha=0.6)
     for start, end in _bones(body, placement):
         plot.plot(
             [start[across], end[across]], [start[down], end[down]], color="tab:orange", lw=1.5

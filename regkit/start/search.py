@@ -12,6 +12,7 @@ from regkit.interfaces import Template
 from regkit.observation import Observation
 from regkit.optional import one_blas_thread
 from regkit.skeleton import Pose, PoseDescription
+from regkit.start.cloud import cloud_pose
 from regkit.start.fit import STIFFNESS, Stage, fitted
 from regkit.start.guesses import Candidate, guesses
 from regkit.start.scan import Scan
@@ -83,6 +84,9 @@ def found_start(template: Template, observation: Observation, *later: Observatio
         ConfigError: If the template has no capsules, or a root that does not move freely.
     """
     smallest = template.body(template.candidate_sizes()[0])
+    rigid = smallest.skeleton.free and len(smallest.skeleton.names) == 1
+    if rigid and smallest.surface is not None and not len(smallest.capsules):
+        return Start(smallest, cloud_pose(smallest, smallest.surface, observation))
     if not smallest.skeleton.free or not len(smallest.capsules):
         lack = "free root" if not smallest.skeleton.free else "capsules"
         raise ConfigError(

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from small_experiment import EXAMPLES, QUICK, add_method
 
-from regkit.interfaces import Scene, Term
+from regkit.interfaces import Scene, ShapeModel, Term
 from regkit.plugin import run_plugin_file
 
 SHAPE = '''
@@ -65,7 +65,8 @@ def test_shape_of_a_plugin_file_is_run(regkit, files, tmp_path):
     add_method(files.experiment, "beads", "{kind: beads, factor: 0.7}")
     refused = regkit("run", files.experiment, "--out", files.out)
     assert refused.code == 1
-    assert "no plug-in 'beads' in regkit.shapes (installed: gsog, mesh, sog, sphere)" in refused.err
+    installed = ", ".join(ShapeModel.available())
+    assert f"no plug-in 'beads' in regkit.shapes (installed: {installed})" in refused.err
     ended = regkit(
         "run", files.experiment, "--out", files.out, "--plugin", file, "--only", "beads", *QUICK
     )

@@ -8,6 +8,7 @@ from regkit.body import BodyDescription
 from regkit.document import Document
 from regkit.errors import ConfigError, DataError, RegkitError
 from regkit.experiment import Experiment
+from regkit.interfaces import Kernel, ShapeModel
 from regkit.skeleton import SkeletonDescription
 
 EXPERIMENT = """\
@@ -48,7 +49,7 @@ def test_valid_experiment_is_read(file):
     ("old", "new", "expected"),
     [
         ("shape: gsog", "shape: gsg", "FILE:9: methods.gsog.shape: no plug-in 'gsg' in "
-         "regkit.shapes (installed: gsog, mesh, sog, sphere); did you mean 'gsog'?"),
+         f"regkit.shapes (installed: {', '.join(ShapeModel.available())}); did you mean 'gsog'?"),
         ("kind: lbfgs", "kind: lbfgs, max_iteration: 5", "FILE:11: "
          "methods.gsog.solver.max_iteration: no such field (there are: gradient_tolerance, kind, "
          "max_iterations, memory, value_tolerance); did you mean 'max_iterations'?"),
@@ -60,8 +61,7 @@ def test_valid_experiment_is_read(file):
         ("height: 1.7", "height: .nan", "FILE:5: template.height: input should be a finite number; "
          "it is nan"),
         ("kind: correlation", "covariance: exact", "FILE:10: methods.gsog.kernel: expected a name "
-         "or a mapping with a 'kind' (installed: correlation, likelihood, point_to_plane, "
-         "point_to_point, sphere_distance)"),
+         f"or a mapping with a 'kind' (installed: {', '.join(Kernel.available())})"),
         ("    shape: gsog\n", "", "FILE:7: methods.gsog.shape: field required"),
         ("name: test", "name: a/b", "FILE:1: name: 'a/b' names a folder: use letters, digits, '-', "
          "'_' and '.', and begin with a letter or digit"),

@@ -7,6 +7,8 @@ from regkit.errors import ConfigError
 from regkit.experiment import Experiment
 from regkit.preset import preset_file, presets_of
 
+INSTALLED = ", ".join(presets_of("regkit.methods"))
+
 EXPERIMENT = """\
 name: presets
 dataset: {{kind: depth, root: nowhere}}
@@ -54,8 +56,8 @@ def test_another_kind_takes_the_place_of_all_that_the_preset_said_of_it(tmp_path
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
-        ("{preset: bets}", "no preset 'bets' (installed: best, icp, paper, spheres; or name a "
-         ".yaml file); did you mean 'best'?"),
+        ("{preset: bets}", f"no preset 'bets' (installed: {INSTALLED}; "
+         "or name a .yaml file); did you mean 'best'?"),
         ("{preset: nothing.yaml}", "nothing.yaml: there is no such file"),
         ("{preset: best, kernell: 1}", "methods.mine.kernell: no such field"),
         ("{preset: spheres, shape: gsog}", "kernel 'sphere_distance' compares TaperedCapsules, but "

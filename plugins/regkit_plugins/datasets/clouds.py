@@ -2,23 +2,15 @@
 
 from __future__ import annotations
 
-import zlib
 from collections.abc import Iterator
-from contextlib import redirect_stdout
 from dataclasses import dataclass
-from io import StringIO
 from pathlib import Path
 from typing import Literal
-from zipfile import BadZipFile
 
-import numpy as np
-
-from regkit.arrays import Array, checked_points
-from regkit.errors import DataError
+from regkit.clouds import read_cloud
 from regkit.interfaces import Dataset, Sequence
 from regkit.model import InputPath
 from regkit.observation import Frame, Truth
-from regkit.optional import open3d
 from regkit_plugins.datasets.folders import (
     SequenceDescription,
     numbered_files,
@@ -27,8 +19,6 @@ from regkit_plugins.datasets.folders import (
 )
 
 SUFFIXES = (".ply", ".pcd", ".xyz", ".npz")
-
-_DAMAGED = (BadZipFile, zlib.error)
 
 
 class CloudFolders(Dataset):
@@ -78,34 +68,3 @@ class CloudSequence(Sequence):
     def truth(self) -> Truth | None:
         """The joints of ``truth.csv``."""
         return read_truth(self.folder / "truth.csv", self.length)
-
-
-def read_cloud(path: Path) -> Array:
-    """The points (N, 3) [m] of a file.
-
-    Raises:
-        DataError: If the file is missing or damaged, or a point is not finite.
-        DependencyError: If Open3D is needed and missing.
-    """
-    if not path.is_file():
-        raise DataError("there is no such file", place=str(path))
-    if path.suffix.lower() == ".npz":
-        try:
-            with path.open("rb") as stream, np.load(stream, allow_pickle=False) as arrays:
-                points = arrays["points"].astype(np.float64)
-        except (OSError, EOFError, ValueError, KeyError, TypeError, *_DAMAGED) as error:
-            raise DataError(
-                f"not a .npz with an array 'points' (N, 3): {error}", place=str(path)
-            ) from None
-    else:
-        library = open3d()
-        level = library.utility.VerbosityLevel.Warning
-        # Open3D only prints that it failed, and returns what was in the memory beyond a PLY's end.
-        with library.utility.VerbosityContextManager(level), redirect_stdout(StringIO()) as told:
-            points = np.asarray(library.io.read_point_cloud(str(path)).points)
-        if told.getvalue():
-            raise DataError("the file holds no point, or is damaged", place=str(path))
-    checked = checked_points(points, place=str(path))
-    if not len(checked):
-        raise DataError("the file holds no point, or is damaged", place=str(path))
-    return checked

@@ -56,7 +56,7 @@ class LikelihoodSimilarity(GaussianSimilarity):
             blur=blur,
             frozen=kernel.covariance == "frozen",
         )
-        self._background = kernel.outliers / _box_volume(observation)
+        self._background = kernel.outliers / box_volume(observation)
 
     def weigh(self, densities: Array, data_weights: Array) -> float:
         """A pair weighs by the Gaussian's share of the point, as in an E-step."""
@@ -70,7 +70,7 @@ class LikelihoodSimilarity(GaussianSimilarity):
         return np.asarray(total / (total + self._background * data_weights))
 
 
-def _box_volume(observation: Observation) -> float:
+def box_volume(observation: Observation) -> float:
     """Volume [m^3] of the data's box; a flat cloud is taken to be a tenth as deep as long."""
     sides = np.ptp(observation.points, axis=0)
     return float(np.maximum(sides, 0.1 * sides.max()).prod())

@@ -7,11 +7,10 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
-from regkit.arrays import Array
+from regkit.clouds import normals, thinned
 from regkit.interfaces import Observer
 from regkit.observation import Frame, Observation
 from regkit_plugins.observers.crop import Crop
-from regkit_plugins.observers.normals import normals
 
 Length = Annotated[float, Field(gt=0.0)]
 
@@ -39,7 +38,7 @@ class PointsObserver(Observer):
         frame = self.crop.cropped(frame)
         points = frame.points
         if self.voxel is not None:
-            points = _averaged(points, self.voxel)
+            points = thinned(points, self.voxel)
         ones = np.ones(len(points))
         return Observation(
             points,
@@ -47,17 +46,6 @@ class PointsObserver(Observer):
             self.sigma**2 * ones,
             frame.camera,
             frame.depth,
-            None if self.normals is None else normals(points, self.normals),
+            # A point is the first of its own neighbours.
+            None if self.normals is None else normals(points, self.normals + 1),
         )
-
-
-def _averaged(points: Array, voxel: float) -> Array:
-    """The mean of the points in each occupied voxel, (M, 3)."""
-    cells = np.floor(points / voxel).astype(np.int64)
-    cells -= cells.min(axis=0)
-    # One number for each cell sorts much faster than three.
-    _, height, depth = cells.max(axis=0) + 1
-    numbers = (cells[:, 0] * height + cells[:, 1]) * depth + cells[:, 2]
-    _, cell, counts = np.unique(numbers, return_inverse=True, return_counts=True)
-    sums = [np.bincount(cell, weights=column) for column in points.T]
-    return np.column_stack(sums) / counts[:, None]

@@ -7,4 +7,5 @@ _FOLDER = Path(__file__).parent
 BEST = _FOLDER / "best.yaml"
 ICP = _FOLDER / "icp.yaml"
 PAPER = _FOLDER / "paper.yaml"
+RIGID = _FOLDER / "rigid.yaml"
 SPHERES = _FOLDER / "spheres.yaml"

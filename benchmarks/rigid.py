@@ -1,0 +1,271 @@
+"""How often, how well and how fast rigid clouds are aligned, by regkit and by other libraries.
+
+    python benchmarks/rigid.py
+
+A bunny of 453 points is turned by 10, 30, 60 and 90 degrees about random axes and shifted by a
+tenth of its size, ten times each: as it is; with noise of 1 % of its size on both clouds; with 60 %
+overlap; with 30 % of each cloud outliers; with all of these. Every method sets out with the
+centroids on one another. An alignment succeeds if it is within 5 degrees and 5 % of the size of the
+truth: less than the spacing of the points across the bunny (so that what remains is the data's
+noise), and from where every local method ends at the same minimum. Then a pair of LiDAR scans with
+a known truth, with 35,000 and 20,000 points of each. One thread throughout.
+"""
+
+from __future__ import annotations
+
+import json
+import resource
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from regkit.alignment import align, read_transform
+from regkit.arrays import Array
+from regkit.clouds import read_cloud
+from regkit.errors import DependencyError, RegkitError
+from regkit.interfaces import Method
+from regkit.rigid import inverse, moved, rigid
+from regkit.rotation import from_matrix, to_vector, vector_to_matrix
+
+DATA = Path(__file__).parents[2] / "shared" / "data"
+SEEDS, ANGLES = 10, (10, 30, 60, 90)
+WITHIN_DEG, WITHIN_SIZE = 5.0, 0.05
+CONDITIONS: dict[str, dict[str, float]] = {
+    "clean": {},
+    "noise": {"noise": 0.01},
+    "overlap": {"overlap": 0.6},
+    "outliers": {"outliers": 0.3},
+    "all": {"noise": 0.01, "overlap": 0.6, "outliers": 0.3},
+}
+ICP = "kind: open3d_icp, distance: {distance}, estimation"
+METHODS = {
+    "regkit, G-SoG": "{{preset: rigid}}",
+    "regkit, round data": "{{preset: rigid, kernel: {{flatness: 1}}}}",
+    "regkit, finest only": "{{preset: rigid, coarsest: 0.001}}",
+    "regkit, SoG": "{{preset: rigid, shape: {{kind: cloud_sog}}, kernel: {{flatness: 1}}}}",
+    "Open3D, point to point": f"{{{{{ICP}: point_to_point}}}}",
+    "Open3D, point to plane": f"{{{{{ICP}: point_to_plane}}}}",
+    "Open3D, generalized": f"{{{{{ICP}: generalized}}}}",
+    "small_gicp, GICP": "{{kind: small_gicp, distance: {distance}}}",
+    "probreg, CPD": "{{kind: probreg_cpd}}",
+    "probreg, FilterReg": "{{kind: probreg_filterreg, shrinking: true}}",
+    "biocpd, CPD": "{{kind: biocpd}}",
+}
+"""By name; ``distance`` is that of the libraries which have one, as a part of the source's size."""
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Two clouds and T_target_source."""
+
+    source: Array
+    target: Array
+    truth: Array
+    size: float
+
+    def errors(self, transform: Array) -> tuple[float, float]:
+        """Rotation [deg], and how far the source's centre is off, as a part of the size."""
+        turn = to_vector(from_matrix((inverse(self.truth) @ transform)[:3, :3]))
+        centre = self.source.mean(axis=0, keepdims=True)
+        off = moved(transform, centre) - moved(self.truth, centre)
+        return float(np.degrees(np.linalg.norm(turn))), float(np.linalg.norm(off)) / self.size
+
+
+def bunny(
+    points: Array,
+    angle: float,
+    seed: int,
+    *,
+    noise: float = 0.0,
+    overlap: float = 1.0,
+    outliers: float = 0.0,
+) -> Pair:
+    """A pair made of one cloud; see the module."""
+    random = np.random.default_rng(seed)
+    size = float(np.linalg.norm(np.ptp(points, axis=0)))
+    axis, shift, cut = random.normal(size=(3, 3))
+    rotation = vector_to_matrix(np.radians(angle) * axis / np.linalg.norm(axis))
+    centre = points.mean(axis=0)
+    shift *= 0.1 * size / np.linalg.norm(shift)
+    truth = rigid(rotation, centre + shift - rotation @ centre)
+    # Of each cloud the part ``overlap`` is in the other one too.
+    order, kept = np.argsort(points @ cut), round(len(points) / (2.0 - overlap))
+
+    def spoiled(cloud: Array) -> Array:
+        noisy = cloud + noise * size * random.normal(size=cloud.shape)
+        count = round(outliers / (1.0 - outliers) * len(cloud))
+        low, high = noisy.min(axis=0), noisy.max(axis=0)
+        spread = 0.1 * (high - low)
+        return np.concatenate([noisy, random.uniform(low - spread, high + spread, (count, 3))])
+
+    source = spoiled(points[order[:kept]])
+    target = spoiled(moved(truth, points[order[-kept:]]))
+    return Pair(source, target, truth, size)
+
+
+def methods(distance: float) -> Iterator[tuple[str, Method]]:
+    """The methods that are installed."""
+    from regkit.cli.register import named_method
+
+    for name, text in METHODS.items():
+        yield name, named_method(text.format(distance=distance))
+
+
+def robustness(points: Array) -> dict[str, dict[str, Any]]:
+    """The bunny's table."""
+    heads = [*CONDITIONS, *(f"{angle} deg" for angle in ANGLES), "of 200"]
+    print(f"\n| bunny | {' | '.join(heads)} | rotation [deg] | shift [%] | time [ms] |")
+    print("|---|" + "--:|" * (len(heads) + 3))
+    figures: dict[str, dict[str, Any]] = {}
+    for name, method in methods(distance=0.2):
+        found: dict[tuple[str, int], int] = {}
+        errors, seconds = [], []
+        try:
+            for condition, values in CONDITIONS.items():
+                for angle in ANGLES:
+                    found[condition, angle] = 0
+                    for seed in range(SEEDS):
+                        pair = bunny(points, angle, seed, **values)
+                        turn, shift, took = aligned(pair, method)
+                        seconds.append(took)
+                        if turn < WITHIN_DEG and shift < WITHIN_SIZE:
+                            found[condition, angle] += 1
+                            errors.append((turn, shift))
+        except DependencyError as error:
+            print(f"{name} is left out: {error}", file=sys.stderr)
+            continue
+        by_condition = [sum(n for (c, _), n in found.items() if c == one) for one in CONDITIONS]
+        by_angle = [sum(n for (_, a), n in found.items() if a == one) for one in ANGLES]
+        counts = [*by_condition, *by_angle, sum(found.values())]
+        turn, shift = np.median(errors, axis=0) if errors else (np.nan, np.nan)
+        took = 1000.0 * float(np.median(seconds))
+        print(
+            f"| {name} | {' | '.join(map(str, counts))} | {turn:.2f} | {100 * shift:.2f} "
+            f"| {took:.1f} |",
+            flush=True,
+        )
+        figures[name] = {
+            "success": dict(zip(heads, counts, strict=True)),
+            "rotation_deg": round(float(turn), 3),
+            "shift_percent": round(100 * float(shift), 3),
+            "milliseconds": round(took, 2),
+        }
+    return with_ratios(figures)
+
+
+def with_ratios(figures: dict[str, dict[str, Any]]) -> dict[str, dict[str, Any]]:
+    """The figures, with every time as a ratio to that of small_gicp in the same run."""
+    base = figures.get("small_gicp, GICP", {}).get("milliseconds")
+    for row in figures.values():
+        row["time_to_small_gicp"] = round(row["milliseconds"] / base, 2) if base else None
+    return figures
+
+
+def any_orientation(points: Array) -> dict[str, object]:
+    """The bunny turned by 150 degrees, with the starts that look for the orientation."""
+    print(f"\n| bunny, 150 deg, of {SEEDS} | {' | '.join(CONDITIONS)} | time [s] |")
+    print("|---|" + "--:|" * (len(CONDITIONS) + 1))
+    figures: dict[str, object] = {}
+    chosen = dict(methods(distance=0.2))
+    for name in ("regkit, G-SoG", "small_gicp, GICP"):
+        for start in ("rotations", "features"):
+            counts, seconds = [], []
+            for values in CONDITIONS.values():
+                pairs = [bunny(points, 150.0, seed, **values) for seed in range(SEEDS)]
+                runs = [aligned(pair, chosen[name], start=start) for pair in pairs]
+                seconds += [took for _, _, took in runs]
+                good = [turn < WITHIN_DEG and shift < WITHIN_SIZE for turn, shift, _ in runs]
+                counts.append(sum(good))
+            took = float(np.nanmedian(seconds))
+            row = f"{name}, --start {start}"
+            print(f"| {row} | {' | '.join(map(str, counts))} | {took:.2f} |", flush=True)
+            figures[row] = {"success": dict(zip(CONDITIONS, counts, strict=True)), "seconds": took}
+    return figures
+
+
+def aligned(
+    pair: Pair, method: Method, voxel: float = 0.0, start: str = "centroids"
+) -> tuple[float, float, float]:
+    """Rotation error [deg], translation error as a part of the size, and seconds."""
+    try:
+        found = align(pair.source, pair.target, method, voxel=voxel, start=start)
+    except DependencyError:
+        raise
+    except RegkitError:
+        return np.inf, np.inf, np.nan
+    return (*pair.errors(found.transform), found.seconds)
+
+
+def lidar(count: int, voxel: float) -> dict[str, dict[str, Any]]:
+    """The table of the LiDAR pair with so many points of each, thinned to voxels [m] or not."""
+    folder = DATA / "rigid_lidar_mit"
+    random = np.random.default_rng(0)
+    clouds = [read_cloud(folder / f"{name}.ply") for name in ("source", "target")]
+    source, target = (one[random.choice(len(one), count, replace=False)] for one in clouds)
+    size = float(np.linalg.norm(np.ptp(source, axis=0)))
+    pair = Pair(source, target, read_transform(str(folder / "T_target_source.txt")), size)
+    thin = f"in voxels of {voxel} m" if voxel else "all"
+    print(f"\n| LiDAR, {count} points, {thin} | rotation [deg] | shift [mm] | time [ms] |")
+    print("|---|--:|--:|--:|")
+    figures: dict[str, dict[str, Any]] = {}
+    # small_gicp's own default distance is 1 m.
+    for name, method in methods(distance=1.0 / size):
+        if not voxel and ("CPD" in name or "FilterReg" in name):
+            continue
+        if voxel and "probreg, CPD" in name:
+            continue
+        try:
+            runs = [aligned(pair, method, voxel) for _ in range(3 if "CPD" not in name else 1)]
+        except DependencyError:
+            continue
+        turn, shift, _ = runs[0]
+        took = 1000.0 * min(run[2] for run in runs)
+        print(f"| {name} | {turn:.3f} | {1000 * size * shift:.1f} | {took:.0f} |", flush=True)
+        figures[name] = {
+            "rotation_deg": round(turn, 4),
+            "shift_mm": round(1000 * size * shift, 2),
+            "milliseconds": round(took, 1),
+        }
+    return with_ratios(figures)
+
+
+def peak_memory() -> int:
+    """The most memory that the process had so far, MB."""
+    return round(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
+
+
+def ours_on_all_points() -> dict[str, object]:
+    """Memory of regkit's method on 35,000 against 35,000 points, before anything else has run."""
+    folder = DATA / "rigid_lidar_mit"
+    clouds = [read_cloud(folder / f"{name}.ply")[::2][:35_000] for name in ("source", "target")]
+    before = peak_memory()
+    (_, method), *_ = methods(distance=0.1)
+    found = align(*clouds, method, voxel=0.0)
+    print(
+        f"regkit, G-SoG, {found.points[0]} against {found.points[1]} points, first call in the "
+        f"process: {found.seconds:.2f} s; memory {peak_memory()} MB at most, {before} MB before"
+    )
+    return {"memory_mb": peak_memory(), "memory_before_mb": before}
+
+
+def main() -> None:
+    """Print the tables, and their figures as one JSON object in the last line."""
+    if not DATA.is_dir():
+        sys.exit(f"the reference data are not at {DATA}")
+    with threadpool_limits(1):
+        figures: dict[str, object] = {"threads": 1, "all points": ours_on_all_points()}
+        points = read_cloud(DATA / "rigid_misc" / "bunny_source.txt")
+        figures["bunny"] = robustness(points)
+        figures["bunny, any orientation"] = any_orientation(points)
+        for count, voxel in ((35_000, 0.25), (35_000, 0.0), (20_000, 0.0)):
+            figures[f"lidar {count}, voxel {voxel}"] = lidar(count, voxel)
+    print(json.dumps(figures))
+
+
+if __name__ == "__main__":
+    main()

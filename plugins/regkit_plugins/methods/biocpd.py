@@ -1,0 +1,44 @@
+"""Coherent point drift, as biocpd has it."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import Field
+
+from regkit.arrays import Array
+from regkit.optional import library as loaded
+from regkit.rigid import moved
+from regkit_plugins.methods.rigid import Aligned, Frame, RigidMethod
+
+
+class BioCPD(RigidMethod):
+    """biocpd's rigid coherent point drift, with sparse responsibilities."""
+
+    kind: Literal["biocpd"] = "biocpd"
+
+    outliers: Annotated[float, Field(ge=0.0, lt=1.0)] = 0.0
+    """Share of outliers; the library's own default."""
+    max_iterations: Annotated[int, Field(ge=1)] = 100
+    """Steps at most; the library's own default."""
+
+    def library(self) -> Any:
+        """The module ``biocpd``."""
+        return loaded("biocpd", install="pip install 'regkit[baselines]'")
+
+    def aligned(self, source: Array, target: Array, start: Array, size: float) -> Aligned:
+        """Align by ``RigidRegistration``, whose rotations stand to the right of points in rows."""
+        frame = Frame.around(target, size)
+        registration = self.library().RigidRegistration(
+            X=frame.inside(target),
+            Y=frame.inside(moved(start, source)),
+            scale=False,
+            w=self.outliers,
+            max_iterations=self.max_iterations,
+        )
+        _, (_, rotation, translation) = registration.register()
+        step = frame.outside(np.asarray(rotation).T, np.asarray(translation).reshape(3))
+        converged = registration.iteration < self.max_iterations
+        message = "the objective settled" if converged else "max_iterations were taken"
+        return Aligned(step @ start, converged, int(registration.iteration), message)

@@ -1,0 +1,67 @@
+"""Iterative closest points, as Open3D has it."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import Field
+
+from regkit.arrays import Array
+from regkit.optional import open3d
+from regkit_plugins.methods.rigid import Aligned, RigidMethod
+
+
+class Open3DICP(RigidMethod):
+    """Open3D's iterative closest points: to points, to planes, or generalized."""
+
+    kind: Literal["open3d_icp"] = "open3d_icp"
+
+    estimation: Literal["point_to_point", "point_to_plane", "generalized"] = "point_to_plane"
+    """What the distance of a pair is."""
+    distance: Annotated[float, Field(gt=0.0)] = 0.1
+    """Pairs that are farther apart than this part of the source's size do not count."""
+    max_iterations: Annotated[int, Field(ge=1)] = 30
+    """Steps at most; Open3D's own default."""
+    neighbours: Annotated[int, Field(ge=3)] = 30
+    """How many neighbours tell a normal; Open3D's own default."""
+
+    def library(self) -> Any:
+        """The module ``open3d``."""
+        return open3d()
+
+    def aligned(self, source: Array, target: Array, start: Array, size: float) -> Aligned:
+        """Align by ``open3d.pipelines.registration``."""
+        library = self.library()
+        # Its warnings go to standard output, where results belong.
+        with library.utility.VerbosityContextManager(library.utility.VerbosityLevel.Error):
+            return self._aligned(library, source, target, start, self.distance * size)
+
+    def _aligned(
+        self, library: Any, source: Array, target: Array, start: Array, distance: float
+    ) -> Aligned:
+        clouds = [
+            library.geometry.PointCloud(library.utility.Vector3dVector(points))
+            for points in (source, target)
+        ]
+        pipeline = library.pipelines.registration
+        criteria = pipeline.ICPConvergenceCriteria(max_iteration=self.max_iterations)
+        if self.estimation == "generalized":
+            result = pipeline.registration_generalized_icp(
+                *clouds,
+                distance,
+                start,
+                pipeline.TransformationEstimationForGeneralizedICP(),
+                criteria,
+            )
+        else:
+            if self.estimation == "point_to_plane":
+                search = library.geometry.KDTreeSearchParamKNN(self.neighbours)
+                clouds[1].estimate_normals(search)
+                estimation = pipeline.TransformationEstimationPointToPlane()
+            else:
+                estimation = pipeline.TransformationEstimationPointToPoint()
+            result = pipeline.registration_icp(*clouds, distance, start, estimation, criteria)
+        near = len(result.correspondence_set)
+        message = f"{near} pairs within {distance:.3g} m"
+        return Aligned(np.asarray(result.transformation), near > 0, 0, message)

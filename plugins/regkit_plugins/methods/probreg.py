@@ -1,0 +1,78 @@
+"""Coherent point drift and FilterReg, as probreg has them."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import Field
+
+from regkit.arrays import Array
+from regkit.optional import library as loaded
+from regkit.rigid import moved
+from regkit_plugins.methods.rigid import Aligned, Frame, RigidMethod
+
+INSTALL = "pip install --no-deps probreg && pip install six transforms3d scikit-learn pyyaml addict"
+"""probreg asks for one old version of Open3D, but works with newer ones."""
+
+
+class ProbregCPD(RigidMethod):
+    """probreg's coherent point drift, of time and memory of all pairs."""
+
+    kind: Literal["probreg_cpd"] = "probreg_cpd"
+
+    outliers: Annotated[float, Field(ge=0.0, lt=1.0)] = 0.0
+    """Share of outliers; the library's own default."""
+    max_iterations: Annotated[int, Field(ge=1)] = 50
+    """Steps at most; the library's own default."""
+
+    def library(self) -> Any:
+        """The module ``probreg.cpd``."""
+        return loaded("probreg.cpd", install=INSTALL)
+
+    def aligned(self, source: Array, target: Array, start: Array, size: float) -> Aligned:
+        """Align by ``registration_cpd``."""
+        frame = Frame.around(target, size)
+        result = self.library().registration_cpd(
+            frame.inside(moved(start, source)),
+            frame.inside(target),
+            "rigid",
+            w=self.outliers,
+            maxiter=self.max_iterations,
+            update_scale=False,
+        )
+        return _aligned(result.transformation, frame, start)
+
+
+class ProbregFilterReg(RigidMethod):
+    """probreg's FilterReg, point to point."""
+
+    kind: Literal["probreg_filterreg"] = "probreg_filterreg"
+
+    outliers: Annotated[float, Field(ge=0.0, lt=1.0)] = 0.0
+    """Share of outliers; the library's own default."""
+    shrinking: bool = False
+    """Whether the Gaussians get narrower from step to step; the library's own default."""
+    max_iterations: Annotated[int, Field(ge=1)] = 50
+    """Steps at most; the library's own default."""
+
+    def library(self) -> Any:
+        """The module ``probreg.filterreg``."""
+        return loaded("probreg.filterreg", install=INSTALL)
+
+    def aligned(self, source: Array, target: Array, start: Array, size: float) -> Aligned:
+        """Align by ``registration_filterreg``."""
+        frame = Frame.around(target, size)
+        result = self.library().registration_filterreg(
+            frame.inside(moved(start, source)),
+            frame.inside(target),
+            update_sigma2=self.shrinking,
+            w=self.outliers,
+            maxiter=self.max_iterations,
+        )
+        return _aligned(result.transformation, frame, start)
+
+
+def _aligned(transformation: Any, frame: Frame, start: Array) -> Aligned:
+    step = frame.outside(np.asarray(transformation.rot), np.asarray(transformation.t))
+    return Aligned(step @ start, True, 0, "the library does not say how it ended")

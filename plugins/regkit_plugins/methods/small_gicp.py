@@ -1,0 +1,55 @@
+"""Generalized iterative closest points, as small_gicp has it."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import Field
+
+from regkit.arrays import Array
+from regkit.optional import library as loaded
+from regkit_plugins.methods.rigid import Aligned, RigidMethod
+
+
+class SmallGICP(RigidMethod):
+    """small_gicp's registration on one thread; the clouds are not thinned any further."""
+
+    kind: Literal["small_gicp"] = "small_gicp"
+
+    registration_type: Literal["ICP", "PLANE_ICP", "GICP"] = "GICP"
+    """What the distance of a pair is."""
+    distance: Annotated[float, Field(gt=0.0)] = 0.1
+    """Pairs that are farther apart than this part of the source's size do not count."""
+    neighbours: Annotated[int, Field(ge=3)] = 20
+    """How many neighbours tell a covariance; the library's own default."""
+    max_iterations: Annotated[int, Field(ge=1)] = 20
+    """Steps at most; the library's own default."""
+    translation_tolerance: Annotated[float, Field(gt=0.0)] = 1e-4
+    """Stop when a step is less than this part of the source's size, and turns by less than 0.1
+    degrees."""
+
+    def library(self) -> Any:
+        """The module ``small_gicp``."""
+        return loaded("small_gicp", install="pip install 'regkit[baselines]'")
+
+    def aligned(self, source: Array, target: Array, start: Array, size: float) -> Aligned:
+        """Align by ``small_gicp.align``."""
+        gicp = self.library()
+        clouds = [gicp.PointCloud(points) for points in (target, source)]
+        trees = [gicp.KdTree(cloud) for cloud in clouds]
+        for cloud, tree in zip(clouds, trees, strict=True):
+            gicp.estimate_normals_covariances(cloud, tree, self.neighbours)
+        result = gicp.align(
+            *clouds,
+            trees[0],
+            init_T_target_source=start,
+            registration_type=self.registration_type,
+            max_correspondence_distance=self.distance * size,
+            max_iterations=self.max_iterations,
+            translation_epsilon=self.translation_tolerance * size,
+        )
+        message = f"{result.num_inliers} pairs within {self.distance * size:.3g} m"
+        return Aligned(
+            np.asarray(result.T_target_source), result.converged, result.iterations, message
+        )

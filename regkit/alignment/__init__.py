@@ -1,0 +1,17 @@
+"""Rigid alignment: one cloud laid on another, by any method that registers a rigid body."""
+
+from regkit.alignment.alignment import Alignment, align
+from regkit.alignment.body import cloud_body, cloud_description
+from regkit.alignment.evaluation import Agreement, agreement
+from regkit.alignment.starts import STARTS, read_transform
+
+__all__ = [
+    "STARTS",
+    "Agreement",
+    "Alignment",
+    "agreement",
+    "align",
+    "cloud_body",
+    "cloud_description",
+    "read_transform",
+]

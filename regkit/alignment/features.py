@@ -1,0 +1,73 @@
+"""A start in any orientation: features of the surface, matched between the clouds."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from regkit.arrays import Array
+from regkit.clouds import thinned, voxel_for
+from regkit.errors import DataError
+from regkit.optional import open3d
+
+SKETCH = 3000
+"""So many points have features."""
+
+
+def by_features(source: Array, target: Array) -> Array:
+    """T_target_source (4, 4) by matching FPFH features with RANSAC, as Open3D does it.
+
+    The radii and thresholds are those of Open3D's tutorial on global registration, in voxels.
+
+    Raises:
+        DataError: If too few features match.
+        DependencyError: If Open3D is missing.
+    """
+    library = open3d()
+    voxels = [voxel_for(points, SKETCH) or _typical(points) for points in (source, target)]
+    voxel = max(voxels)
+    clouds, features = [], []
+    for points in (source, target):
+        cloud = library.geometry.PointCloud(library.utility.Vector3dVector(thinned(points, voxel)))
+        search = library.geometry.KDTreeSearchParamHybrid
+        cloud.estimate_normals(search(radius=2.0 * voxel, max_nn=30))
+        clouds.append(cloud)
+        features.append(
+            library.pipelines.registration.compute_fpfh_feature(
+                cloud, search(radius=5.0 * voxel, max_nn=100)
+            )
+        )
+    # Its warnings go to standard output, where results belong.
+    with library.utility.VerbosityContextManager(library.utility.VerbosityLevel.Error):
+        transform = _matched(library, clouds, features, 1.5 * voxel)
+    if np.array_equal(transform, np.eye(4)):
+        raise DataError("too few features of the clouds match; take another --start")
+    return transform
+
+
+def _matched(library: Any, clouds: list[Any], features: list[Any], distance: float) -> Array:
+    registration = library.pipelines.registration
+    # The same start at each call.
+    library.utility.random.seed(0)
+    result = registration.registration_ransac_based_on_feature_matching(
+        *clouds,
+        *features,
+        True,
+        distance,
+        registration.TransformationEstimationPointToPoint(False),
+        3,
+        [
+            registration.CorrespondenceCheckerBasedOnEdgeLength(0.9),
+            registration.CorrespondenceCheckerBasedOnDistance(distance),
+        ],
+        registration.RANSACConvergenceCriteria(100_000, 0.999),
+    )
+    return np.asarray(result.transformation)
+
+
+def _typical(points: Array) -> float:
+    """A voxel [m] that leaves a sparse cloud as it is."""
+    from regkit.clouds import spacing
+
+    return spacing(points)

@@ -1,0 +1,146 @@
+"""The likelihood under nearest Gaussians, and the shapes that it compares with clouds."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from regkit.alignment import cloud_body
+from regkit.errors import ConfigError
+from regkit.observation import Observation
+from regkit.primitives import Gaussians
+from regkit.rigid import moved, rigid
+from regkit.rotation import vector_to_matrix
+from regkit_plugins.kernels.likelihood import Likelihood
+from regkit_plugins.kernels.local_likelihood import LocalLikelihood
+from regkit_plugins.shapes.cloud import (
+    CloudGeneralizedSumOfGaussians,
+    CloudSumOfGaussians,
+    along,
+)
+
+
+@pytest.fixture
+def placed(random):
+    count = 20
+    return Gaussians(
+        segments=np.zeros(count, dtype=np.intp),
+        centres=random.normal(size=(count, 3)),
+        axes=vector_to_matrix(random.normal(size=(count, 3))),
+        scales=random.uniform(0.2, 1.0, size=(count, 3)),
+        weights=random.uniform(0.5, 1.0, size=count),
+    ).place(np.eye(4)[None])
+
+
+@pytest.fixture
+def data(random):
+    count = 60
+    directions = random.normal(size=(count, 3))
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    return Observation(
+        points=random.normal(size=(count, 3)),
+        weights=random.uniform(0.5, 1.0, size=count),
+        variances=random.uniform(0.1, 0.3, size=count),
+        normals=directions,
+    )
+
+
+@pytest.mark.parametrize("flatness", [0.3, 1.0])
+@pytest.mark.parametrize("blur", [0.0, 0.2])
+def test_wrenches_are_the_derivative_of_the_energy(placed, data, flatness, blur):
+    similarity = LocalLikelihood(flatness=flatness).against(data, placed, blur=blur)
+    wrenches = similarity(placed).wrenches
+    step = 1e-6
+    for one in (2, 11):
+        for freedom in range(6):
+            motion = np.zeros(3)
+            motion[freedom % 3] = step
+            energies = []
+            for sign in (1.0, -1.0):
+                centres, axes = placed.centres.copy(), placed.axes.copy()
+                if freedom < 3:
+                    centres[one] += sign * motion
+                else:
+                    axes[one] = vector_to_matrix(sign * motion) @ axes[one]
+                energies.append(similarity(replace(placed, centres=centres, axes=axes)).energy)
+            slope = (energies[0] - energies[1]) / (2.0 * step)
+            assert wrenches[one, freedom] == pytest.approx(slope, rel=1e-4, abs=1e-8)
+
+
+def test_curvature_is_positive_and_leaves_the_energy_alone(placed, data):
+    similarity = LocalLikelihood().against(data, placed)
+    plain, curved = similarity(placed), similarity(placed, curvature=True)
+    assert plain.stiffness is None
+    assert curved.energy == plain.energy
+    np.testing.assert_array_equal(curved.wrenches, plain.wrenches)
+    np.testing.assert_allclose(curved.stiffness, np.swapaxes(curved.stiffness, 1, 2), atol=1e-12)
+    assert np.linalg.eigvalsh(curved.stiffness).min() > -1e-9
+
+
+def test_common_rigid_motion_leaves_the_energy_alone(placed, data):
+    rotation, shift = vector_to_matrix(np.array([0.4, -0.2, 0.9])), np.array([0.3, 5.0, -1.0])
+    motion = rigid(rotation, shift)
+    together = replace(data, points=moved(motion, data.points), normals=data.normals @ rotation.T)
+    there = placed.primitives.place(motion[None])
+    # The outliers' box is along the axes, and so depends on how the cloud is turned.
+    kernel = LocalLikelihood(outliers=1e-12)
+    first = kernel.against(data, placed)(placed)
+    second = kernel.against(together, there)(there)
+    assert second.energy == pytest.approx(first.energy, abs=1e-6)
+    np.testing.assert_allclose(
+        second.wrenches[:, :3], first.wrenches[:, :3] @ rotation.T, atol=1e-6
+    )
+
+
+def test_all_neighbours_make_it_the_likelihood(random, data):
+    """Where both are defined: equal round Gaussians and data that are round."""
+    count = 15
+    primitives = Gaussians(
+        np.zeros(count, dtype=np.intp),
+        random.normal(size=(count, 3)),
+        np.tile(np.eye(3), (count, 1, 1)),
+        np.full((count, 3), 0.4),
+        np.ones(count),
+    )
+    placed = primitives.place(np.eye(4)[None])
+    local = LocalLikelihood(neighbours=count, outliers=0.2, flatness=1.0).against(data, placed)
+    whole = Likelihood(outliers=0.2).against(data, placed)
+    assert local(placed).energy == pytest.approx(whole(placed).energy)
+    # Pairs with less than a millionth of a point are left out.
+    np.testing.assert_allclose(local(placed).wrenches, whole(placed).wrenches, atol=1e-5)
+    np.testing.assert_allclose(local.explained(placed), whole.explained(placed))
+
+
+def test_far_outliers_are_not_explained(lump):
+    shape = CloudGeneralizedSumOfGaussians(width=0.02)
+    placed = shape.attach(cloud_body("lump", lump)).place(np.eye(4)[None])
+    points = np.concatenate([lump[:100], lump[:100] + 5.0])
+    data = Observation(points, np.ones(200), np.full(200, 1e-4))
+    explained = LocalLikelihood().against(data, placed).explained(placed)
+    assert explained[:100].min() > 0.9
+    assert explained[100:].max() < 1e-6
+
+
+def test_axes_are_rotations_whose_third_is_the_normal(random):
+    directions = random.normal(size=(50, 3))
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    directions[0] = [0.0, 0.0, -1.0]
+    axes = along(directions)
+    np.testing.assert_allclose(np.swapaxes(axes, 1, 2) @ axes, np.tile(np.eye(3), (50, 1, 1)),
+                               atol=1e-12)  # fmt: skip
+    np.testing.assert_allclose(np.linalg.det(axes), 1.0)
+    np.testing.assert_array_equal(axes[:, :, 2], directions)
+
+
+def test_flat_gaussians_lie_in_the_surface(random):
+    points = random.normal(size=(200, 3)) * [1.0, 1.0, 0.0]
+    made = CloudGeneralizedSumOfGaussians(width=0.5, flatness=0.1).attach(cloud_body("p", points))
+    covariances = made.place(np.eye(4)[None]).covariances()
+    np.testing.assert_allclose(covariances, np.tile(np.diag([0.25, 0.25, 0.0025]), (200, 1, 1)))
+    round_ones = CloudSumOfGaussians(width=0.5).attach(cloud_body("p", points))
+    np.testing.assert_array_equal(round_ones.scales, 0.5)
+
+
+def test_body_without_a_surface_is_refused(linkage):
+    with pytest.raises(ConfigError, match="'linkage' has none; take a template of kind cloud"):
+        CloudSumOfGaussians().attach(linkage)
