@@ -124,7 +124,7 @@ def test_surface_that_slides_along_itself_is_warned_of(regkit, tmp_path, random)
          "mean 'centroids'?"),
         ("good.txt", ["--start", "two.txt"], "two.txt: 6 numbers; a 4x4 matrix has 16"),
         ("good.txt", ["--start", "scaled.txt"], "scaled.txt: the matrix is no rigid motion"),
-        ("good.txt", ["--method", "icp"], "--method icp: method: no plug-in 'icp'"),
+        ("good.txt", ["--method", "ipc"], "--method ipc: method: no plug-in 'ipc'"),
         ("good.txt", ["--method", "{kind: open3d_icp, distanse: 1}"],
          "method.distanse: no such field"),
         ("good.txt", ["--out", "a.doc"], "--out a.doc: the name must end with one of"),

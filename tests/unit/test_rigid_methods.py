@@ -113,9 +113,9 @@ def test_method_without_joints_refuses_a_body_that_has_some(name):
         named_method(name).prepare(Human(height=1.7).body(1.7))
 
 
-def test_coarse_to_fine_refuses_what_it_cannot_use():
-    with pytest.raises(ConfigError, match="the template 'human' has no surface"):
-        named_method("rigid").prepare(Human(height=1.7).body(1.7))
+def test_coarse_to_fine_refuses_what_it_cannot_use(linkage):
+    with pytest.raises(ConfigError, match="the template 'linkage' has no surface"):
+        named_method("rigid").prepare(linkage)
     with pytest.raises(ConfigError, match="shape 'gsog' has no width that could be changed"):
         named_method("{preset: rigid, shape: gsog}")
 

@@ -142,7 +142,9 @@ class RigidRegistrar(Registrar):
         blurs: Sequence[float] | None = None,
         after: Registered | None = None,
     ) -> Registered:
-        """What the library finds from the best of the given poses; it knows of no blurs or former frames.
+        """What the library finds from the best of the given poses.
+
+        Blurs and former frames mean nothing to it.
 
         Raises:
             DataError: If the library fails, or finds no rigid motion.

@@ -39,7 +39,9 @@ class Mesh(ShapeModel):
                 "take a shape that is made of capsules or Gaussians"
             )
         if body.surface.normals is None:
-            raise ConfigError(f"the surface of '{body.name}' has no normals")
+            raise ConfigError(
+                f"shape 'mesh' needs normals, which the surface of '{body.name}' does not have"
+            )
         rest = body.place(body.skeleton.rest()).transforms
         return Surfels.of(body.surface, body.surface.normals, _spacings(body.surface.place(rest)))
 
