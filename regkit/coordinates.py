@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 
@@ -26,6 +26,9 @@ class Coordinates(ABC):
         skeleton: Whose poses.
         start: The pose of ``origin()``.
     """
+
+    unique: ClassVar[bool]
+    """Whether each pose has one vector only."""
 
     skeleton: Skeleton
     start: Pose
@@ -68,6 +71,8 @@ class TangentCoordinates(Coordinates):
 
     A hinge that follows another has none.
     """
+
+    unique = True
 
     def origin(self) -> Array:
         """Zero."""
@@ -131,8 +136,10 @@ class QuaternionCoordinates(Coordinates):
     """The paper's pose parameters [t, r(1), ..., r(L)]: un-normalised quaternions, p = r / |r|.
 
     L counts the root's rotation and the ball joints: 4 L + 3 parameters, and one more for each
-    hinge that follows no other.
+    hinge that follows no other. Their lengths mean nothing; ``vector`` gives unit ones.
     """
+
+    unique = False
 
     def origin(self) -> Array:
         """The start's translation, unit quaternions and hinge angles."""

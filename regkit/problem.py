@@ -79,10 +79,11 @@ class RegistrationProblem(Problem):
         return self._coordinates.constraints()
 
     def projected(self, x: Array) -> Array:
-        """The pose's hinges and balls brought back within their limits."""
+        """The pose's hinges and balls brought back within their limits, by its one vector."""
         pose = self._coordinates.pose(x)
         within = self._coordinates.skeleton.limits.projected(pose)
-        projected = x if within is pose else self._coordinates.vector(within)
+        kept = within is pose and self._coordinates.unique
+        projected = x if kept else self._coordinates.vector(within)
         self._last = (projected, within)
         return projected
 

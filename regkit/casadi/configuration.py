@@ -10,6 +10,7 @@ import numpy as np
 
 from regkit.arrays import Array
 from regkit.casadi import rotations
+from regkit.errors import ConfigError
 from regkit.optional import casadi
 from regkit.rigid import rigid
 from regkit.rotation import from_matrix, to_matrix
@@ -28,8 +29,18 @@ def configuration(skeleton: Skeleton, pose: Pose) -> Array:
 
 
 def pose_of(skeleton: Skeleton, numbers: Array, root: Array | None = None) -> Pose:
-    """The pose of a configuration (Q,); ``root`` is T_world_root (4, 4) where it is not free."""
-    parts = split(skeleton, np.asarray(numbers, dtype=float).ravel())
+    """The pose of a configuration (Q,); ``root`` is T_world_root (4, 4) where it is not free.
+
+    Raises:
+        ConfigError: If there are not Q numbers, or one is not finite.
+    """
+    numbers = np.asarray(numbers, dtype=float).ravel()
+    if len(numbers) != length(skeleton) or not np.isfinite(numbers).all():
+        raise ConfigError(
+            f"a configuration of this skeleton is {length(skeleton)} finite numbers; there are "
+            f"{int(np.isfinite(numbers).sum())} of {len(numbers)}"
+        )
+    parts = split(skeleton, numbers)
     if parts.rotation is not None:
         root = rigid(to_matrix(parts.rotation / np.linalg.norm(parts.rotation)), parts.position)
     balls = np.array([ball / np.linalg.norm(ball) for ball in parts.balls]).reshape(-1, 4)

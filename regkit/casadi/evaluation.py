@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from threading import Lock
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,8 @@ class Evaluation:
     """
 
     def __init__(self, function: Any) -> None:
+        # One function serves all registrars of a skeleton, which may be of several threads.
+        self._lock = Lock()
         self._arguments = [np.zeros(function.size1_in(i)) for i in range(function.n_in())]
         self._result = np.zeros(function.size_out(0), order="F")
         # The buffer must be kept: its trigger points into it.
@@ -30,7 +33,8 @@ class Evaluation:
 
     def __call__(self, *arguments: Array) -> Array:
         """The result, a matrix, for one vector for each argument."""
-        for own, given in zip(self._arguments, arguments, strict=True):
-            own[:] = given
-        self._trigger()
-        return self._result.copy()
+        with self._lock:
+            for own, given in zip(self._arguments, arguments, strict=True):
+                own[:] = given
+            self._trigger()
+            return self._result.copy()

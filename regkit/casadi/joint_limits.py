@@ -67,7 +67,9 @@ def _ball_rows(skeleton: Skeleton, numbers: Any) -> Iterator[Row]:
 def _hinge_rows(skeleton: Skeleton, numbers: Any) -> Iterator[Row]:
     hinges = split(skeleton, numbers).hinges
     names = _names(skeleton, skeleton.hinge_freedoms, 1)
-    for index, (low, high) in enumerate(skeleton.limits.hinge):
+    # Within the limits of a leader and with its coupling a follower keeps its own.
+    for index in skeleton.limits.couplings.independent.tolist():
+        low, high = skeleton.limits.hinge[index]
         if np.isfinite([low, high]).any():
             yield Row(names[index], hinges[index], float(low), float(high))
     couplings = skeleton.limits.couplings

@@ -5,6 +5,8 @@ from __future__ import annotations
 import signal
 from types import TracebackType
 
+from regkit.cli.console import errors
+
 
 class Interrupt:
     """A context that notes Ctrl-C; ``check`` answers it, and a second Ctrl-C ends at once.
@@ -42,4 +44,5 @@ class Interrupt:
 
     def _note(self, *_: object) -> None:
         self._asked = True
+        errors.print("stopping after this frame; Ctrl-C again ends at once", highlight=False)
         signal.signal(signal.SIGINT, signal.default_int_handler)

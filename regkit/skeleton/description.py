@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
+import numpy as np
 from pydantic import Field, ValidationError, model_validator
 
 from regkit.model import Model, did_you_mean, misplaced
@@ -60,9 +61,7 @@ class SkeletonDescription(Model):
                         marker,
                     )
                 owners[marker] = name
-        for name, segment in self.segments.items():
-            if isinstance(segment.joint, HingeJoint) and segment.joint.coupled is not None:
-                _check_coupling(self.segments, name, segment.joint)
+        _check_couplings(self.segments)
         return self
 
 
@@ -110,40 +109,35 @@ def parents_first(segments: dict[str, SegmentDescription]) -> list[str]:
     return ordered
 
 
-def _check_coupling(
-    segments: dict[str, SegmentDescription], name: str, follower: HingeJoint
-) -> None:
-    """A leader is another hinge that follows none, at an angle that suits both."""
-    assert follower.coupled is not None
-    to = follower.coupled.to
-    where = (name, "joint", "coupled", "to")
-    leader = segments[to].joint if to in segments else None
-    if not isinstance(leader, HingeJoint):
-        hinges = [one for one in segments if isinstance(segments[one].joint, HingeJoint)]
-        raise _wrong(
-            f"'{name}' can follow a hinge, which '{to}' is not (there are: {', '.join(hinges)})"
-            + did_you_mean(to, hinges),
-            *where,
-        )
-    if leader.coupled is not None:
-        raise _wrong(
-            f"'{name}' follows '{to}', which follows '{leader.coupled.to}' itself; couple both to "
-            "the same hinge",
-            *where,
-        )
-    if leader.limits_deg is None or follower.limits_deg is None:
-        return
-    ratio, offset = follower.coupled.ratio, follower.coupled.offset_deg
-    ends = sorted((end - offset) / ratio for end in follower.limits_deg)
-    low, high = max(ends[0], leader.limits_deg[0]), min(ends[1], leader.limits_deg[1])
-    if low > high:
-        raise _wrong(
-            f"no angle of '{to}' keeps the limits of both: '{name}' needs it between {ends[0]:g} "
-            f"and {ends[1]:g} degrees, its own limits are {list(leader.limits_deg)}",
-            name,
-            "joint",
-            "coupled",
-        )
+def _check_couplings(segments: dict[str, SegmentDescription]) -> None:
+    """A leader is another hinge that follows none, and has angles that suit all its followers."""
+    hinges = {n: s.joint for n, s in segments.items() if isinstance(s.joint, HingeJoint)}
+    leaders = [name for name, hinge in hinges.items() if hinge.coupled is None]
+    left: dict[str, tuple[float, float]] = {}
+    for name, follower in hinges.items():
+        if follower.coupled is None:
+            continue
+        to = follower.coupled.to
+        if to not in leaders:
+            reason = f"'{to}' follows another itself" if to in hinges else f"'{to}' is no hinge"
+            reason = "a hinge cannot follow itself" if to == name else reason
+            raise _wrong(
+                f"{reason}; '{name}' can follow a hinge that follows none "
+                f"(there are: {', '.join(leaders)})" + did_you_mean(to, leaders),
+                *(name, "joint", "coupled", "to"),
+            )
+        low, high = left.get(to, hinges[to].limits_deg or (-np.inf, np.inf))
+        own = follower.limits_deg or (-np.inf, np.inf)
+        ratio, offset = follower.coupled.ratio, follower.coupled.offset_deg
+        ends = sorted((end - offset) / ratio for end in own)
+        left[to] = max(low, ends[0]), min(high, ends[1])
+        if left[to][0] > left[to][1]:
+            raise _wrong(
+                f"no angle of '{to}' keeps all limits: '{name}' needs it between {ends[0]:g} and "
+                f"{ends[1]:g} degrees, and its own limits and what else follows it leave "
+                f"{low:g} to {high:g}",
+                *(name, "joint", "coupled"),
+            )
 
 
 def _wrong(message: str, *location: str) -> ValidationError:

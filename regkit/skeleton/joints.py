@@ -14,6 +14,10 @@ Vector = tuple[float, float, float]
 _LETTERS: dict[str, Vector] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
 
+LEAST_RATIO = 1e-3
+"""A hinge that turns by less than this with its leader can as well be fixed."""
+
+
 def _from_letter(value: Any) -> Any:
     if isinstance(value, str) and value.lstrip("-") in _LETTERS:
         sign = -1.0 if value.startswith("-") else 1.0
@@ -38,8 +42,11 @@ def _in_order(value: tuple[float, float]) -> tuple[float, float]:
 
 
 def _not_zero(value: float) -> float:
-    if value == 0.0:
-        raise ValueError("a ratio must not be zero; a joint that never turns is of type fixed")
+    if abs(value) < LEAST_RATIO:
+        raise ValueError(
+            f"a ratio is at least {LEAST_RATIO:g}, or at most -{LEAST_RATIO:g}; it is {value:g}; a "
+            "joint that does not turn is of type fixed"
+        )
     return value
 
 
@@ -48,6 +55,18 @@ Axis = Annotated[Vector, BeforeValidator(_from_letter), AfterValidator(_of_unit_
 
 Range = Annotated[tuple[float, float], AfterValidator(_in_order)]
 """A lower and an upper limit."""
+
+
+def _within_half_a_turn(value: tuple[float, float]) -> tuple[float, float]:
+    if value[0] < -180.0 or value[1] > 180.0:
+        raise ValueError(
+            f"a twist is between -180 and 180 degrees; the limits are {list(value)}; turn the "
+            "middle of the cone (centre_deg) instead"
+        )
+    return value
+
+
+TwistRange = Annotated[Range, AfterValidator(_within_half_a_turn)]
 
 HalfAngle = Annotated[float, Field(gt=0.0, le=180.0)]
 
@@ -113,7 +132,7 @@ class BallJoint(Model):
     """Rotation vector of the middle of the cone, relative to the rest pose [deg]."""
     swing_deg: tuple[HalfAngle, HalfAngle] | None = None
     """The cone's half angles about the first and the second swing axis [deg]."""
-    twist_deg: Range | None = None
+    twist_deg: TwistRange | None = None
     """Smallest and largest twist [deg]."""
 
     @model_validator(mode="after")

@@ -94,6 +94,11 @@ class Limits:
         violations = np.concatenate([beyond, angle * (1.0 - 1.0 / safe), hinges])
         return violations, np.stack([sign[:, None] * to_twist, swings]), hinge_sign
 
+    def hinged(self, pose: Pose) -> Pose:
+        """The pose with its hinges within their limits, followers following; balls as they are."""
+        hinges = self.couplings.coupled(pose.hinges.clip(self.hinge[:, 0], self.hinge[:, 1]))
+        return Pose(pose.root, pose.balls, hinges)
+
     def projected(self, pose: Pose) -> Pose:
         """The pose itself if it keeps the limits; else hinges, swings and twists brought to them.
 
@@ -105,7 +110,7 @@ class Limits:
         balls, turned = within_limits(
             pose.balls, self.centre, self.twist_axis, self._cone, self.twist
         )
-        hinges = self.couplings.coupled(pose.hinges.clip(self.hinge[:, 0], self.hinge[:, 1]))
+        hinges = self.hinged(pose).hinges
         if not turned and (hinges == pose.hinges).all():
             return pose
         return Pose(pose.root, balls, hinges)

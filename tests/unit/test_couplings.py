@@ -8,7 +8,10 @@ from regkit.body.writing import template_text
 from regkit.coordinates import COORDINATES
 from regkit.document import Document
 from regkit.errors import ConfigError
+from regkit.interfaces import Method, Solver
+from regkit.observation import Observation
 from regkit.skeleton import Pose, PoseDescription
+from regkit_plugins.fitting import mirror
 
 FINGER = """
 title: A finger whose last joint follows the middle one.
@@ -130,13 +133,61 @@ def test_coupling_is_written_and_read_again(tmp_path):
     assert again.segments["last"].joint.coupled == description.segments["last"].joint.coupled
 
 
+@pytest.mark.parametrize("ratio", [0.5, -0.5])
+def test_leader_is_narrowed_by_either_sign_of_the_ratio(tmp_path, ratio):
+    text = FINGER.replace("ratio: 0.5", f"ratio: {ratio}").replace("[0, 40]", "[-40, 40]")
+    limits = written(tmp_path, text).body("finger", 1.0).skeleton.limits
+    leader, follower = (
+        limits.couplings.leaders[0], limits.couplings.followers[0]
+    )  # fmt: skip
+    for end in limits.hinge[leader]:
+        angle = np.degrees(ratio * end) + 5.0
+        assert -40.0 - 1e-9 <= angle <= 40.0 + 1e-9
+    assert limits.hinge[leader, 0] < limits.hinge[leader, 1]
+    np.testing.assert_allclose(np.degrees(limits.hinge[follower]), [-40.0, 40.0])
+
+
+def test_followers_that_contradict_one_another_are_refused(tmp_path):
+    other = (
+        "  other:\n    parent: palm\n    joint: {type: hinge, axis: y, limits_deg: [80, 90], "
+        "coupled: {to: middle, ratio: 1.0}}\n"
+    )
+    with pytest.raises(ConfigError, match="no angle of 'middle' keeps all limits: 'other' needs"):
+        written(tmp_path, FINGER + other)
+
+
+def test_mirrored_follower_follows_the_mirrored_leader(tmp_path):
+    right = written(tmp_path, FINGER).segments["last"]
+    left = mirror.segment(right, lambda name: f"left_{name}")
+    assert left.parent == "left_middle"
+    assert left.joint.coupled.to == "left_middle"
+
+
+@pytest.mark.parametrize("solver", list(Solver.available()))
+def test_every_solver_holds_a_coupling(finger, random, solver):
+    bones = finger.skeleton
+    method = Method.load("direct")(shape="gsog", kernel="likelihood", solver=solver)
+    registrar = method.prepare(finger)
+    target = bones.limits.projected(
+        bones.retract(bones.rest(), 0.4 * random.normal(size=bones.freedoms))
+    )
+    placed = registrar.primitives.place(finger.place(target).transforms)
+    chosen = random.integers(len(placed), size=200)
+    points = placed.centres[chosen] + 0.02 * random.normal(size=(200, 3))
+    data = Observation(points, np.ones(200), np.full(200, 1e-4))
+    uncoupled = bones.retract(target, 0.05 * random.normal(size=bones.freedoms))
+    found = registrar.register(data, uncoupled)
+    assert follows(finger, found.pose)
+    assert registrar.fit(data, found.pose).energy < registrar.fit(data, uncoupled).energy
+
+
 @pytest.mark.parametrize(
     ("change", "message"),
     [
         (("to: middle", "to: midle"), "did you mean 'middle'?"),
-        (("to: middle", "to: first"), "which 'first' is not"),
-        (("to: middle", "to: last"), "follows 'last' itself"),
-        (("ratio: 0.5", "ratio: 0"), "must not be zero"),
+        (("to: middle", "to: first"), "'first' is no hinge; 'last' can follow"),
+        (("to: middle", "to: last"), "a hinge cannot follow itself"),
+        (("ratio: 0.5", "ratio: 0"), "a ratio is at least 0.001"),
         (("limits_deg: [0, 40]", "limits_deg: [70, 80]"), "between 130 and 150 degrees"),
     ],
 )

@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
-from regkit.body import Body
+from regkit.body import Body, BodyDescription
 from regkit.coordinates import COORDINATES
+from regkit.document import Document
+from regkit.errors import ConfigError
 from regkit.rigid import inverse, log, rigid
 from regkit.rotation import from_vector, vector_to_matrix
 from regkit.skeleton import Pose, PoseDescription
@@ -174,3 +176,10 @@ def test_difference_is_the_step_that_retract_takes(linkage, random):
     np.testing.assert_allclose(
         linkage.place(reached).transforms, linkage.place(end).transforms, atol=1e-12
     )
+
+
+def test_twist_beyond_half_a_turn_is_refused(linkage_text, tmp_path):
+    path = tmp_path / "linkage.yaml"
+    path.write_text(linkage_text.replace("twist_deg: [-45, 45]", "twist_deg: [20, 300]"))
+    with pytest.raises(ConfigError, match="a twist is between -180 and 180 degrees"):
+        Document.read(path).validated(BodyDescription)

@@ -47,13 +47,17 @@ def gaussian(value: GaussianDescription) -> GaussianDescription:
     )
 
 
-def joint(value: Joint) -> Joint:
+def joint(value: Joint, rename: Callable[[str], str]) -> Joint:
     """The mirror image of a joint: the same angles bend it to the mirrored pose.
+
+    ``rename`` names what it follows.
 
     A ball joint keeps its twist axis, so that its twist changes its sign.
     """
     match value:
         case HingeJoint(axis=axis, limits_deg=limits, coupled=coupled):
+            if coupled is not None:
+                coupled = coupled.model_copy(update={"to": rename(coupled.to)})
             return HingeJoint(type="hinge", axis=turn(axis), limits_deg=limits, coupled=coupled)
         case UniversalJoint(axes=(first, second), limits_deg=both):
             return UniversalJoint(
@@ -76,7 +80,7 @@ def segment(value: SegmentDescription, rename: Callable[[str], str]) -> SegmentD
     return SegmentDescription(
         parent=None if value.parent is None else rename(value.parent),
         offset=point(value.offset),
-        joint=None if value.joint is None else joint(value.joint),
+        joint=None if value.joint is None else joint(value.joint, rename),
         capsules=tuple(capsule(one) for one in value.capsules),
         markers={rename(name): point(marker) for name, marker in value.markers.items()},
     )

@@ -6,10 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated, Literal
 
+import numpy as np
 from pydantic import Field, model_validator
 
 from regkit.body import Body
 from regkit.coordinates import COORDINATES, CoordinatesName
+from regkit.errors import DataError
 from regkit.interfaces import (
     Fit,
     JointEnergy,
@@ -29,6 +31,9 @@ from regkit.observation import Observation
 from regkit.primitives import Primitives
 from regkit.skeleton import Pose
 from regkit_plugins.methods.bound import Bound
+
+HARD = 1e-6
+"""By how much a pose may be beyond a hard limit [rad]: what rounding makes."""
 
 Blur = Annotated[float, Field(ge=0.0)]
 
@@ -130,12 +135,16 @@ class DirectRegistrar(Registrar):
                 pose = min((pose, *others), key=lambda start: bound.misfit(self.body, start))
                 evaluations += 1 + len(others)
                 others = ()
-            coordinates = COORDINATES[self.method.coordinates](self.body.skeleton, pose)
+            # Bounds are the limits only where the start is within them.
+            start = self.body.skeleton.limits.hinged(pose)
+            coordinates = COORDINATES[self.method.coordinates](self.body.skeleton, start)
             problem = bound.problem(coordinates, multipliers)
             solution = self.method.solver.minimize(problem)
             pose, multipliers = coordinates.pose(solution.x), solution.multipliers
             iterations += solution.iterations
             evaluations += solution.evaluations
+        if self.method.hard_limits:
+            self._check_limits(pose)
         fit = Fit(solution.value, bound.explained(self.body, pose))
         return Registered(
             pose=pose,
@@ -147,6 +156,19 @@ class DirectRegistrar(Registrar):
             message=solution.message,
             multipliers=multipliers,
         )
+
+    def _check_limits(self, pose: Pose) -> None:
+        """Refuse what was promised not to happen.
+
+        Raises:
+            DataError: If the pose is beyond a limit.
+        """
+        violation = float(self.body.skeleton.limits.violation(pose).max(initial=0.0))
+        if violation > HARD:
+            raise DataError(
+                f"solver '{self.method.solver.kind}' left the joint limits by "
+                f"{np.degrees(violation):.3g} degrees, which hard_limits forbids"
+            )
 
     def fit(self, observation: Observation, pose: Pose) -> Fit:
         """The energy in a pose, with everything bound to the frame there."""

@@ -8,12 +8,15 @@ import numpy as np
 from pydantic import Field, field_validator
 
 from regkit.arrays import Array
-from regkit.errors import ConfigError
+from regkit.errors import DataError
 from regkit.interfaces import LimitKeeping, Multipliers, Problem, Solution, Solver
 from regkit.optional import casadi
 from regkit_plugins.solvers.ipopt_callbacks import Callbacks
 from regkit_plugins.solvers.ipopt_options import ALWAYS, ENDS, QUASI_NEWTON, QUIET, WARM, check
 from regkit_plugins.solvers.ipopt_program import SETTLED, Program, Watch
+
+SAME = 1e-6
+"""Values that differ by less, in units of the mean curvature, are of the same minimum."""
 
 Tolerance = Annotated[float, Field(gt=0.0)]
 
@@ -42,23 +45,23 @@ class Ipopt(Solver):
     max_seconds: Tolerance | None = None
     """Time for one solution at most [s]; then the best point so far within the limits is taken."""
     reach: Tolerance = 1.0
-    """How far a variable without bounds may move [m]."""
+    """How far a variable without bounds may move in one solution: the root [m], a hinge without
+    limits [rad], the numbers of a quaternion."""
     options: dict[str, bool | int | float | str] = Field(default_factory=dict)
     """Further options of IPOPT, by its own names."""
 
     @field_validator("options")
     @classmethod
     def _options_are_known(cls, options: dict[str, Any]) -> dict[str, Any]:
-        if options:
-            check(options)
+        check(options)
         return options
 
     def minimize(self, problem: Problem) -> Solution:
         """The best point within the limits; it is no worse than the start brought within them.
 
         Raises:
-            DataError: If the value or gradient at the start is not finite.
-            ConfigError: If no point was found that keeps the limits.
+            DataError: If the value or gradient at the start is not finite, no point was found that
+                keeps the limits, or IPOPT itself failed.
         """
         program = Program(problem, self.constraint_tolerance, self.reach)
         if program.best is not None and not program.at(program.start)[1].any():
@@ -75,16 +78,18 @@ class Ipopt(Solver):
         end, bounds, constraints = (
             np.array(result[name]).ravel() for name in ("x", "lam_x", "lam_g")
         )
-        # Where IPOPT was stopped it may violate a limit a little: a point within is near.
-        for point in (end, problem.projected(end)):
-            program.at(point)
-        if program.best is None:
-            violation, name = program.worst(end)
-            raise ConfigError(
-                f"IPOPT found no pose that keeps all limits: '{name}' is missed by {violation:.3g}"
-            )
+        end = program.within(end)
+        value = program.at(end)[0]
         stats = solver.stats()
         converged, message = _ending(program, watch, stats["return_status"], end)
+        if program.best is None:
+            violation, name = program.worst(end)
+            raise DataError(
+                f"IPOPT found no pose that keeps all limits ({message}): '{name}' is missed by "
+                f"{violation:.3g}"
+            )
+        # The multipliers are those of the end.
+        there = program.allowed(end) and value <= program.best[0] + SAME * program.scale
         return Solution(
             x=program.best[1],
             value=program.best[0],
@@ -92,7 +97,9 @@ class Ipopt(Solver):
             iterations=int(stats["iter_count"]),
             evaluations=program.evaluations,
             message=message,
-            multipliers=Multipliers(program.scale * bounds, program.scale * constraints),
+            multipliers=Multipliers(program.scale * bounds, program.scale * constraints)
+            if there
+            else None,
         )
 
     def _options(self, program: Program) -> dict[str, Any]:
@@ -121,11 +128,15 @@ def _bounds(program: Program) -> dict[str, Array]:
 
 def _ending(program: Program, watch: Watch, status: str, end: Array) -> tuple[bool, str]:
     """Whether the best point is a solution, and why IPOPT ended."""
-    converged, message = ENDS.get(status, (False, f"IPOPT ended with {status}"))
+    if status not in ENDS and not watch.ending:
+        raise DataError(f"IPOPT could not solve the problem: it ended with {status}")
+    converged, message = ENDS.get(status, (False, status))
     if watch.ending:
         converged, message = watch.ending == SETTLED, watch.ending
-    assert program.best is not None
-    if converged and program.at(end)[0] > program.best[0] + 1e-6 * program.scale:
+    if converged and not program.allowed(end):
+        return False, "IPOPT ended beyond the limits"
+    least = np.inf if program.best is None else program.best[0]
+    if converged and program.at(end)[0] > least + SAME * program.scale:
         return False, "IPOPT ended at a worse point than the best one, which is taken"
     if converged and program.stuck(end):
         return False, "a variable moved as far as `reach` lets it"

@@ -60,10 +60,11 @@ ENDS = {
 
 
 def check(options: Options) -> None:
-    """Let IPOPT itself look at options.
+    """Let IPOPT itself look at options, by trying each on a small problem.
 
     Raises:
         ValueError: If one is a field here, or IPOPT does not take it.
+        DependencyError: If CasADi is missing.
     """
     for name in options:
         if name in FIELDS:
@@ -75,9 +76,15 @@ def check(options: Options) -> None:
         try:
             # What is wrong with a value is printed, not raised.
             with redirect_stdout(printed):
-                ca.nlpsol("trial", "ipopt", {"x": x, "f": x}, {"ipopt": {name: value}})
+                trial = {"x": x, "f": x * x}
+                solver = ca.nlpsol("trial", "ipopt", trial, {"ipopt": {name: value}, **QUIET})
+                solver(x0=1.0)
+            status = solver.stats()["return_status"]
+            if status not in ENDS:
+                raise RuntimeError(f"it ends with {status}")
         except RuntimeError as error:
-            lines = printed.getvalue().splitlines() or str(error).strip().splitlines()[-1:]
+            said = [line for line in printed.getvalue().splitlines() if "valid" in line]
+            lines = said or str(error).strip().splitlines()[-1:]
             # What is raised begins with the place in CasADi's source.
             reason = lines[0].split(".cpp:")[-1].lstrip("0123456789: ")
             raise ValueError(f"'{name}: {value}' is not taken by IPOPT: {reason}") from None

@@ -8,7 +8,7 @@ import numpy as np
 
 from regkit.arrays import Array
 from regkit.errors import DataError
-from regkit.interfaces import Problem
+from regkit.interfaces import Multipliers, Problem
 
 SETTLED = "the value settled"
 LATE = "max_seconds ran out"
@@ -28,7 +28,7 @@ class Program:
         upper: Upper bounds, all finite, (m,).
         constraints: The problem's own.
         rows: Their number C.
-        multipliers: The problem's own.
+        multipliers: The problem's own, if they fit it.
         curved: Whether there is a matrix of curvature.
         scale: What values are divided by: the mean curvature; without one the value at the start,
             and else the largest part of the gradient there.
@@ -42,7 +42,7 @@ class Program:
     def __init__(self, problem: Problem, constraint_tolerance: float, reach: float) -> None:
         self.constraints = problem.constraints()
         self.rows = 0 if self.constraints is None else len(self.constraints.names)
-        self.multipliers = problem.multipliers
+        self.multipliers = _fitting(problem.multipliers, len(problem.start), self.rows)
         self.evaluations = 0
         self.best: tuple[float, Array] | None = None
         self._problem, self._tolerance = problem, constraint_tolerance
@@ -70,6 +70,17 @@ class Program:
             self._last = (point, *found)
             self._see(point, found[0])
         return self._last[1:]
+
+    def within(self, x: Array) -> Array:
+        """A point (m,) itself if it is within the limits; else brought back to them, if it can be.
+
+        Where IPOPT is stopped it may violate a limit a little.
+        """
+        return x if self.allowed(x) else self._problem.projected(x)
+
+    def allowed(self, x: Array) -> bool:
+        """Whether a point (m,) is within the limits."""
+        return self.worst(x)[0] <= self._tolerance
 
     def worst(self, x: Array) -> tuple[float, str]:
         """The largest violation at x (m,), of a constraint or a bound, and what it is of."""
@@ -122,8 +133,18 @@ class Program:
     def _see(self, x: Array, value: float) -> None:
         if self.best is not None and not value < self.best[0]:
             return
-        if np.isfinite(value) and self.worst(x)[0] <= self._tolerance:
+        if np.isfinite(value) and self.allowed(x):
             self.best = (value, x)
+
+
+def _fitting(multipliers: Multipliers | None, size: int, rows: int) -> Multipliers | None:
+    """Multipliers for so many variables and constraints, all finite; None if they are not."""
+    if multipliers is None:
+        return None
+    bounds, constraints = multipliers.bounds, multipliers.constraints
+    fits = bounds.shape == (size,) and constraints.shape == (rows,)
+    known = fits and bool(np.isfinite(bounds).all() and np.isfinite(constraints).all())
+    return multipliers if known else None
 
 
 class Watch:
@@ -131,7 +152,8 @@ class Watch:
 
     Args:
         program: The program.
-        value_tolerance: It ends with a step that gains less than this part of all gain before.
+        value_tolerance: It ends near a point within the limits, with a step that gains less than
+            this part of all gain before.
         max_seconds: It ends after this time [s].
 
     Attributes:
@@ -142,16 +164,20 @@ class Watch:
         self.ending = ""
         self._program, self._tolerance = program, value_tolerance
         self._deadline = np.inf if max_seconds is None else time.perf_counter() + max_seconds
-        self._first, self._last = np.nan, np.nan
+        self._first: float | None = None
+        self._last = np.inf
 
     def ended(self, x: Array) -> bool:
         """Whether to end at an iterate x (m,)."""
         value = self._program.at(x)[0]
         gain, self._last = self._last - value, value
-        if np.isnan(gain):
+        if self._first is None:
             self._first = value
+        little = self._tolerance * (self._first - value)
         if time.perf_counter() > self._deadline:
             self.ending = LATE
-        elif 0.0 <= gain <= self._tolerance * (self._first - value):
-            self.ending = SETTLED
+        elif 0.0 <= gain <= little:
+            point = self._program.within(x)
+            if self._program.allowed(point) and self._program.at(point)[0] <= value + little:
+                self.ending = SETTLED
         return bool(self.ending)
