@@ -8,8 +8,10 @@ from regkit import casadi as symbolic
 from regkit.body import Body
 from regkit.interfaces import Kernel, ShapeModel, Template
 from regkit.observation import Observation
-from regkit.rotation import from_vector, product
-from regkit.skeleton import Pose
+from regkit.rotation import from_vector, product, vector_to_matrix
+from regkit.skeleton import Pose, SegmentDescription, SkeletonDescription
+from regkit.skeleton.compile import compiled
+from regkit.skeleton.joints import BallJoint, FreeJoint
 
 
 @pytest.fixture(params=["linkage", "human", "hand"])
@@ -173,3 +175,34 @@ def test_correlation_is_that_of_the_kernel(linkage, random, kind):
     energy = casadi.Function("energy", [at], [function(at, points.T, weights, variances)])
     slope = casadi.Function("slope", [at], [casadi.gradient(energy(at), at)])(numbers).full().T
     np.testing.assert_allclose(slope, differences(energy, numbers), atol=1e-7)
+
+
+def test_rows_projection_and_violation_mean_the_same_limits(random):
+    """Whatever the axes, the cone and the twist's interval, as long as it is within half a turn."""
+    for _ in range(40):
+        twist_axis, swing_axis, _ = vector_to_matrix(2.0 * random.normal(size=3))
+        ball = BallJoint(
+            type="ball",
+            twist_axis=tuple(twist_axis),
+            swing_axis=tuple(swing_axis),
+            centre_deg=tuple(random.uniform(-120.0, 120.0, 3)),
+            swing_deg=tuple(random.uniform(10.0, 180.0, 2)),
+            twist_deg=tuple(np.sort(random.uniform(-180.0, 180.0, 2))),
+        )
+        segments = {
+            "base": SegmentDescription(joint=FreeJoint()),
+            "arm": SegmentDescription(parent="base", joint=ball),
+        }
+        bones = compiled(SkeletonDescription(segments=segments))
+        rows = symbolic.ball_limits(bones)
+        for _ in range(20):
+            turn = from_vector(2.0 * random.normal(size=(1, 3)))
+            pose = Pose(np.eye(4), turn, np.zeros(0))
+            within = bones.limits.projected(pose)
+            values = rows.function(symbolic.configuration(bones, pose)).full().ravel()
+            beyond = np.maximum(rows.lower - values, values - rows.upper).max()
+            violation = bones.limits.violation(pose).max()
+            assert (beyond > 1e-9) == (violation > 1e-9)
+            values = rows.function(symbolic.configuration(bones, within)).full().ravel()
+            assert np.maximum(rows.lower - values, values - rows.upper).max() < 1e-8
+            assert bones.limits.violation(within).max() < 1e-8
