@@ -14,13 +14,15 @@ from regkit.body import Body
 from regkit.files import replacing
 from regkit.interfaces import Registrar
 from regkit.observation import Truth
-from regkit.primitives import Gaussians, Primitives, TaperedCapsules
+from regkit.primitives import Gaussians, Primitives, TaperedCapsules, Volumes
 from regkit.skeleton import Placement
-from regkit.surfels import Surfels
 from regkit.tracking import Track, TrackedFrame
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+MANY = 300
+"""More outlines than this would only hide each other."""
 
 _CIRCLE = 2.0 * np.array(
     [np.cos(np.linspace(0, 2 * np.pi, 49)), np.sin(np.linspace(0, 2 * np.pi, 49))]
@@ -40,7 +42,7 @@ def draw_overlay(
     """Draw the first, the worst and the last frame from the front and from the side.
 
     Gaussians are drawn as the outlines of their 2-sigma ellipsoids, capsules and spheres as their
-    own, the vertices of a mesh as dots, reference joints as crosses.
+    own, what is a point or one of very many as dots, reference joints as crosses.
     The worst frame is the one whose points lie farthest from the body's surface.
     """
     # The object interface needs no display and leaves no global state behind.
@@ -110,16 +112,14 @@ def _draw(
     plot.scatter(points[:, across], points[:, down], s=2, c="0.72", linewidths=0)
     body = registrar.body
     placement = body.place(frame.registered.pose)
-    if body.surface is not None and not len(body.capsules):
-        surface = body.surface.place(placement.transforms)
-        plot.scatter(surface[:, across], surface[:, down], s=1, c="tab:blue", linewidths=0)
-    else:
-        for outline in _outlines(registrar.primitives, placement, view):
+    primitives = registrar.primitives
+    if isinstance(primitives, Volumes) and len(primitives) <= MANY:
+        for outline in _outlines(primitives, placement, view):
             plot.fill(*outline, facecolor="tab:blue", alpha=0.10)
             plot.plot(*outline, color="tab:blue", linewidth=0.8)
-        if isinstance(registrar.primitives, Surfels):
-            vertices = registrar.primitives.place(placement.transforms).centres
-            plot.plot(vertices[:, across], vertices[:, down], ",", color="tab:blue", alpha=0.6)
+    else:
+        centres = primitives.place(placement.transforms).centres
+        plot.scatter(centres[:, across], centres[:, down], s=1, c="tab:blue", linewidths=0)
     for start, end in _bones(body, placement):
         plot.plot(
             [start[across], end[across]], [start[down], end[down]], color="tab:orange", lw=1.5
