@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import permutations, product
 
 import numpy as np
 
 from regkit.arrays import Array, Indices
 from regkit.body.description import GaussianDescription
-from regkit.rotation import from_matrix, to_vector
+from regkit.rotation import from_matrix, to_vector, vector_to_matrix
 from regkit.skeleton.joints import Vector
 
 _TURNS = np.array(
@@ -88,3 +89,12 @@ def vector(values: Array, decimals: int = 4) -> Vector:
     """Three rounded numbers; 4 decimals are a tenth of a millimetre."""
     x, y, z = (round(float(value), decimals) + 0.0 for value in values)
     return (x, y, z)
+
+
+def mixture(gaussians: Sequence[GaussianDescription]) -> Array:
+    """The covariance (3, 3) of several Gaussians together, each of the same weight [m^2]."""
+    centres = np.array([one.centre for one in gaussians])
+    turns = vector_to_matrix(np.radians([one.rotation_deg for one in gaussians]))
+    axes = turns * np.array([np.broadcast_to(one.sigma, 3) for one in gaussians])[:, None]
+    own = axes @ np.swapaxes(axes, 1, 2)
+    return np.asarray(np.cov(centres.T, bias=True) + own.mean(axis=0))
