@@ -33,7 +33,8 @@ def test_a_fitted_body_tracks_as_the_shipped_one_does(regkit, files, out):
     assert regkit("validate", out).code == 0
     assert read(out).size.value == pytest.approx(1.633, abs=0.005)
     errors = []
-    for name in ("{kind: human, height: 1.633}", f"{{kind: file, path: {out}}}"):
+    fitted = f"{{kind: file, path: {out}, size: {read(out).size.value}}}"
+    for name in ("{kind: human, height: 1.633}", fitted):
         results = files._replace(out=files.out / str(len(errors)))
         settings = ("--set", f"template={name}", "--set", "dataset.sequences=[first]")
         ended = regkit("run", files.experiment, "--out", results.out, *settings)
