@@ -56,7 +56,7 @@ class Proportions:
         subject = template.model_copy(
             update={"segments": segments, "gaussians": gaussians, "mesh": None}
         )
-        size = template.size.value * _height(subject) / _height(template)
+        size = template.size.value * height(subject) / height(template)
         return subject.model_copy(
             update={"size": template.size.model_copy(update={"value": size, "range": (size, size)})}
         )
@@ -133,7 +133,7 @@ def _swollen(gaussian: GaussianDescription, stretch: _Stretch) -> GaussianDescri
     return gaussian.model_copy(update={"centre": stretch.point(gaussian.centre), "sigma": sigma})
 
 
-def _height(description: BodyDescription) -> float:
+def height(description: BodyDescription) -> float:
     """How far the surface reaches along y in the rest pose [m]."""
     body = description.body("rest", description.size.value)
     placement = body.place(body.skeleton.rest())

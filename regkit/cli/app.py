@@ -9,6 +9,7 @@ import typer
 from regkit.cli.calibrate import calibrate
 from regkit.cli.console import print_error
 from regkit.cli.doctor import doctor
+from regkit.cli.fit import fit
 from regkit.cli.plugins import plugins
 from regkit.cli.register import register
 from regkit.cli.run import run
@@ -22,7 +23,7 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
-for command in (run, register, calibrate, validate, plugins, schema, doctor):
+for command in (run, register, calibrate, fit, validate, plugins, schema, doctor):
     app.command()(command)
 
 

@@ -11,7 +11,6 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TaskID, TextC
 from rich.table import Table
 
 from regkit.cli.console import PluginFiles, errors, output, run_plugin_files
-from regkit.files import write_text
 
 if TYPE_CHECKING:
     from regkit.calibration import Subject
@@ -61,45 +60,20 @@ def calibrate(
     plugin: PluginFiles = None,
 ) -> None:
     """Make a template with the proportions of the person or hand that a sequence shows."""
-    from regkit.body.writing import template_text
     from regkit.cli.calibration_source import Source
+    from regkit.cli.template_file import check_replaceable, write_template
 
     run_plugin_files(plugin)
-    _check_replaceable(out)
+    check_replaceable(out)
     found = Source.read(source, template, settings or ())
     seen = found.sequence(sequence)
     with _ProgressBars() as bars:
         subject = found.calibration(frames).subject(seen, bars)
     opening = OPENING.format(frames=subject.frames, sequence=seen.name, file=out.name)
-    description = subject.description
     skin = subject.proportions.skin(found.template.description())
-    if skin is not None:
-        mesh = out.with_name(f"{out.stem}_mesh.npz")
-        skin.write(mesh)
-        description = description.model_copy(update={"mesh": mesh})
-    write_text(out, template_text(description, opening, {}))
+    write_template(out, subject.description, skin, opening)
     _tell(subject, found.template.description().size.value)
     output.print(f"written: {out}", highlight=False, soft_wrap=True)
-
-
-def _check_replaceable(out: Path) -> None:
-    """Refuse to overwrite what is no template, before any work is done.
-
-    Raises:
-        ConfigError: If something else is there.
-    """
-    from regkit.body import BodyDescription
-    from regkit.document import Document
-    from regkit.errors import ConfigError, RegkitError
-
-    if not out.exists():
-        return
-    try:
-        Document.read(out).validated(BodyDescription)
-    except RegkitError:
-        raise ConfigError(
-            f"{out} is there already, and is no template; give another name", place="--out"
-        ) from None
 
 
 def _tell(subject: Subject, template_size: float) -> None:

@@ -51,7 +51,7 @@ class Source(Model):
             experiment = Experiment.read(path, settings)
             return cls(
                 dataset=experiment.dataset,
-                template=experiment.template if template is None else _template(template),
+                template=experiment.template if template is None else template_named(template),
                 observer=experiment.observer,
                 start=experiment.start if template is None else None,
             )
@@ -64,7 +64,7 @@ class Source(Model):
         source = Document(data, {(): str(path)}).validated(cls)
         if template is None:
             return source
-        return source.model_copy(update={"template": _template(template)})
+        return source.model_copy(update={"template": template_named(template)})
 
     def sequence(self, name: str | None) -> Sequence:
         """The sequence called ``name``, or the only one that there is.
@@ -93,7 +93,7 @@ class Source(Model):
         )
 
 
-def _template(text: str) -> Template:
+def template_named(text: str) -> Template:
     """The template that ``--template`` names.
 
     Raises:

@@ -7,11 +7,12 @@ import pytest
 
 from regkit.body import BodyDescription
 from regkit.document import Document
+from regkit.fitting.flesh import Flesh, closed, interior_points
+from regkit.fitting.moments import balls, gaussian
 from regkit.rotation import vector_to_matrix
 from regkit_plugins.fitting.__main__ import templates
 from regkit_plugins.fitting.capsules import Piece, fitted
-from regkit_plugins.fitting.flesh import Flesh, closed, interior_points
-from regkit_plugins.fitting.moments import balls, gaussian, symmetric_balls
+from regkit_plugins.fitting.mirror import symmetric_balls
 from regkit_plugins.fitting.texts import human_text
 from regkit_plugins.templates.reading import FOLDER
 

@@ -8,6 +8,7 @@ import pytest
 from regkit.body import BodyDescription
 from regkit.document import Document
 from regkit.errors import DataError
+from regkit.fitting.skin import decimated, on_segments
 from regkit.optional import open3d
 from regkit.rigid import inverse, moved, rigid
 from regkit.rotation import vector_to_matrix
@@ -15,7 +16,7 @@ from regkit.skinned_mesh import SkinnedMesh
 from regkit.surface import SkinnedSurface, surface_in, vertex_normals
 from regkit_plugins.fitting.hand_layout import hand_layout
 from regkit_plugins.fitting.human_layout import human_layout
-from regkit_plugins.fitting.mesh import decimated, on_segments, reflected
+from regkit_plugins.fitting.mirror import reflected
 from regkit_plugins.synthesis.assets import average_hand, average_human
 from regkit_plugins.templates.hand import Hand
 from regkit_plugins.templates.human import Human

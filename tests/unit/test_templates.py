@@ -11,6 +11,7 @@ from regkit.body import Body, BodyDescription
 from regkit.capsules import Capsules
 from regkit.document import Document
 from regkit.errors import ConfigError, DataError
+from regkit.fitting.layout import Layout
 from regkit.interfaces.template import Template
 from regkit.model import Model, Text
 from regkit.primitives import Gaussians
@@ -19,7 +20,6 @@ from regkit.skeleton import PoseDescription
 from regkit.skinned_mesh import SkinnedMesh
 from regkit_plugins.fitting.hand_layout import hand_layout
 from regkit_plugins.fitting.human_layout import human_layout
-from regkit_plugins.fitting.straight import Layout
 from regkit_plugins.templates.file import FileTemplate
 from regkit_plugins.templates.hand import Hand
 from regkit_plugins.templates.human import Human

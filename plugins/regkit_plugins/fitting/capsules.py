@@ -11,9 +11,10 @@ from scipy.optimize import least_squares
 
 from regkit.arrays import Array
 from regkit.capsules import Capsules
+from regkit.fitting.flesh import Flesh
+from regkit.fitting.moments import vector
 from regkit.skeleton.description import CapsuleDescription
-from regkit_plugins.fitting.flesh import Flesh
-from regkit_plugins.fitting.mirror import REFLECT, vector
+from regkit_plugins.fitting.mirror import REFLECT
 
 
 @dataclass(frozen=True)

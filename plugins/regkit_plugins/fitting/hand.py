@@ -7,15 +7,15 @@ import numpy as np
 from regkit.arrays import Array
 from regkit.body import BodyDescription
 from regkit.body.description import GaussianDescription, SizeDescription
+from regkit.fitting.flesh import Flesh, flesh_of
+from regkit.fitting.moments import balls, clusters, gaussian, vector
 from regkit.rigid import moved
 from regkit.skeleton import PoseDescription, SegmentDescription
 from regkit.skinned_mesh import SkinnedMesh
 from regkit_plugins.fitting import mirror
 from regkit_plugins.fitting.capsules import Piece, fitted
-from regkit_plugins.fitting.flesh import Flesh, flesh_of
 from regkit_plugins.fitting.hand_layout import FINGERS, PALM, HandLayout, hand_layout
 from regkit_plugins.fitting.hand_limits import SOURCES, STANCES, hand_joints
-from regkit_plugins.fitting.moments import balls, clusters, gaussian
 from regkit_plugins.synthesis.landmarks import hand_landmarks
 
 SPACING = 0.0012
@@ -94,11 +94,11 @@ def _segments(
         offset = np.zeros(3) if parent is None else layout.frames[parent].local(frame.origin)
         segments[name] = SegmentDescription(
             parent=parent,
-            offset=mirror.vector(offset),
+            offset=vector(offset),
             joint=joints[name],
             capsules=fitted(_pieces(name, layout), flesh[name], scale=0.002),
             markers={
-                marker: mirror.vector(frame.local(moved(layout.T_template_mesh, position[None]))[0])
+                marker: vector(frame.local(moved(layout.T_template_mesh, position[None]))[0])
                 for marker, (owner, position) in landmarks.items()
                 if owner == name
             },
@@ -109,12 +109,12 @@ def _segments(
 def _pieces(name: str, layout: HandLayout) -> tuple[Piece, ...]:
     """First guesses: one capsule along each phalanx, and one along each metacarpal of the palm."""
     if name != PALM:
-        return (Piece((0.0, 0.0, 0.0), mirror.vector(layout.phalanges[name]), 0.008),)
+        return (Piece((0.0, 0.0, 0.0), vector(layout.phalanges[name]), 0.008),)
     knuckles = [layout.frames[f"{finger}_1"].origin for finger in FINGERS[1:]]
     ball_of_thumb = Piece((0.015, 0.015, 0.008), (0.02, 0.04, 0.01), 0.012)
     return (
         ball_of_thumb,
-        *(Piece(mirror.vector(0.3 * at), mirror.vector(0.9 * at), 0.012) for at in knuckles),
+        *(Piece(vector(0.3 * at), vector(0.9 * at), 0.012) for at in knuckles),
     )
 
 

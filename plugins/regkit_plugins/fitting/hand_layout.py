@@ -8,10 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from regkit.arrays import Array
+from regkit.fitting.layout import Layout, SegmentFrame
 from regkit.rigid import moved
 from regkit.rotation import between, vector_to_matrix
 from regkit.skinned_mesh import SkinnedMesh
-from regkit_plugins.fitting.straight import FORWARD, Layout, SegmentFrame, mesh_axes, unit
+from regkit_plugins.fitting.straight import FORWARD, mesh_axes, unit
 from regkit_plugins.synthesis.landmarks import hand_landmarks
 
 PALM = "palm"

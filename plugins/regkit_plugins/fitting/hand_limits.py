@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from regkit.fitting.moments import vector
 from regkit.skeleton.joints import FreeJoint, HingeJoint, Joint, Range, UniversalJoint, Vector
 from regkit_plugins.fitting.hand_layout import FINGERS, PALM, HandLayout
-from regkit_plugins.fitting.mirror import vector
 from regkit_plugins.fitting.straight import FORWARD, unit
 
 SOURCES = (

@@ -7,13 +7,15 @@ import numpy as np
 from regkit.arrays import Array
 from regkit.body import BodyDescription
 from regkit.body.description import GaussianDescription, SizeDescription
+from regkit.fitting.flesh import Flesh, flesh_of
+from regkit.fitting.layout import Layout
+from regkit.fitting.moments import balls, gaussian, vector
 from regkit.rigid import moved
 from regkit.skeleton import PoseDescription, SegmentDescription
 from regkit.skeleton.joints import FixedJoint
 from regkit.skinned_mesh import SkinnedMesh
 from regkit_plugins.fitting import mirror
 from regkit_plugins.fitting.capsules import fitted
-from regkit_plugins.fitting.flesh import Flesh, flesh_of
 from regkit_plugins.fitting.human_layout import (
     BALLS,
     BONES,
@@ -24,8 +26,6 @@ from regkit_plugins.fitting.human_layout import (
     human_layout,
 )
 from regkit_plugins.fitting.human_limits import JOINTS, SOURCES, STANCES
-from regkit_plugins.fitting.moments import balls, gaussian, symmetric_balls
-from regkit_plugins.fitting.straight import Layout
 from regkit_plugins.synthesis.landmarks import human_landmarks
 
 SPACING = 0.008
@@ -97,14 +97,14 @@ def _segment(name: str, mesh: SkinnedMesh, layout: Layout, flesh: Flesh) -> Segm
     for marker, landmark in human_landmarks(mesh).items():
         if MARKERS.get(marker) == name:
             place = frame.local(moved(layout.T_template_mesh, landmark.position[None]))[0]
-            markers[marker] = mirror.vector(place if "left" in marker else place * [0.0, 1.0, 1.0])
+            markers[marker] = vector(place if "left" in marker else place * [0.0, 1.0, 1.0])
     for marker, (landmark_name, away) in KINECT.items():
         if MARKERS[landmark_name] == name:
-            markers[marker] = mirror.vector(np.array(markers[landmark_name]) + away)
+            markers[marker] = vector(np.array(markers[landmark_name]) + away)
     offset = np.zeros(3) if parent is None else layout.frames[parent].local(frame.origin)
     return SegmentDescription(
         parent=parent,
-        offset=mirror.vector(offset),
+        offset=vector(offset),
         joint=JOINTS.get(name, FixedJoint()),
         capsules=fitted(PIECES[name], flesh, scale=0.01),
         markers=markers,
@@ -115,7 +115,7 @@ def _balls(name: str, flesh: Flesh) -> tuple[GaussianDescription, ...]:
     pairs, single = BALLS[name]
     if name.startswith("left_"):
         return balls(flesh.interior, single)
-    return symmetric_balls(flesh.interior, pairs, single)
+    return mirror.symmetric_balls(flesh.interior, pairs, single)
 
 
 def _forearm_and_hand(layout: Layout, flesh: dict[str, Flesh]) -> Array:

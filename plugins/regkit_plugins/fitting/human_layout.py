@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from regkit.fitting.layout import Layout, SegmentFrame
 from regkit.rigid import moved
 from regkit.rotation import between
 from regkit.skinned_mesh import SkinnedMesh
@@ -12,8 +13,6 @@ from regkit_plugins.fitting.straight import (
     DOWN,
     FORWARD,
     LEFT,
-    Layout,
-    SegmentFrame,
     aligned,
     mesh_axes,
     unit,

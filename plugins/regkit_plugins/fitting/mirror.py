@@ -3,26 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
 from regkit.arrays import Array
 from regkit.body.description import GaussianDescription
+from regkit.fitting.moments import ball, clusters, spread, vector
 from regkit.skeleton import SegmentDescription
 from regkit.skeleton.description import CapsuleDescription
 from regkit.skeleton.joints import BallJoint, HingeJoint, Joint, UniversalJoint, Vector
+from regkit.skinned_mesh import SkinnedMesh
 
 REFLECT = np.array([-1.0, 1.0, 1.0])
 """What a point is multiplied by."""
 
 _TURN = np.array([1.0, -1.0, -1.0])
 """What an axis or a rotation vector is multiplied by: its sense of turning is reflected, too."""
-
-
-def vector(values: Array, decimals: int = 4) -> Vector:
-    """Three rounded numbers; 4 decimals are a tenth of a millimetre."""
-    x, y, z = (round(float(value), decimals) + 0.0 for value in values)
-    return (x, y, z)
 
 
 def point(value: Vector) -> Vector:
@@ -84,3 +81,36 @@ def segment(value: SegmentDescription, rename: Callable[[str], str]) -> SegmentD
         capsules=tuple(capsule(one) for one in value.capsules),
         markers={rename(name): point(marker) for name, marker in value.markers.items()},
     )
+
+
+def reflected(mesh: SkinnedMesh) -> SkinnedMesh:
+    """The mirror image in the plane x = 0: a left hand from a right one."""
+    mirror = np.diag([-1.0, 1.0, 1.0, 1.0])
+    return replace(
+        mesh,
+        vertices=mesh.vertices @ mirror[:3, :3],
+        faces=mesh.faces[:, ::-1],
+        rest=mirror @ mesh.rest @ mirror,
+    )
+
+
+def symmetric_balls(points: Array, pairs: int, middle: int) -> tuple[GaussianDescription, ...]:
+    """Isotropic Gaussians that are their own mirror image in the plane x = 0.
+
+    Args:
+        points: (N, 3) points that are symmetric about that plane [m].
+        pairs: How many pairs there are, left first.
+        middle: How many lie in the plane.
+    """
+    half = points[points[:, 0] > 0.0]
+    start = half[spread(half, pairs + middle)]
+    start = start[np.argsort(-start[:, 0], kind="stable")]
+    owners = clusters(half, start, in_plane=middle)
+    balls: list[GaussianDescription] = []
+    for index in range(pairs):
+        own = half[owners == index]
+        balls += [ball(own), ball(own * REFLECT)]
+    for index in range(pairs, pairs + middle):
+        own = half[owners == index]
+        balls.append(ball(np.concatenate([own, own * REFLECT])))
+    return tuple(balls)

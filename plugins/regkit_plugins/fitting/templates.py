@@ -8,12 +8,13 @@ from pathlib import Path
 
 from regkit.body import BodyDescription
 from regkit.files import write_text
+from regkit.fitting.skin import decimated, on_segments
 from regkit.skinned_mesh import SkinnedMesh
 from regkit_plugins.fitting.hand import left_hand, right_hand
 from regkit_plugins.fitting.hand_layout import hand_layout
 from regkit_plugins.fitting.human import human
 from regkit_plugins.fitting.human_layout import human_layout
-from regkit_plugins.fitting.mesh import decimated, on_segments, reflected
+from regkit_plugins.fitting.mirror import reflected
 from regkit_plugins.fitting.texts import COMMAND, hand_text, human_text
 
 HUMAN_VERTICES, HAND_VERTICES = 1500, 800

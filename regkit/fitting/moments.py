@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import permutations, product
 
 import numpy as np
 
 from regkit.arrays import Array, Indices
 from regkit.body.description import GaussianDescription
-from regkit.rotation import from_matrix, to_vector
-from regkit_plugins.fitting.mirror import REFLECT, vector
+from regkit.rotation import from_matrix, to_vector, vector_to_matrix
+from regkit.skeleton.joints import Vector
 
 _TURNS = np.array(
     [
@@ -52,28 +53,6 @@ def balls(points: Array, count: int) -> tuple[GaussianDescription, ...]:
     return tuple(ball(points[owners == index]) for index in range(count))
 
 
-def symmetric_balls(points: Array, pairs: int, middle: int) -> tuple[GaussianDescription, ...]:
-    """Isotropic Gaussians that are their own mirror image in the plane x = 0.
-
-    Args:
-        points: (N, 3) points that are symmetric about that plane [m].
-        pairs: How many pairs there are, left first.
-        middle: How many lie in the plane.
-    """
-    half = points[points[:, 0] > 0.0]
-    start = half[spread(half, pairs + middle)]
-    start = start[np.argsort(-start[:, 0], kind="stable")]
-    owners = clusters(half, start, in_plane=middle)
-    balls: list[GaussianDescription] = []
-    for index in range(pairs):
-        own = half[owners == index]
-        balls += [ball(own), ball(own * REFLECT)]
-    for index in range(pairs, pairs + middle):
-        own = half[owners == index]
-        balls.append(ball(np.concatenate([own, own * REFLECT])))
-    return tuple(balls)
-
-
 def clusters(points: Array, centres: Array, in_plane: int = 0) -> Indices:
     """Lloyd's k-means: the cluster (N,) of each point, from first centres (K, 3).
 
@@ -86,7 +65,9 @@ def clusters(points: Array, centres: Array, in_plane: int = 0) -> Indices:
     for _ in range(200):
         centres[kept, 0] = 0.0
         owners = ((points[:, None] - centres) ** 2).sum(axis=2).argmin(axis=1)
-        moved = np.array([points[owners == index].mean(axis=0) for index in range(len(centres))])
+        moved = centres.copy()
+        for index in np.unique(owners):
+            moved[index] = points[owners == index].mean(axis=0)
         moved[kept, 0] = 0.0
         if np.abs(moved - centres).max() < 1e-7:
             break
@@ -102,3 +83,18 @@ def spread(points: Array, count: int) -> Indices:
         chosen.append(int(distances.argmax()))
         distances = np.minimum(distances, ((points - points[chosen[-1]]) ** 2).sum(axis=1))
     return np.array(chosen)
+
+
+def vector(values: Array, decimals: int = 4) -> Vector:
+    """Three rounded numbers; 4 decimals are a tenth of a millimetre."""
+    x, y, z = (round(float(value), decimals) + 0.0 for value in values)
+    return (x, y, z)
+
+
+def mixture(gaussians: Sequence[GaussianDescription]) -> Array:
+    """The covariance (3, 3) of several Gaussians together, each of the same weight [m^2]."""
+    centres = np.array([one.centre for one in gaussians])
+    turns = vector_to_matrix(np.radians([one.rotation_deg for one in gaussians]))
+    axes = turns * np.array([np.broadcast_to(one.sigma, 3) for one in gaussians])[:, None]
+    own = axes @ np.swapaxes(axes, 1, 2)
+    return np.asarray(np.cov(centres.T, bias=True) + own.mean(axis=0))

@@ -11,11 +11,11 @@ from scipy.spatial import cKDTree
 
 from regkit.arrays import Indices
 from regkit.body import BodyDescription
+from regkit.fitting.layout import Layout
+from regkit.fitting.moments import spread
 from regkit.rigid import moved, rigid
 from regkit.skinned_mesh import SkinnedMesh
 from regkit.surface import vertex_normals
-from regkit_plugins.fitting.moments import spread
-from regkit_plugins.fitting.straight import Layout
 
 
 def on_segments(mesh: SkinnedMesh, layout: Layout, template: BodyDescription) -> SkinnedMesh:
@@ -68,17 +68,6 @@ def decimated(mesh: SkinnedMesh, count: int) -> SkinnedMesh:
     triangles = corners[(ordered[:, 0] < ordered[:, 1]) & (ordered[:, 1] < ordered[:, 2])]
     _, first = np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)
     return _subset(replace(mesh, faces=kept[triangles[np.sort(first)]]), kept)
-
-
-def reflected(mesh: SkinnedMesh) -> SkinnedMesh:
-    """The mirror image in the plane x = 0: a left hand from a right one."""
-    mirror = np.diag([-1.0, 1.0, 1.0, 1.0])
-    return replace(
-        mesh,
-        vertices=mesh.vertices @ mirror[:3, :3],
-        faces=mesh.faces[:, ::-1],
-        rest=mirror @ mesh.rest @ mirror,
-    )
 
 
 def _largest_piece(mesh: SkinnedMesh) -> SkinnedMesh:

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.spatial import cKDTree
 
 from regkit.arrays import Array, Indices
+from regkit.fitting.layout import Layout, SegmentFrame
 from regkit.optional import open3d
 from regkit.rigid import moved
 from regkit.skinned_mesh import SkinnedMesh
-from regkit_plugins.fitting.straight import Layout
 
 
 @dataclass(frozen=True)
@@ -28,16 +29,38 @@ class Flesh:
     surface: Array
     areas: Array
 
+    def local(self, frame: SegmentFrame) -> Flesh:
+        """The same in the frame of a segment, if this is in the template's axes."""
+        return Flesh(frame.local(self.interior), frame.local(self.surface), self.areas)
+
 
 def flesh_of(mesh: SkinnedMesh, layout: Layout, spacing: float) -> dict[str, Flesh]:
-    """The flesh of every segment, from a grid whose points are ``spacing`` apart [m].
+    """The flesh of every segment, from a grid whose points are ``spacing`` apart [m]."""
+    parts = divided(mesh, layout.T_template_mesh, layout.owners, list(layout.frames), spacing)
+    return {name: part.local(layout.frames[name]) for name, part in parts.items()}
+
+
+def divided(
+    mesh: SkinnedMesh,
+    T_template_mesh: Array,
+    owner_of_bone: Mapping[str, str],
+    names: Sequence[str],
+    spacing: float,
+) -> dict[str, Flesh]:
+    """The flesh of every segment in the template's axes, in the pose of the mesh.
 
     A point belongs to the segment that the nearest vertex follows most.
+
+    Args:
+        mesh: The mesh.
+        T_template_mesh: (4, 4) from the mesh's axes to the template's [m].
+        owner_of_bone: The segment that each bone belongs to, by the bone's label.
+        names: The segments.
+        spacing: Distance of the points of the grid [m].
     """
-    names = list(layout.frames)
-    vertices = moved(layout.T_template_mesh, mesh.vertices)
+    vertices = moved(T_template_mesh, mesh.vertices)
     followed = np.zeros((len(vertices), len(names)))
-    owners = np.array([names.index(layout.owners[label]) for label in mesh.labels])
+    owners = np.array([names.index(owner_of_bone[label]) for label in mesh.labels])
     np.add.at(followed, (np.arange(len(vertices))[:, None], owners[mesh.indices]), mesh.weights)
     owner_of_vertex = followed.argmax(axis=1)
     corners = vertices[mesh.faces]
@@ -50,8 +73,8 @@ def flesh_of(mesh: SkinnedMesh, layout: Layout, spacing: float) -> dict[str, Fle
     owner_of_face = owner_of_vertex[tree.query(centres)[1]]
     return {
         name: Flesh(
-            layout.frames[name].local(inside[owner_of_point == index]),
-            layout.frames[name].local(centres[owner_of_face == index]),
+            inside[owner_of_point == index],
+            centres[owner_of_face == index],
             areas[owner_of_face == index],
         )
         for index, name in enumerate(names)

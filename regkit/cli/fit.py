@@ -1,0 +1,109 @@
+"""``regkit fit``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.markup import escape
+from rich.table import Table
+
+from regkit.cli.console import PluginFiles, output, run_plugin_files
+from regkit.errors import RegkitError
+
+if TYPE_CHECKING:
+    from regkit.body import BodyDescription
+    from regkit.fitting.template import FittedTemplate
+
+OPENING = """\
+What `regkit fit` made of the mesh {mesh}. To use it:
+template: {{kind: file, path: {file}}}
+
+Lengths are in metres and angles in degrees."""
+
+
+def fit(
+    mesh: Annotated[
+        Path,
+        typer.Argument(
+            metavar="MESH", help="Skinned mesh, an .npz file, in metres.", show_default=False
+        ),
+    ],
+    template: Annotated[
+        str,
+        typer.Option(
+            metavar="TEMPLATE",
+            help="Whose joints it gets: a name such as hand, a template's YAML file, or a mapping "
+            "such as '{kind: hand, side: left}'.",
+        ),
+    ] = "human",
+    bones: Annotated[
+        Path | None,
+        typer.Option(
+            "--map",
+            metavar="FILE",
+            help="YAML file that names the segment of each bone, or null for that of its parent. "
+            "[default: the segment of the bone's own name]",
+            show_default=False,
+        ),
+    ] = None,
+    out: Annotated[
+        Path, typer.Option(metavar="FILE", help="The template to write, or to replace.")
+    ] = Path("fitted.yaml"),
+    vertices: Annotated[
+        int, typer.Option(min=50, help="So many of the mesh's vertices are kept.")
+    ] = 1500,
+    plugin: PluginFiles = None,
+) -> None:
+    """Make a template in the shape of a skinned mesh."""
+    from regkit.cli.calibration_source import template_named
+    from regkit.cli.template_file import check_replaceable, write_template
+    from regkit.fitting.bones import read_bone_map
+    from regkit.fitting.template import FittedTemplate
+    from regkit.skinned_mesh import SkinnedMesh
+
+    run_plugin_files(plugin)
+    check_replaceable(out)
+    description = template_named(template).description()
+    skinned = SkinnedMesh.read(mesh)
+    mapped = {} if bones is None else read_bone_map(bones)
+    try:
+        fitted = FittedTemplate.to(skinned, description, mapped, vertices)
+    except RegkitError as error:
+        raise error.at(str(mesh)) from None
+    named = _named(fitted.description, mesh.name)
+    write_template(out, named, fitted.skin, OPENING.format(mesh=mesh.name, file=out.name))
+    _tell(fitted)
+    output.print(f"written: {out}", highlight=False, soft_wrap=True)
+    output.print(f"template: {{kind: file, path: {out}}}", highlight=False, soft_wrap=True)
+
+
+def _named(description: BodyDescription, mesh: str) -> BodyDescription:
+    """The description, which says where its shape comes from."""
+    source = f"Lengths, surface, Gaussians: fitted to the mesh {mesh}"
+    title = f"{description.title}; in the shape of {mesh}"
+    return description.model_copy(
+        update={"title": title, "sources": (*description.sources, source)}
+    )
+
+
+def _tell(fitted: FittedTemplate) -> None:
+    """Print what was made of the mesh."""
+    description = fitted.description
+    kinds = list(description.gaussians)
+    table = Table("segment", "bones")
+    for kind in kinds:
+        table.add_column(escape(kind), justify="right")
+    for name in description.segments:
+        own = [label for label, owner in fitted.owners.items() if owner == name]
+        counts = [str(len(description.gaussians[kind].get(name, ()))) for kind in kinds]
+        table.add_row(escape(name), escape(", ".join(own)), *counts)
+    output.print(table)
+    output.print(
+        f"{description.size.name} {description.size.value:.4g} m; "
+        f"{len(fitted.skin.vertices)} vertices",
+        highlight=False,
+        markup=False,
+        soft_wrap=True,
+    )

@@ -1,0 +1,39 @@
+"""Templates that a command writes, each with its mesh beside it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from regkit.body import BodyDescription
+from regkit.body.writing import template_text
+from regkit.document import Document
+from regkit.errors import ConfigError, RegkitError
+from regkit.files import write_text
+from regkit.skinned_mesh import SkinnedMesh
+
+
+def check_replaceable(out: Path) -> None:
+    """Refuse to overwrite what is no template, before any work is done.
+
+    Raises:
+        ConfigError: If something else is there.
+    """
+    if not out.exists():
+        return
+    try:
+        Document.read(out).validated(BodyDescription)
+    except RegkitError:
+        raise ConfigError(
+            f"{out} is there already, and is no template; give another name", place="--out"
+        ) from None
+
+
+def write_template(
+    out: Path, description: BodyDescription, skin: SkinnedMesh | None, opening: str
+) -> None:
+    """Write a template, which ``opening`` introduces, and its skin."""
+    if skin is not None:
+        mesh = out.with_name(f"{out.stem}_mesh.npz")
+        skin.write(mesh)
+        description = description.model_copy(update={"mesh": mesh})
+    write_text(out, template_text(description, opening, {}))

@@ -1,0 +1,92 @@
+"""Which segment of a template each bone of a mesh belongs to."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from pydantic import RootModel
+
+from regkit.body import BodyDescription
+from regkit.document import Document
+from regkit.errors import ConfigError
+from regkit.model import did_you_mean
+from regkit.skinned_mesh import SkinnedMesh
+
+
+class BoneMap(RootModel[dict[str, str | None]]):
+    """The segment of each bone; null leaves a bone to the segment of its parent."""
+
+
+def read_bone_map(path: Path) -> dict[str, str | None]:
+    """The bone map in a YAML file.
+
+    Raises:
+        RegkitError: If the file is missing or wrong.
+    """
+    return Document.read(path).validated(BoneMap).root
+
+
+def owners_of_bones(
+    mesh: SkinnedMesh, template: BodyDescription, bones: Mapping[str, str | None]
+) -> dict[str, str]:
+    """The segment that each bone belongs to, by the bone's label.
+
+    A bone that ``bones`` does not name belongs to the segment of its own name.
+
+    Raises:
+        ConfigError: If a bone or a segment is unknown, a bone belongs to none, or a segment has no
+            bone.
+    """
+    segments, labels = list(template.segments), list(mesh.labels)
+    for bone, segment in bones.items():
+        if bone not in labels:
+            raise ConfigError(
+                f"the mesh has no bone '{bone}' (it has: {', '.join(labels)})"
+                + did_you_mean(bone, labels)
+            )
+        if segment is not None and segment not in segments:
+            raise ConfigError(
+                f"{bone}: '{segment}' is not a segment (there are: {', '.join(segments)})"
+                + did_you_mean(segment, segments)
+            )
+    own = {label: label for label in labels if label in segments}
+    _check_all_mapped(labels, own | dict(bones), segments)
+    owners: dict[str, str] = {}
+    for label, parent in zip(labels, mesh.parents, strict=True):
+        segment = (own | dict(bones))[label]
+        if segment is None and parent < 0:
+            raise ConfigError(f"{label}: a bone without a parent needs a segment; it has null")
+        owners[label] = owners[labels[parent]] if segment is None else segment
+    return owners
+
+
+def first_bones(mesh: SkinnedMesh, owners: Mapping[str, str]) -> dict[str, int]:
+    """The bone at whose start each segment has its joint: its first, as parents come first."""
+    first: dict[str, int] = {}
+    for bone, label in enumerate(mesh.labels):
+        first.setdefault(owners[label], bone)
+    return first
+
+
+def _check_all_mapped(
+    labels: Sequence[str], bones: Mapping[str, str | None], segments: Sequence[str]
+) -> None:
+    """Refuse bones without a segment, and segments without a bone.
+
+    Raises:
+        ConfigError: If there are any.
+    """
+    unmapped = [label for label in labels if label not in bones]
+    bare = [segment for segment in segments if segment not in bones.values()]
+    if unmapped:
+        raise ConfigError(
+            f"no segment is named after the bones {', '.join(unmapped)}; say where each belongs in "
+            "a file for --map, as 'bone: segment', or null for the segment of its parent"
+            + (f" (no bone yet: {', '.join(bare)})" if bare else "")
+        )
+    if bare:
+        raise ConfigError(
+            f"no bone belongs to {', '.join(bare)}; every segment of the template needs one (the "
+            f"bones are {', '.join(labels)})"
+        )

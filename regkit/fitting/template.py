@@ -1,0 +1,259 @@
+"""A template in the shape of a mesh."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from regkit.arrays import Array
+from regkit.body import BodyDescription
+from regkit.body.description import GaussianDescription
+from regkit.calibration.groups import Groups
+from regkit.calibration.proportions import Proportions, height
+from regkit.errors import DataError
+from regkit.fitting.bones import first_bones, owners_of_bones
+from regkit.fitting.flesh import Flesh, divided
+from regkit.fitting.layout import Layout
+from regkit.fitting.moments import ball, clusters, gaussian, mixture, vector
+from regkit.fitting.posture import Posture
+from regkit.fitting.skin import decimated, on_segments
+from regkit.rigid import inverse, moved, rigid
+from regkit.skeleton import SegmentDescription
+from regkit.skeleton.description import parents_first
+from regkit.skeleton.joints import FixedJoint
+from regkit.skinned_mesh import SkinnedMesh
+
+FINENESS = 150
+"""So many points of the grid inside the mesh lie along the template's size."""
+
+FEWEST = 8
+"""Points inside a segment that a Gaussian of it needs."""
+
+LIKELY = 2.0
+"""A mesh so many times larger or smaller than any size of the template has other units."""
+
+
+@dataclass(frozen=True)
+class FittedTemplate:
+    """A template in the shape of a mesh.
+
+    Attributes:
+        description: The template, at the mesh's size.
+        skin: The mesh, whose bones are the template's segments.
+        owners: The segment that each bone of the mesh belongs to.
+        proportions: By how much lengths and girths differ from the template's own.
+    """
+
+    description: BodyDescription
+    skin: SkinnedMesh
+    owners: Mapping[str, str]
+    proportions: Proportions
+
+    @classmethod
+    def to(
+        cls,
+        mesh: SkinnedMesh,
+        template: BodyDescription,
+        bones: Mapping[str, str | None],
+        vertices: int,
+    ) -> FittedTemplate:
+        """A template with the joints of another, in the shape of a mesh.
+
+        Args:
+            mesh: The mesh, in any pose and in any axes.
+            template: Joints, limits and stances are kept; so is how many Gaussians each segment
+                has.
+            bones: The segment of each bone; see ``owners_of_bones``.
+            vertices: So many of the mesh's vertices are kept.
+
+        Raises:
+            ConfigError: If bones and segments do not fit together.
+            DataError: If the mesh is no body like the template's.
+        """
+        if not template.gaussians:
+            raise DataError("the template lists no Gaussians, so that none can be fitted")
+        owners = owners_of_bones(mesh, template, bones)
+        starts = mesh.rest[:, :3, 3]
+        joints = {name: starts[bone] for name, bone in first_bones(mesh, owners).items()}
+        axes, origin = Posture(template, joints).root()
+        T_template_mesh = inverse(rigid(axes, origin))
+        joints = {name: moved(T_template_mesh, at[None])[0] for name, at in joints.items()}
+        joints[parents_first(template.segments)[0]] = np.zeros(3)
+        size = _rough_size(template, joints)
+        parts = divided(mesh, T_template_mesh, owners, list(template.segments), size / FINENESS)
+        _check_filled(template, parts)
+        frames = Posture(template, joints).frames(parts)
+        layout = Layout(T_template_mesh, owners, frames)
+        shape = MeshShape(template, layout, parts)
+        description = shape.description()
+        skin = decimated(on_segments(mesh, layout, description), vertices)
+        return cls(_sized(description, template, skin), skin, owners, shape.proportions())
+
+
+@dataclass(frozen=True)
+class MeshShape:
+    """The shape of a mesh, in the terms of a template.
+
+    Attributes:
+        template: The template.
+        layout: How the mesh is divided into its segments.
+        parts: The flesh of each, in the template's axes.
+    """
+
+    template: BodyDescription
+    layout: Layout
+    parts: Mapping[str, Flesh]
+
+    def description(self) -> BodyDescription:
+        """The template with the mesh's joints and Gaussians; the rest is stretched with these."""
+        stretched = self.proportions().applied(self.template)
+        segments = {name: self._segment(name, one) for name, one in stretched.segments.items()}
+        return stretched.model_copy(update={"segments": segments, "gaussians": self.gaussians})
+
+    @cached_property
+    def gaussians(self) -> dict[str, dict[str, tuple[GaussianDescription, ...]]]:
+        """The Gaussians of every kind and segment."""
+        return {
+            kind: {name: self._gaussians(kind, name, own) for name, own in by_segment.items()}
+            for kind, by_segment in self.template.gaussians.items()
+        }
+
+    def proportions(self) -> Proportions:
+        """The mean factors of each group of segments."""
+        groups = Groups.of(self.template)
+        order = parents_first(self.template.segments)
+        factors = np.array(
+            [self._factors(name, bone) for name, bone in zip(order, groups.bones, strict=True)]
+        )
+        means = [
+            factors[groups.of_segments == index].mean(axis=0) for index in range(len(groups.names))
+        ]
+        lengths, girths = np.array(means).T
+        return Proportions(groups, lengths, girths)
+
+    def _factors(self, name: str, bone: Array) -> tuple[float, float]:
+        """By how much a segment is longer along its bone, and thicker across it."""
+        kinds = [kind for kind, own in self.template.gaussians.items() if own.get(name)]
+        if not kinds:
+            return 1.0, 1.0
+        before = mixture(self.template.gaussians[kinds[0]][name])
+        after = mixture(self.gaussians[kinds[0]][name])
+        across = np.eye(3) - np.outer(bone, bone)
+        girth = float(np.sqrt(np.sum(across * after) / np.sum(across * before)))
+        children = [own for own, one in self.template.segments.items() if one.parent == name]
+        if not bone.any():
+            return girth, girth
+        if children:
+            ends = np.sum([self.template.segments[child].offset for child in children], axis=0)
+            reached = np.sum([self._offset(child) for child in children], axis=0)
+            return float(bone @ reached / (bone @ ends)), girth
+        return float(np.sqrt((bone @ after @ bone) / (bone @ before @ bone))), girth
+
+    def _segment(self, name: str, stretched: SegmentDescription) -> SegmentDescription:
+        """Joints are where the mesh has them, and markers at joints with these."""
+        own = self.template.segments[name]
+        markers = dict(stretched.markers)
+        for marker, at in own.markers.items():
+            for child, segment in self.template.segments.items():
+                if segment.parent == name and np.allclose(at, segment.offset, atol=1e-6):
+                    markers[marker] = vector(self._offset(child))
+        offset = own.offset if own.parent is None else vector(self._offset(name))
+        return stretched.model_copy(update={"offset": offset, "markers": markers})
+
+    def _gaussians(
+        self, kind: str, name: str, before: tuple[GaussianDescription, ...]
+    ) -> tuple[GaussianDescription, ...]:
+        """As many Gaussians as the template has, round where its own are round.
+
+        They are those of clusters, which begin where the template's Gaussians lie in its segment.
+        """
+        points = self._points(kind, name)
+        centres = np.array([one.centre for one in before])
+        wider = points.std(axis=0) / np.sqrt(np.diag(mixture(before)))
+        guess = points.mean(axis=0) + wider * (centres - centres.mean(axis=0))
+        owners = clusters(points, points[cKDTree(points).query(guess)[1]])
+        return tuple(
+            (ball if isinstance(one.sigma, float) else gaussian)(points[owners == index])
+            for index, one in enumerate(before)
+        )
+
+    def _points(self, kind: str, name: str) -> Array:
+        """The points inside a segment and what is fixed to it without Gaussians of its own."""
+        frame = self.layout.frames[name]
+        return np.concatenate(
+            [frame.local(self.parts[one].interior) for one in self._together(kind, name)]
+        )
+
+    def _together(self, kind: str, name: str) -> list[str]:
+        """The segment and those that are fixed to it and have no Gaussians of this kind."""
+        names = [name]
+        for parent in names:
+            names += [
+                own
+                for own, one in self.template.segments.items()
+                if one.parent == parent
+                and isinstance(one.joint or FixedJoint(), FixedJoint)
+                and not self.template.gaussians[kind].get(own)
+            ]
+        return names
+
+    def _offset(self, name: str) -> Array:
+        """Where a segment's joint is in its parent's frame (3,) [m]."""
+        parent = self.template.segments[name].parent
+        assert parent is not None
+        return self.layout.frames[parent].local(self.layout.frames[name].origin)
+
+
+def _rough_size(template: BodyDescription, joints: Mapping[str, Array]) -> float:
+    """The size by the distances of joints [m].
+
+    Raises:
+        DataError: If no body of this template is like that.
+    """
+    parents = {name: one.parent for name, one in template.segments.items() if one.parent}
+    own = sum(float(np.linalg.norm(template.segments[name].offset)) for name in parents)
+    found = sum(float(np.linalg.norm(joints[name] - joints[to])) for name, to in parents.items())
+    low, high = template.size.range
+    size = template.size.value * (found / own if own > 0.0 else 1.0)
+    if not low / LIKELY <= size <= high * LIKELY:
+        raise DataError(
+            f"by its joints the mesh would have a {template.size.name} of {size:.4g} m; the "
+            f"template's is {low:g} to {high:g} m: lengths must be in metres"
+        )
+    return size
+
+
+def _sized(
+    description: BodyDescription, template: BodyDescription, skin: SkinnedMesh
+) -> BodyDescription:
+    """The description with the size that its height (along y, at rest) gives it."""
+    own, other = (one.body("rest", one.size.value) for one in (description, template))
+    transforms = own.place(own.skeleton.rest()).transforms
+    if other.surface is None:
+        ratio = height(description) / height(template)
+    else:
+        order = [own.skeleton.names.index(label) for label in skin.labels]
+        before = other.surface.place(other.place(other.skeleton.rest()).transforms)
+        ratio = float(np.ptp(skin.posed(transforms[order])[:, 1]) / np.ptp(before[:, 1]))
+    size = round(template.size.value * ratio, 4)
+    given = template.size.model_copy(update={"value": size, "range": (size, size)})
+    return description.model_copy(update={"size": given})
+
+
+def _check_filled(template: BodyDescription, parts: Mapping[str, Flesh]) -> None:
+    """Refuse a mesh that encloses nothing where there should be Gaussians.
+
+    Raises:
+        DataError: If a segment is empty.
+    """
+    for name, part in parts.items():
+        most = max(len(by_segment.get(name, ())) for by_segment in template.gaussians.values())
+        if len(part.interior) < FEWEST * max(most, 1):
+            raise DataError(
+                f"the mesh encloses nothing, or too little, at '{name}': its surface must be "
+                "closed, and vertices must follow the segment's bones"
+            )
