@@ -4,27 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from regkit.arrays import Array
 from regkit.body import BodyDescription
-from regkit.body.description import GaussianDescription
-from regkit.calibration.groups import Groups
 from regkit.calibration.proportions import Proportions, height
 from regkit.errors import DataError
 from regkit.fitting.bones import first_bones, owners_of_bones
 from regkit.fitting.flesh import Flesh, divided
 from regkit.fitting.layout import Layout
-from regkit.fitting.moments import ball, clusters, gaussian, mixture, vector
+from regkit.fitting.mesh_shape import MeshShape
 from regkit.fitting.posture import Posture
 from regkit.fitting.skin import decimated, on_segments
 from regkit.rigid import inverse, moved, rigid
-from regkit.skeleton import SegmentDescription
 from regkit.skeleton.description import parents_first
-from regkit.skeleton.joints import FixedJoint
 from regkit.skinned_mesh import SkinnedMesh
 
 FINENESS = 150
@@ -92,120 +86,6 @@ class FittedTemplate:
         description = shape.description()
         skin = decimated(on_segments(mesh, layout, description), vertices)
         return cls(_sized(description, template, skin), skin, owners, shape.proportions())
-
-
-@dataclass(frozen=True)
-class MeshShape:
-    """The shape of a mesh, in the terms of a template.
-
-    Attributes:
-        template: The template.
-        layout: How the mesh is divided into its segments.
-        parts: The flesh of each, in the template's axes.
-    """
-
-    template: BodyDescription
-    layout: Layout
-    parts: Mapping[str, Flesh]
-
-    def description(self) -> BodyDescription:
-        """The template with the mesh's joints and Gaussians; the rest is stretched with these."""
-        stretched = self.proportions().applied(self.template)
-        segments = {name: self._segment(name, one) for name, one in stretched.segments.items()}
-        return stretched.model_copy(update={"segments": segments, "gaussians": self.gaussians})
-
-    @cached_property
-    def gaussians(self) -> dict[str, dict[str, tuple[GaussianDescription, ...]]]:
-        """The Gaussians of every kind and segment."""
-        return {
-            kind: {name: self._gaussians(kind, name, own) for name, own in by_segment.items()}
-            for kind, by_segment in self.template.gaussians.items()
-        }
-
-    def proportions(self) -> Proportions:
-        """The mean factors of each group of segments."""
-        groups = Groups.of(self.template)
-        order = parents_first(self.template.segments)
-        factors = np.array(
-            [self._factors(name, bone) for name, bone in zip(order, groups.bones, strict=True)]
-        )
-        means = [
-            factors[groups.of_segments == index].mean(axis=0) for index in range(len(groups.names))
-        ]
-        lengths, girths = np.array(means).T
-        return Proportions(groups, lengths, girths)
-
-    def _factors(self, name: str, bone: Array) -> tuple[float, float]:
-        """By how much a segment is longer along its bone, and thicker across it."""
-        kinds = [kind for kind, own in self.template.gaussians.items() if own.get(name)]
-        if not kinds:
-            return 1.0, 1.0
-        before = mixture(self.template.gaussians[kinds[0]][name])
-        after = mixture(self.gaussians[kinds[0]][name])
-        across = np.eye(3) - np.outer(bone, bone)
-        girth = float(np.sqrt(np.sum(across * after) / np.sum(across * before)))
-        children = [own for own, one in self.template.segments.items() if one.parent == name]
-        if not bone.any():
-            return girth, girth
-        if children:
-            ends = np.sum([self.template.segments[child].offset for child in children], axis=0)
-            reached = np.sum([self._offset(child) for child in children], axis=0)
-            return float(bone @ reached / (bone @ ends)), girth
-        return float(np.sqrt((bone @ after @ bone) / (bone @ before @ bone))), girth
-
-    def _segment(self, name: str, stretched: SegmentDescription) -> SegmentDescription:
-        """Joints are where the mesh has them, and markers at joints with these."""
-        own = self.template.segments[name]
-        markers = dict(stretched.markers)
-        for marker, at in own.markers.items():
-            for child, segment in self.template.segments.items():
-                if segment.parent == name and np.allclose(at, segment.offset, atol=1e-6):
-                    markers[marker] = vector(self._offset(child))
-        offset = own.offset if own.parent is None else vector(self._offset(name))
-        return stretched.model_copy(update={"offset": offset, "markers": markers})
-
-    def _gaussians(
-        self, kind: str, name: str, before: tuple[GaussianDescription, ...]
-    ) -> tuple[GaussianDescription, ...]:
-        """As many Gaussians as the template has, round where its own are round.
-
-        They are those of clusters, which begin where the template's Gaussians lie in its segment.
-        """
-        points = self._points(kind, name)
-        centres = np.array([one.centre for one in before])
-        wider = points.std(axis=0) / np.sqrt(np.diag(mixture(before)))
-        guess = points.mean(axis=0) + wider * (centres - centres.mean(axis=0))
-        owners = clusters(points, points[cKDTree(points).query(guess)[1]])
-        return tuple(
-            (ball if isinstance(one.sigma, float) else gaussian)(points[owners == index])
-            for index, one in enumerate(before)
-        )
-
-    def _points(self, kind: str, name: str) -> Array:
-        """The points inside a segment and what is fixed to it without Gaussians of its own."""
-        frame = self.layout.frames[name]
-        return np.concatenate(
-            [frame.local(self.parts[one].interior) for one in self._together(kind, name)]
-        )
-
-    def _together(self, kind: str, name: str) -> list[str]:
-        """The segment and those that are fixed to it and have no Gaussians of this kind."""
-        names = [name]
-        for parent in names:
-            names += [
-                own
-                for own, one in self.template.segments.items()
-                if one.parent == parent
-                and isinstance(one.joint or FixedJoint(), FixedJoint)
-                and not self.template.gaussians[kind].get(own)
-            ]
-        return names
-
-    def _offset(self, name: str) -> Array:
-        """Where a segment's joint is in its parent's frame (3,) [m]."""
-        parent = self.template.segments[name].parent
-        assert parent is not None
-        return self.layout.frames[parent].local(self.layout.frames[name].origin)
 
 
 def _rough_size(template: BodyDescription, joints: Mapping[str, Array]) -> float:
