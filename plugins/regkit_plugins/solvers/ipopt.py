@@ -13,7 +13,8 @@ from regkit.interfaces import LimitKeeping, Multipliers, Problem, Solution, Solv
 from regkit.optional import casadi
 from regkit_plugins.solvers.ipopt_callbacks import Callbacks
 from regkit_plugins.solvers.ipopt_options import ALWAYS, ENDS, QUASI_NEWTON, QUIET, WARM, check
-from regkit_plugins.solvers.ipopt_program import SETTLED, Program, Watch
+from regkit_plugins.solvers.ipopt_program import Program
+from regkit_plugins.solvers.ipopt_watch import SETTLED, Watch
 
 SAME = 1e-6
 """Values that differ by less, in units of the mean curvature, are of the same minimum."""

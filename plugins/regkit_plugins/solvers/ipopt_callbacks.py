@@ -13,7 +13,8 @@ import numpy as np
 
 from regkit.arrays import Array
 from regkit.optional import casadi
-from regkit_plugins.solvers.ipopt_program import Program, Watch
+from regkit_plugins.solvers.ipopt_program import Program
+from regkit_plugins.solvers.ipopt_watch import Watch
 
 Answer = Callable[[Sequence[Array]], Array]
 """From the arguments of a CasADi function to the numbers of one of its results."""

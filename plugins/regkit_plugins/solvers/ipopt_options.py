@@ -7,7 +7,7 @@ from contextlib import redirect_stdout
 from io import StringIO
 
 from regkit.optional import casadi
-from regkit_plugins.solvers.ipopt_program import LATE, SETTLED
+from regkit_plugins.solvers.ipopt_watch import LATE, SETTLED
 
 Options = Mapping[str, bool | int | float | str]
 

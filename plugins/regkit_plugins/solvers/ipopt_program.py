@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-import time
-
 import numpy as np
 
 from regkit.arrays import Array
 from regkit.errors import DataError
 from regkit.interfaces import Multipliers, Problem
-
-SETTLED = "the value settled"
-LATE = "max_seconds ran out"
 
 
 class Program:
@@ -51,9 +46,8 @@ class Program:
         lower, upper = problem.lower, problem.upper
         self.lower = np.where(np.isfinite(lower), lower, np.minimum(self.start, upper) - reach)
         self.upper = np.where(np.isfinite(upper), upper, np.maximum(self.start, lower) + reach)
-        value, gradient, matrix = self.at(self.start)
-        finite = all(np.isfinite(part).all() for part in self.at(self.start) if part is not None)
-        if not finite:
+        value, gradient, matrix = known = self.at(self.start)
+        if not all(np.isfinite(part).all() for part in known if part is not None):
             raise DataError(f"the energy ({value}) or its gradient at the start is not finite")
         self.curved = matrix is not None
         self.scale = abs(value) or float(np.abs(gradient).max(initial=0.0)) or 1.0
@@ -80,17 +74,15 @@ class Program:
 
     def allowed(self, x: Array) -> bool:
         """Whether a point (m,) is within the limits."""
-        return self.worst(x)[0] <= self._tolerance
+        return float(self._beyond(x).max(initial=0.0)) <= self._tolerance
 
     def worst(self, x: Array) -> tuple[float, str]:
-        """The largest violation at x (m,), of a constraint or a bound, and what it is of."""
-        beyond = np.maximum(self._problem.lower - x, x - self._problem.upper)
-        names = [f"bound of variable {index}" for index in range(len(x))]
-        if self.constraints is not None:
-            beyond = np.append(beyond, self.constraints.violations(x))
-            names += self.constraints.names
+        """The largest violation at x (m,), of a bound or a constraint, and what it is of."""
+        beyond = self._beyond(x)
         index = int(np.argmax(beyond))
-        return max(float(beyond[index]), 0.0), names[index]
+        if self.constraints is None or index < len(x):
+            return float(beyond[index]), f"bound of variable {index}"
+        return float(beyond[index]), self.constraints.names[index - len(x)]
 
     def value(self, x: Array) -> Array:
         """The scaled value, (1,)."""
@@ -130,6 +122,13 @@ class Program:
         right = (x > self.upper - near) & (self.upper < self._problem.upper)
         return bool((left | right).any())
 
+    def _beyond(self, x: Array) -> Array:
+        """How far each bound (m,) and then each constraint (C,) is violated."""
+        beyond = np.maximum(self._problem.lower - x, x - self._problem.upper).clip(min=0.0)
+        if self.constraints is None:
+            return beyond
+        return np.append(beyond, self.constraints.violations(x))
+
     def _see(self, x: Array, value: float) -> None:
         if self.best is not None and not value < self.best[0]:
             return
@@ -145,39 +144,3 @@ def _fitting(multipliers: Multipliers | None, size: int, rows: int) -> Multiplie
     fits = bounds.shape == (size,) and constraints.shape == (rows,)
     known = fits and bool(np.isfinite(bounds).all() and np.isfinite(constraints).all())
     return multipliers if known else None
-
-
-class Watch:
-    """Looks at IPOPT's iterates, and ends it early.
-
-    Args:
-        program: The program.
-        value_tolerance: It ends near a point within the limits, with a step that gains less than
-            this part of all gain before.
-        max_seconds: It ends after this time [s].
-
-    Attributes:
-        ending: Why it ended, or nothing.
-    """
-
-    def __init__(self, program: Program, value_tolerance: float, max_seconds: float | None) -> None:
-        self.ending = ""
-        self._program, self._tolerance = program, value_tolerance
-        self._deadline = np.inf if max_seconds is None else time.perf_counter() + max_seconds
-        self._first: float | None = None
-        self._last = np.inf
-
-    def ended(self, x: Array) -> bool:
-        """Whether to end at an iterate x (m,)."""
-        value = self._program.at(x)[0]
-        gain, self._last = self._last - value, value
-        if self._first is None:
-            self._first = value
-        little = self._tolerance * (self._first - value)
-        if time.perf_counter() > self._deadline:
-            self.ending = LATE
-        elif 0.0 <= gain <= little:
-            point = self._program.within(x)
-            if self._program.allowed(point) and self._program.at(point)[0] <= value + little:
-                self.ending = SETTLED
-        return bool(self.ending)
