@@ -12,6 +12,7 @@ import json
 import time
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
 
 import numpy as np
 from rich.console import Console
@@ -72,7 +73,6 @@ def tracked(
     assert method.tracker is not None
     follower = method.tracker.follow(method.prepare(body))
     evaluating = 0.0
-    own = RegistrationProblem.normal_equations, RegistrationProblem.value_and_gradient
 
     def timed(function: Any) -> Any:
         def call(problem: RegistrationProblem, x: Any) -> Any:
@@ -84,15 +84,16 @@ def tracked(
 
         return call
 
-    RegistrationProblem.normal_equations, RegistrationProblem.value_and_gradient = map(timed, own)  # type: ignore[method-assign]
-    try:
+    looked_at = {
+        name: timed(getattr(RegistrationProblem, name))
+        for name in ("normal_equations", "value_and_gradient")
+    }
+    with patch.multiple(RegistrationProblem, **looked_at):
         past = [Registered.given(start)]
         begun = time.perf_counter()
         for observation in data:
             past.append(follower.step(observation, past))
         return past[1:], time.perf_counter() - begun, evaluating
-    finally:
-        RegistrationProblem.normal_equations, RegistrationProblem.value_and_gradient = own  # type: ignore[method-assign]
 
 
 def main() -> None:

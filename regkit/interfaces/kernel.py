@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from regkit.arrays import Array
+from regkit.interfaces.shape import ShapeModel
 from regkit.observation import Observation
 from regkit.plugin import Plugin
 from regkit.primitives import Placed, Primitives
@@ -56,6 +57,18 @@ class Kernel(Plugin, ABC):
 
     accepts: ClassVar[type[Primitives]]
     """The primitives that it can compare."""
+
+    def check_shape(self, shape: ShapeModel) -> None:
+        """Refuse a shape model whose primitives it cannot compare.
+
+        Raises:
+            ValueError: If it makes others, to be told where the two stand together.
+        """
+        if not issubclass(shape.makes, self.accepts):
+            raise ValueError(
+                f"kernel '{self.kind}' compares {self.accepts.__name__}, but shape '{shape.kind}' "
+                f"makes {shape.makes.__name__}"
+            )
 
     @abstractmethod
     def against(

@@ -25,7 +25,8 @@ segments:
   last:
     parent: middle
     offset: [0, 0.2, 0]
-    joint: {type: hinge, axis: x, limits_deg: [0, 40], coupled: {to: middle, ratio: 0.5, offset_deg: 5}}
+    joint: {type: hinge, axis: x, limits_deg: [0, 40],
+            coupled: {to: middle, ratio: 0.5, offset_deg: 5}}
     capsules: [{start: [0, 0, 0], end: [0, 0.1, 0], radius: 0.02}]
   middle:
     parent: first
@@ -36,7 +37,7 @@ segments:
     parent: palm
     offset: [0.2, 0, 0]
     joint: {type: hinge, axis: z, limits_deg: [-30, 30]}
-"""  # noqa: E501
+"""
 
 
 def written(tmp_path, text: str) -> BodyDescription:
@@ -192,6 +193,6 @@ def test_every_solver_holds_a_coupling(finger, random, solver):
     ],
 )
 def test_coupling_that_cannot_be_is_refused_at_its_line(tmp_path, change, message):
-    with pytest.raises(ConfigError, match=r"finger\.yaml:13") as caught:
+    with pytest.raises(ConfigError, match=r"finger\.yaml:14") as caught:
         written(tmp_path, FINGER.replace(*change))
     assert message in str(caught.value)

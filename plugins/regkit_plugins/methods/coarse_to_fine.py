@@ -60,11 +60,7 @@ class CoarseToFine(Method):
                 f"shape '{self.shape.kind}' has no width that could be changed; take cloud_gsog "
                 "or cloud_sog"
             )
-        if not issubclass(self.shape.makes, self.kernel.accepts):
-            raise ValueError(
-                f"kernel '{self.kernel.kind}' compares {self.kernel.accepts.__name__}, but shape "
-                f"'{self.shape.kind}' makes {self.shape.makes.__name__}"
-            )
+        self.kernel.check_shape(self.shape)
         return self
 
     def prepare(self, body: Body) -> CoarseToFineRegistrar:

@@ -63,11 +63,7 @@ class Direct(Method):
 
     @model_validator(mode="after")
     def _shape_fits_kernel(self) -> Direct:
-        if not issubclass(self.shape.makes, self.kernel.accepts):
-            raise ValueError(
-                f"kernel '{self.kernel.kind}' compares {self.kernel.accepts.__name__}, but shape "
-                f"'{self.shape.kind}' makes {self.shape.makes.__name__}"
-            )
+        self.kernel.check_shape(self.shape)
         return self
 
     @model_validator(mode="after")
