@@ -17,11 +17,11 @@ import json
 import resource
 import sys
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from _rigid_pairs import Pair, bunny
 from threadpoolctl import threadpool_limits
 
 from regkit.alignment import align, read_transform
@@ -29,8 +29,6 @@ from regkit.arrays import Array
 from regkit.clouds import read_cloud
 from regkit.errors import DependencyError, RegkitError
 from regkit.interfaces import Method
-from regkit.rigid import inverse, moved, rigid
-from regkit.rotation import from_matrix, to_vector, vector_to_matrix
 
 DATA = Path(__file__).parents[2] / "shared" / "data"
 SEEDS, ANGLES = 10, (10, 30, 60, 90)
@@ -57,55 +55,6 @@ METHODS = {
     "biocpd, CPD": "{{kind: biocpd}}",
 }
 """By name; ``distance`` is that of the libraries which have one, as a part of the source's size."""
-
-
-@dataclass(frozen=True)
-class Pair:
-    """Two clouds and T_target_source."""
-
-    source: Array
-    target: Array
-    truth: Array
-    size: float
-
-    def errors(self, transform: Array) -> tuple[float, float]:
-        """Rotation [deg], and how far the source's centre is off, as a part of the size."""
-        turn = to_vector(from_matrix((inverse(self.truth) @ transform)[:3, :3]))
-        centre = self.source.mean(axis=0, keepdims=True)
-        off = moved(transform, centre) - moved(self.truth, centre)
-        return float(np.degrees(np.linalg.norm(turn))), float(np.linalg.norm(off)) / self.size
-
-
-def bunny(
-    points: Array,
-    angle: float,
-    seed: int,
-    *,
-    noise: float = 0.0,
-    overlap: float = 1.0,
-    outliers: float = 0.0,
-) -> Pair:
-    """A pair made of one cloud; see the module."""
-    random = np.random.default_rng(seed)
-    size = float(np.linalg.norm(np.ptp(points, axis=0)))
-    axis, shift, cut = random.normal(size=(3, 3))
-    rotation = vector_to_matrix(np.radians(angle) * axis / np.linalg.norm(axis))
-    centre = points.mean(axis=0)
-    shift *= 0.1 * size / np.linalg.norm(shift)
-    truth = rigid(rotation, centre + shift - rotation @ centre)
-    # Of each cloud the part ``overlap`` is in the other one too.
-    order, kept = np.argsort(points @ cut), round(len(points) / (2.0 - overlap))
-
-    def spoiled(cloud: Array) -> Array:
-        noisy = cloud + noise * size * random.normal(size=cloud.shape)
-        count = round(outliers / (1.0 - outliers) * len(cloud))
-        low, high = noisy.min(axis=0), noisy.max(axis=0)
-        spread = 0.1 * (high - low)
-        return np.concatenate([noisy, random.uniform(low - spread, high + spread, (count, 3))])
-
-    source = spoiled(points[order[:kept]])
-    target = spoiled(moved(truth, points[order[-kept:]]))
-    return Pair(source, target, truth, size)
 
 
 def methods(distance: float) -> Iterator[tuple[str, Method]]:
