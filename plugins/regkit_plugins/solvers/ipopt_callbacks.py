@@ -102,6 +102,7 @@ class Callbacks:
 def _callback_class() -> type[Any]:
     """A class of CasADi's, which is imported when it is first needed."""
 
+    # CasADi has no types, so that its class is of any type to the checker.
     class Callback(casadi().Callback):  # type: ignore[misc]
         """A CasADi function that asks Python for its results, without copies."""
 
