@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Annotated
 
 from pydantic import Field
@@ -23,11 +23,22 @@ class Sequence(ABC):
         name: Unique within its dataset, and fit to be a folder's name.
         fps: Frames per second at which it was recorded.
         length: Number of frames.
+        subject: The dataset's name of who is seen, if it tells them apart.
     """
 
     name: str
     fps: float
     length: int
+    subject: str | None = field(default=None, kw_only=True)
+
+    def prepare(self) -> None:  # noqa: B027 - most sequences have nothing to prepare.
+        """Make what the frames are read from, where that takes a while: render or unpack them.
+
+        It is called before the frames are asked for, which must come all the same without it.
+
+        Raises:
+            RegkitError: If that is not possible.
+        """
 
     @abstractmethod
     def frames(self) -> Iterator[Frame]:
