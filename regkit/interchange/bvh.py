@@ -3,8 +3,8 @@
 Source: Meredith, Maddock, Motion Capture File Formats Explained, University of Sheffield, 2001,
 section 3.2. The format has no units; angles are in degrees. A joint's rotation is the product of
 its channels' rotations in their order in the file. A position channel stands in place of the
-offset along its axis, as Blender and MotionBuilder read it; where the offset is zero, which a root's
-nearly always is, this is the same as adding them.
+offset along its axis, as Blender and MotionBuilder read it; where the offset is zero, which that
+of a root nearly always is, this is the same as adding them.
 """
 
 from __future__ import annotations
