@@ -23,23 +23,26 @@ class Follower:
     """What a bone follows.
 
     Attributes:
-        start: The source's joint that it turns with, or the first of two.
-        end: The second one, or the same.
-        share: How far it is turned from ``start`` towards ``end``.
-        straight: (3, 3) turns it from the body's rest to the source's.
+        joints: The source's joint that it turns with, or the two that it lies between.
+        straight: (3, 3) for each of them, what turns its segment from the body's rest to the
+            source's.
+        share: How far it is turned from the first of two towards the second.
     """
 
-    start: str
-    end: str
+    joints: tuple[str, ...]
+    straight: tuple[Array, ...]
     share: float
-    straight: Array
 
     def turn(self, pose: SourcePose) -> Array:
         """The rotation (3, 3) of the bone from its rest, in ground axes."""
-        if self.start == self.end:
-            return np.asarray(pose.rotations[self.start] @ self.straight)
-        start, end = (from_matrix(pose.rotations[joint]) for joint in (self.start, self.end))
-        return np.asarray(to_matrix(interpolated(start, end, self.share)) @ self.straight)
+        turns = [
+            pose.rotations[joint] @ straight
+            for joint, straight in zip(self.joints, self.straight, strict=True)
+        ]
+        if len(turns) == 1:
+            return np.asarray(turns[0])
+        start, end = (from_matrix(turn) for turn in turns)
+        return to_matrix(interpolated(start, end, self.share))
 
 
 @dataclass(frozen=True)
@@ -151,7 +154,7 @@ def _aimed(
 def _follower(
     label: str, followed: str | Between, rig: Rig, straight: Mapping[str, Array]
 ) -> Follower:
-    joints = followed.between if isinstance(followed, Between) else (followed, followed)
+    joints = followed.between if isinstance(followed, Between) else (followed,)
     share = followed.share if isinstance(followed, Between) else 0.0
     own = []
     for joint in joints:
@@ -163,4 +166,5 @@ def _follower(
                 f"{did_you_mean(joint, known)} (there are {', '.join(dict.fromkeys(known))})"
             )
         own.append(moving)
-    return Follower(own[0], own[1], share, straight.get(joints[0], np.eye(3)))
+    turns = tuple(straight.get(joint, np.eye(3)) for joint in joints)
+    return Follower(tuple(own), turns, share)
