@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Literal
 
 import numpy as np
-from pydantic import Field, field_validator
+from pydantic import Field, field_validator, model_validator
 
 from regkit.arrays import Array
 from regkit.errors import ConfigError
@@ -35,8 +35,18 @@ class Spot(Model):
     between: tuple[str, str] | None = None
     """Two other bones, between whose starts the point lies at rest."""
 
+    along: float | None = None
+    """How far the point lies from the bone's start along the bone [m]."""
+
     crown: float | None = Field(default=None, ge=0.0, le=1.0)
-    """How far the point lies from the bone's start on the way to the mesh's highest vertex."""
+    """How far the point lies from the bone's start on the way to the mesh's highest vertex, as a
+    share of it."""
+
+    @model_validator(mode="after")
+    def _one_way(self) -> Spot:
+        if sum(way is not None for way in (self.between, self.along, self.crown)) > 1:
+            raise ValueError("give one of between, along and crown")
+        return self
 
 
 class BodyMap(Model):
@@ -136,6 +146,8 @@ def _landmark(spot: str | Spot, mesh: SkinnedMesh) -> Landmark:
     if spot.between is not None:
         first, second = spot.between
         return Landmark(bone, (_start(mesh, first) + _start(mesh, second)) / 2)
+    if spot.along is not None:
+        return Landmark(bone, start + spot.along * np.asarray(mesh.rest[bone, :3, 1]))
     if spot.crown is not None:
         top = mesh.vertices[np.argmax(mesh.vertices[:, 2])]
         return Landmark(bone, (1.0 - spot.crown) * start + spot.crown * top)

@@ -30,10 +30,11 @@ class Keyframe(Model):
     """When [s]."""
 
     joints: dict[str, Triple] = Field(default_factory=dict)
-    """Angles of a figure's joints [deg] about x (its left), y (its back) and z (up), applied in
-    that order in its parent's axes; all are zero where it stands with its arms hanging. Positive
-    about x tips what stands forward: a bent knee is positive, a raised thigh or a bent elbow
-    negative."""
+    """Angles [deg] of a figure's joints about its parent's x (to its left), y (to its back) and z
+    (up); all are zero where it stands with its arms hanging. A limb is turned about itself by z
+    first, then lifted sideways by y, then swung by x. Positive about x tips forward what stands: a
+    bent knee is positive, a raised thigh and a bent elbow are negative. A left arm is lifted
+    sideways by a negative y, a right one by a positive one."""
 
     feet: Triple | None = None
     """Where the middle between the ankles is, and how high above the ground the lower foot [m]; on
@@ -71,7 +72,22 @@ class Keyframes(Model):
             raise ValueError(f"the times of the frames must increase; they are {times}")
         if times[0] != 0.0:
             raise ValueError(f"the first frame must have the time 0; it has {times[0]}")
+        if self.loops:
+            self._check_loop()
         return self
+
+    def _check_loop(self) -> None:
+        """Refuse a loop that jumps; whole turns and steps along the ground are none."""
+        motion = self.motion()
+        for joint, curve in motion.curves.items():
+            gap = (curve(motion.length) - curve(0.0) + 180.0) % 360.0 - 180.0
+            if np.abs(gap).max() > 1e-6:
+                raise ValueError(
+                    f"a motion that loops must end as it begins; {joint} goes from "
+                    f"{[*map(float, curve(0.0))]} to {[*map(float, curve(motion.length))]}"
+                )
+        if abs(motion.feet(motion.length)[2] - motion.feet(0.0)[2]) > 1e-6:
+            raise ValueError("a motion that loops must end at the height at which it begins")
 
     def motion(self) -> KeyframedMotion:
         """The motion between them."""
@@ -137,9 +153,9 @@ def _curve(keys: list[tuple[float, Triple]]) -> PchipInterpolator:
 
 
 def _turned(angles: Array) -> Array:
-    """The rotation (3, 3) by angles (3,) [deg] about x, then y, then z."""
+    """The rotation (3, 3) by angles (3,) [deg] about x, y and z, of which z is applied first."""
     x, y, z = vector_to_matrix(np.diag(np.radians(angles)))
-    return np.asarray(z @ y @ x)
+    return np.asarray(x @ y @ z)
 
 
 def _below(rotations: Mapping[str, Array]) -> Array:

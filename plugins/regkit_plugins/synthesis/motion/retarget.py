@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -16,6 +16,9 @@ from regkit_plugins.synthesis.mending import interpolated
 from regkit_plugins.synthesis.motion.body_map import Between, BodyMap, bone_of
 from regkit_plugins.synthesis.motion.figure import AIMS, FIGURE, leg_length
 from regkit_plugins.synthesis.motion.motion import Motion, Rig, SourcePose
+
+_LOOKS = 40
+"""How often in a motion the lowest point of the skin is looked for."""
 
 
 @dataclass(frozen=True)
@@ -93,13 +96,27 @@ class Retarget:
         return self.mesh.turned(turns, middle - turns[0] @ self.hips)
 
 
-def retargeted(motion: Motion, mesh: SkinnedMesh, body: BodyMap) -> Callable[[float], Array]:
+def retargeted(
+    motion: Motion, mesh: SkinnedMesh, body: BodyMap, *, grounded: bool = False
+) -> Callable[[float], Array]:
     """The bone poses ``T_ground_bone`` (J, 4, 4) of a body at a time [s] of a motion.
+
+    Args:
+        motion: The motion.
+        mesh: The body; x to its left, y backward, z up.
+        body: Which of its bones follow what.
+        grounded: Whether the body is raised or lowered, once for the whole motion, so that the
+            lowest point which its skin reaches lies on the ground, at z = 0. Otherwise the height
+            of its hips is the source's, by the length of their legs.
 
     Raises:
         ConfigError: If the map names a bone that the body, or a joint that the source lacks.
     """
     retarget = Retarget.of(motion.rig, mesh, body)
+    if grounded:
+        times = np.linspace(0.0, motion.duration, _LOOKS)
+        skins = (mesh.posed(retarget.bone_poses(motion.at(time))) for time in times)
+        retarget = replace(retarget, lift=-min(float(skin[:, 2].min()) for skin in skins))
     return lambda time: retarget.bone_poses(motion.at(time))
 
 
