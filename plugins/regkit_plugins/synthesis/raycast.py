@@ -98,25 +98,6 @@ def ray_cast(vertices: Array, faces: Indices, camera: Camera) -> Array:
     return RayCaster(camera).view(vertices, faces).depth
 
 
-def measured(
-    depth: Array, sigma: float, depth_scale: float, random: np.random.Generator
-) -> NDArray[np.uint16]:
-    """What a sensor with noise along its axis stores of a depth image.
-
-    Args:
-        depth: (H, W) true depth [m]; 0 where there is nothing.
-        sigma: Standard deviation of the noise [m].
-        depth_scale: Stored units per metre.
-        random: Where the noise comes from.
-
-    Returns:
-        (H, W) whole units; 0 where there is nothing.
-    """
-    noisy = (depth + sigma * random.standard_normal(depth.shape)) * depth_scale
-    units = np.clip(np.rint(noisy), 1, _LARGEST).astype(np.uint16)
-    return np.where(depth > 0.0, units, np.uint16(0))
-
-
 def stored(depth: Array, depth_scale: float) -> NDArray[np.uint16]:
     """A depth image (H, W) [m] in whole units, 0 where there is nothing or it is out of range.
 

@@ -43,14 +43,14 @@ class DepthNoise(Model):
 
         Each part has random numbers of its own: without one of them, the others do the same.
         """
-        lateral, flying, axial, missing = random.spawn(4)
+        lateral, flying, missing = random.spawn(3)
         if self.lateral is not None:
             view = self.lateral.applied(view, lateral)
         depth = view.depth
         if self.flying is not None:
             depth = self.flying.applied(depth, flying)
         if self.axial is not None:
-            depth = self.axial.applied(View(depth, view.cosines), axial)
+            depth = self.axial.applied(View(depth, view.cosines), random)
         if self.inverse_depth_step is not None:
             depth = quantised(depth, self.inverse_depth_step)
         if self.missing is not None:
