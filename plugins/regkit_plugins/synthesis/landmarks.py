@@ -11,18 +11,6 @@ from regkit.arrays import Array
 from regkit.rigid import moved
 from regkit.skinned_mesh import SkinnedMesh
 
-_HUMAN_BONES = {
-    "shoulder": "Arm",
-    "elbow": "ForeArm",
-    "wrist": "Hand",
-    "hand": "HandFinger1",
-    "hip": "UpLeg",
-    "knee": "Leg",
-    "ankle": "Foot",
-    "foot": "ToeBase",
-}
-"""The bone, without its side, that starts in each joint."""
-
 _FINGERS = {
     "thumb": ("cmc", "mcp", "ip"),
     "index": ("mcp", "pip", "dip"),
@@ -44,23 +32,6 @@ class Landmark:
 
     bone: int
     position: Array
-
-
-def human_landmarks(mesh: SkinnedMesh) -> dict[str, Landmark]:
-    """The 20 joints of a human body, by name; left is the person's own left."""
-    head, crown = mesh.origin("Head"), mesh.vertices[np.argmax(mesh.vertices[:, 2])]
-    pelvis = (mesh.origin("LeftUpLeg") + mesh.origin("RightUpLeg")) / 2
-    landmarks = {
-        "head": Landmark(mesh.bone("Head"), (head + crown) / 2),
-        "neck": Landmark(mesh.bone("Neck"), mesh.origin("Neck")),
-        "spine": Landmark(mesh.bone("Spine"), mesh.origin("Spine")),
-        "pelvis": Landmark(mesh.bone("Hips"), pelvis),
-    }
-    for side in ("Left", "Right"):
-        for joint, bone in _HUMAN_BONES.items():
-            label = side + bone
-            landmarks[f"{side.lower()}_{joint}"] = Landmark(mesh.bone(label), mesh.origin(label))
-    return landmarks
 
 
 def hand_landmarks(mesh: SkinnedMesh, side: str = "R") -> dict[str, Landmark]:

@@ -1,0 +1,166 @@
+"""Motion of a source on the bones of a body: every bone turns as its joint does."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from regkit.arrays import Array
+from regkit.errors import ConfigError
+from regkit.model import did_you_mean
+from regkit.rotation import between, from_matrix, to_matrix
+from regkit.skinned_mesh import SkinnedMesh
+from regkit_plugins.synthesis.mending import interpolated
+from regkit_plugins.synthesis.motion.body_map import Between, BodyMap, bone_of
+from regkit_plugins.synthesis.motion.figure import AIMS, FIGURE, leg_length
+from regkit_plugins.synthesis.motion.motion import Motion, Rig, SourcePose
+
+
+@dataclass(frozen=True)
+class Follower:
+    """What a bone follows.
+
+    Attributes:
+        start: The source's joint that it turns with, or the first of two.
+        end: The second one, or the same.
+        share: How far it is turned from ``start`` towards ``end``.
+        straight: (3, 3) turns it from the body's rest to the source's.
+    """
+
+    start: str
+    end: str
+    share: float
+    straight: Array
+
+    def turn(self, pose: SourcePose) -> Array:
+        """The rotation (3, 3) of the bone from its rest, in ground axes."""
+        if self.start == self.end:
+            return np.asarray(pose.rotations[self.start] @ self.straight)
+        start, end = (from_matrix(pose.rotations[joint]) for joint in (self.start, self.end))
+        return np.asarray(to_matrix(interpolated(start, end, self.share)) @ self.straight)
+
+
+@dataclass(frozen=True)
+class Retarget:
+    """Turns poses of a source into bone poses of a body.
+
+    Attributes:
+        mesh: The body; x to its left, y backward, z up.
+        followers: What each of the J bones follows; None where it is carried by its parent.
+        scale: What the way of the hips is multiplied by.
+        hips: (3,) from the first bone's start to the middle of the hips at rest [m].
+        lift: How much higher than that the body is placed [m].
+    """
+
+    mesh: SkinnedMesh
+    followers: tuple[Follower | None, ...]
+    scale: float
+    hips: Array
+    lift: float = 0.0
+
+    @classmethod
+    def of(cls, rig: Rig, mesh: SkinnedMesh, body: BodyMap) -> Retarget:
+        """Measure a source and a body.
+
+        Raises:
+            ConfigError: If the map names a bone that the body, or a joint that the source lacks.
+        """
+        places = {name: mark.position for name, mark in body.landmarks(mesh).items()}
+        straight = straightening(places, rig.figure)
+        followers: list[Follower | None] = [None] * len(mesh.labels)
+        for label, followed in body.bones.items():
+            followers[bone_of(mesh, label)] = _follower(label, followed, rig, straight)
+        if followers[0] is None:
+            followers[0] = _follower(mesh.labels[0], "pelvis", rig, straight)
+        scale = body.root_scale
+        if scale == "leg":
+            scale = leg_length(places) / leg_length(rig.figure)
+        middle = (places["left_hip"] + places["right_hip"]) / 2
+        return cls(mesh, tuple(followers), scale, middle - mesh.rest[0, :3, 3])
+
+    def bone_poses(self, pose: SourcePose) -> Array:
+        """The bone poses ``T_ground_bone`` (J, 4, 4)."""
+        turns = np.zeros((len(self.followers), 3, 3))
+        for bone, follower in enumerate(self.followers):
+            carried = turns[self.mesh.parents[bone]]
+            turns[bone] = carried if follower is None else follower.turn(pose)
+        middle = self.scale * pose.root + [0.0, 0.0, self.lift]
+        return self.mesh.turned(turns, middle - turns[0] @ self.hips)
+
+
+def retargeted(motion: Motion, mesh: SkinnedMesh, body: BodyMap) -> Callable[[float], Array]:
+    """The bone poses ``T_ground_bone`` (J, 4, 4) of a body at a time [s] of a motion.
+
+    Raises:
+        ConfigError: If the map names a bone that the body, or a joint that the source lacks.
+    """
+    retarget = Retarget.of(motion.rig, mesh, body)
+    return lambda time: retarget.bone_poses(motion.at(time))
+
+
+def straightening(body: Mapping[str, Array], source: Mapping[str, Array]) -> dict[str, Array]:
+    """What turns each segment (3, 3) of a body at rest into the direction of the source's at rest.
+
+    A segment of a limb is turned with the one before it and then, the shortest way, into the
+    source's direction: so an elbow bends about its own axis, and a forearm is not twisted. The
+    trunk stays as it is. So does a sole, which is level on both: a foot only turns about the
+    vertical.
+
+    Args:
+        body: (3,) where the joints of the figure are at rest [m], as far as they are known.
+        source: (3,) the same of the source.
+    """
+    turns: dict[str, Array] = {}
+    for joint, parent in FIGURE.items():
+        end = AIMS.get(joint)
+        carried = turns[parent] if parent in AIMS else np.eye(3)
+        if joint.endswith("_ankle"):
+            turns[joint] = _aimed(joint, joint.replace("ankle", "foot"), body, source, _LEVEL)
+        elif joint.endswith("_foot"):
+            turns[joint] = turns[parent]
+        elif end is None:
+            turns[joint] = carried
+        else:
+            moved = {name: carried @ place for name, place in body.items()}
+            turns[joint] = _aimed(joint, end, moved, source, np.ones(3)) @ carried
+    return turns
+
+
+_LEVEL = np.array([1.0, 1.0, 0.0])
+
+
+def _aimed(
+    joint: str, end: str, body: Mapping[str, Array], source: Mapping[str, Array], parts: Array
+) -> Array:
+    """What turns (3, 3) the way from ``joint`` to ``end`` of a body into the source's.
+
+    Only the ``parts`` (3,) of the ways that are one count, not those that are zero.
+    """
+    ways = [
+        (places[end] - places[joint]) * parts
+        for places in (body, source)
+        if joint in places and end in places
+    ]
+    if len(ways) < 2 or min(np.linalg.norm(way) for way in ways) < 1e-6:
+        return np.eye(3)
+    return between(*ways)
+
+
+def _follower(
+    label: str, followed: str | Between, rig: Rig, straight: Mapping[str, Array]
+) -> Follower:
+    joints = followed.between if isinstance(followed, Between) else (followed, followed)
+    share = followed.share if isinstance(followed, Between) else 0.0
+    own = []
+    for joint in joints:
+        moving = rig.moving(joint)
+        if moving is None:
+            known = [*FIGURE, *rig.parents]
+            raise ConfigError(
+                f"bone '{label}' follows '{joint}', which neither a figure nor this source has"
+                f"{did_you_mean(joint, known)} (there are {', '.join(dict.fromkeys(known))})"
+            )
+        own.append(moving)
+    return Follower(own[0], own[1], share, straight.get(joints[0], np.eye(3)))
