@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from regkit.arrays import Array
 from regkit.camera import Camera
 from regkit.skinned_mesh import SkinnedMesh
 from regkit_plugins.synthesis.cameras import CAMERAS
-from regkit_plugins.synthesis.landmarks import Landmark, placed
+from regkit_plugins.synthesis.landmarks import Landmark, placed, some_vertices
 from regkit_plugins.synthesis.noise import DepthNoise, noise_of
 from regkit_plugins.synthesis.raycast import RayCaster, View, stored
 from regkit_plugins.synthesis.sequence import DepthSequence
@@ -55,6 +55,7 @@ class Scene:
         sensor: What looks at it.
         frames: How many images there are.
         fps: How many of them per second.
+        markers: Vertices of the mesh whose truth is known beside the joints', by name.
     """
 
     name: str
@@ -66,10 +67,20 @@ class Scene:
     sensor: Sensor
     frames: int
     fps: float = FPS
+    markers: Mapping[str, int] = field(default_factory=dict)
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """The names of the joints and of the markers."""
+        return (*self.landmarks, *self.markers)
 
     def truth(self) -> Array:
-        """Where the joints are in every image (T, L, 3), in the camera's frame [m]."""
-        return np.array([placed(self.landmarks, self.mesh, pose) for pose in self.poses()])
+        """Where joints and markers are in every image (T, L, 3), in the camera's frame [m]."""
+        skin = some_vertices(self.mesh, np.array([*self.markers.values()], dtype=np.intp))
+        return np.array([
+            np.concatenate([placed(self.landmarks, self.mesh, pose), skin.posed(pose)])
+            for pose in self.poses()
+        ])  # fmt: skip
 
     def views(self) -> Iterator[View]:
         """What there is to be seen in every image.
@@ -103,7 +114,7 @@ class Scene:
             licence=self.licence,
             camera=self.sensor.camera,
             depth=np.array(images),
-            joints=tuple(self.landmarks),
+            joints=self.joints,
             truth=self.truth(),
         )
 

