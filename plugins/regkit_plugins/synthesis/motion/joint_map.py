@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection
+from pathlib import Path
 
 from pydantic import field_validator
 
@@ -82,14 +83,30 @@ def _first(choices: Collection[str], names: Collection[str]) -> str | None:
     return next((name for choice in choices for name in names if _is(choice, name)), None)
 
 
-def joint_map(name: str | None, names: Collection[str]) -> JointMap:
-    """The map of this name that ships, the one in this YAML file, or else the first that fits.
+def parts_of(names: Collection[str], name: str | None, path: Path) -> dict[str, str]:
+    """The joint of a source in the file ``path`` for each joint of a figure.
+
+    Args:
+        names: The source's joints.
+        name: A map that ships, or a YAML file; without it, the first that fits is taken.
+        path: Where the source is, for messages.
 
     Raises:
-        RegkitError: If there is none, or it is wrong.
+        RegkitError: If there is no map, it is wrong, or it names a joint that the source lacks.
     """
-    if name is not None:
-        return read_map(JointMap, "sources", name)
+    if name is None:
+        try:
+            return _fitting(names).parts(names)
+        except ConfigError as error:
+            raise error.at(str(path)) from None
+    found = read_map(JointMap, "sources", name)
+    try:
+        return found.parts(names)
+    except ConfigError as error:
+        raise error.at(f"{path} with the map {name}") from None
+
+
+def _fitting(names: Collection[str]) -> JointMap:
     for known in shipped("sources"):
         found = read_map(JointMap, "sources", known)
         if found.fits(names):

@@ -35,13 +35,17 @@ class Played(Motion):
 
     @property
     def duration(self) -> float:
-        """From where it begins to its end [s], as it is played."""
-        return (self.motion.duration - self.start) / self.speed
+        """From where it begins to its end [s], as it is played; of a loop, once around."""
+        begin = 0.0 if self.loops else self.start
+        return (self.motion.duration - begin) / self.speed
 
     def at(self, time: float) -> SourcePose:
         """The pose at ``time`` [s] of the motion as it is played."""
         played = self.speed * time
         pose = self.motion.at(self.start + played)
+        if not self.loops:
+            # Where it holds its first or its last pose, it stays there.
+            played = float(np.clip(played, -self.start, self.motion.duration - self.start))
         return SourcePose(pose.root - played * self.taken_out, pose.rotations)
 
 
