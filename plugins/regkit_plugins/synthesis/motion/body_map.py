@@ -9,11 +9,12 @@ from pydantic import Field, field_validator, model_validator
 
 from regkit.arrays import Array
 from regkit.errors import ConfigError
-from regkit.model import Model, did_you_mean
+from regkit.model import Model
 from regkit.skinned_mesh import SkinnedMesh
 from regkit_plugins.synthesis.landmarks import Landmark
-from regkit_plugins.synthesis.motion.figure import FIGURE
+from regkit_plugins.synthesis.motion.figure import check_joints
 from regkit_plugins.synthesis.motion.map_files import read_map, shipped
+from regkit_plugins.synthesis.motion.names import instead_of
 
 
 class Between(Model):
@@ -73,13 +74,7 @@ class BodyMap(Model):
     @field_validator("joints")
     @classmethod
     def _of_a_figure(cls, joints: dict[str, str | Spot]) -> dict[str, str | Spot]:
-        for joint in joints:
-            if joint not in FIGURE:
-                known = list(FIGURE)
-                raise ValueError(
-                    f"a figure has no joint '{joint}'{did_you_mean(joint, known)} (it has "
-                    f"{', '.join(known)})"
-                )
+        check_joints(joints)
         missing = [joint for joint in _NEEDED if joint not in joints]
         if missing:
             raise ValueError(f"it must say where {', '.join(missing)} are")
@@ -105,11 +100,7 @@ def bone_of(mesh: SkinnedMesh, label: str) -> int:
         ConfigError: If there is none.
     """
     if label not in mesh.labels:
-        known = list(mesh.labels)
-        raise ConfigError(
-            f"the body has no bone '{label}'{did_you_mean(label, known)} (it has "
-            f"{', '.join(known)})"
-        )
+        raise ConfigError(f"the body has no bone '{label}'{instead_of(label, mesh.labels)}")
     return mesh.labels.index(label)
 
 

@@ -41,8 +41,8 @@ def read_bvh(
         )
     rig, rotation = _rig(bvh, map_name, path)
     poses = [bvh.at_frame(frame) for frame in range(skip, len(bvh.frames))]
-    hips = [bvh.names.index(rig.parts[f"{side}_hip"]) for side in ("left", "right")]
-    middles = np.array([pose.positions[hips] for pose in poses]).mean(axis=1)
+    left, right = (bvh.names.index(rig.parts[f"{side}_hip"]) for side in ("left", "right"))
+    middles = np.array([(pose.positions[left] + pose.positions[right]) / 2 for pose in poses])
     turns = rotation @ np.array([pose.rotations for pose in poses]) @ rotation.T
     times = bvh.frame_time * np.arange(len(poses))
     return recorded(rig, times, middles @ rotation.T, turns)

@@ -8,9 +8,10 @@ from pathlib import Path
 from pydantic import field_validator
 
 from regkit.errors import ConfigError
-from regkit.model import Model, did_you_mean
-from regkit_plugins.synthesis.motion.figure import FIGURE
+from regkit.model import Model
+from regkit_plugins.synthesis.motion.figure import check_joints
 from regkit_plugins.synthesis.motion.map_files import read_map, shipped
+from regkit_plugins.synthesis.motion.names import instead_of
 
 _NEEDED = (
     *("pelvis", "chest", "head"),
@@ -42,13 +43,7 @@ class JointMap(Model):
     def _of_a_figure(
         cls, joints: dict[str, str | tuple[str, ...]]
     ) -> dict[str, str | tuple[str, ...]]:
-        for joint in joints:
-            if joint not in FIGURE:
-                known = list(FIGURE)
-                raise ValueError(
-                    f"a figure has no joint '{joint}'{did_you_mean(joint, known)} (it has "
-                    f"{', '.join(known)})"
-                )
+        check_joints(joints)
         missing = [joint for joint in _NEEDED if joint not in joints]
         if missing:
             raise ValueError(f"it must say which joint {', '.join(missing)} is")
@@ -66,8 +61,8 @@ class JointMap(Model):
             own = _first(choices, names)
             if own is None:
                 raise ConfigError(
-                    f"the source has no joint '{choices[0]}' for the {joint}"
-                    f"{did_you_mean(choices[0], list(names))} (it has {', '.join(names)})"
+                    f"the source has no joint '{choices[0]}' for '{joint}'"
+                    + instead_of(choices[0], names)
                 )
             found[joint] = own
         return found

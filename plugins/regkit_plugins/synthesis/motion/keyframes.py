@@ -11,9 +11,9 @@ from pydantic import Field, field_validator, model_validator
 from scipy.interpolate import PchipInterpolator
 
 from regkit.arrays import Array
-from regkit.model import Model, did_you_mean
+from regkit.model import Model
 from regkit.rotation import vector_to_matrix
-from regkit_plugins.synthesis.motion.figure import FIGURE
+from regkit_plugins.synthesis.motion.figure import FIGURE, check_joints
 from regkit_plugins.synthesis.motion.motion import Motion, Rig, SourcePose
 from regkit_plugins.synthesis.motion.standing import STANDING
 
@@ -43,13 +43,7 @@ class Keyframe(Model):
     @field_validator("joints")
     @classmethod
     def _of_a_figure(cls, joints: dict[str, Triple]) -> dict[str, Triple]:
-        for joint in joints:
-            if joint not in FIGURE:
-                known = list(FIGURE)
-                raise ValueError(
-                    f"a figure has no joint '{joint}'{did_you_mean(joint, known)} (it has "
-                    f"{', '.join(known)})"
-                )
+        check_joints(joints)
         return joints
 
 

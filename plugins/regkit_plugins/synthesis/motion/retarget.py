@@ -9,13 +9,13 @@ import numpy as np
 
 from regkit.arrays import Array
 from regkit.errors import ConfigError
-from regkit.model import did_you_mean
 from regkit.rotation import between, from_matrix, to_matrix
 from regkit.skinned_mesh import SkinnedMesh
 from regkit_plugins.synthesis.mending import interpolated
 from regkit_plugins.synthesis.motion.body_map import Between, BodyMap, bone_of
 from regkit_plugins.synthesis.motion.figure import AIMS, FIGURE, leg_length
 from regkit_plugins.synthesis.motion.motion import Motion, Rig, SourcePose
+from regkit_plugins.synthesis.motion.names import instead_of
 
 _LOOKS = 40
 """How often in a motion the lowest point of the skin is looked for."""
@@ -177,10 +177,10 @@ def _follower(
     for joint in joints:
         moving = rig.moving(joint)
         if moving is None:
-            known = [*FIGURE, *rig.parents]
+            known = dict.fromkeys([*FIGURE, *rig.parents])
             raise ConfigError(
                 f"bone '{label}' follows '{joint}', which neither a figure nor this source has"
-                f"{did_you_mean(joint, known)} (there are {', '.join(dict.fromkeys(known))})"
+                + instead_of(joint, known)
             )
         own.append(moving)
     turns = tuple(straight.get(joint, np.eye(3)) for joint in joints)
