@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import itertools
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -21,6 +23,7 @@ from regkit_plugins.synthesis.motion.clip import RIG
 from regkit_plugins.synthesis.motion.config import AnyMotion
 from regkit_plugins.synthesis.motion.figure import FIGURE
 from regkit_plugins.synthesis.motion.joint_map import JointMap
+from regkit_plugins.synthesis.motion.keyframes import Keyframes
 from regkit_plugins.synthesis.motion.map_files import shipped
 from regkit_plugins.synthesis.motion.retarget import Retarget
 from regkit_plugins.synthesis.motion.shipped import BVH
@@ -116,6 +119,19 @@ def test_map_of_the_user_is_found_from_where_it_is_named(tmp_path):
 def test_configuration_says_what_would_be_right(tmp_path, text, message):
     with pytest.raises(ConfigError, match=message):
         _config(tmp_path, text)
+
+
+def test_examples_of_the_guide_are_right(tmp_path):
+    guide = Path(__file__).parents[2] / "docs" / "how-to" / "motion.md"
+    blocks = re.findall(r"```yaml\n(.*?)```", guide.read_text(), re.DOTALL)
+    motions, bodies, keyframes = blocks[0], blocks[1], blocks[-1]
+    for line in motions.splitlines():
+        _config(tmp_path, f"motion: {line.removeprefix('- ')}\n")
+    for line in bodies.splitlines():
+        _config(tmp_path, f"motion: {{kind: clip, name: walk}}\nbody: {line.removeprefix('- ')}\n")
+    path = tmp_path / "keyframes.yaml"
+    path.write_text(keyframes)
+    assert Document.read(path).validated(Keyframes).motion().duration == 2.2
 
 
 def test_unknown_map_is_answered_with_those_that_ship(tmp_path):
