@@ -26,7 +26,8 @@ from regkit.interchange.bvh_hierarchy import (
     read_hierarchy,
     row,
 )
-from regkit.rotation import IDENTITY, from_vector, normalized, product, to_matrix
+from regkit.interchange.slerp import slerp
+from regkit.rotation import IDENTITY, from_vector, product, to_matrix
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,17 +146,9 @@ class Bvh:
         right = min(left + 1, len(self.frames) - 1)
         share = exact - left
         rotations, translations = self._relative
-        start, end = rotations[left], rotations[right]
-        cosine = (start * end).sum(axis=1, keepdims=True)
-        half = np.arccos(np.clip(np.abs(cosine), 0.0, 1.0))
-        # At small angles the chord is the arc; it also spares a division by zero.
-        small = half < 1e-4
-        sine = np.where(small, 1.0, np.sin(half))
-        first = np.where(small, 1.0 - share, np.sin((1.0 - share) * half) / sine)
-        second = np.where(small, share, np.sin(share * half) / sine)
-        between = normalized(first * start + np.copysign(second, cosine) * end)
         return self._placed(
-            between, (1.0 - share) * translations[left] + share * translations[right]
+            slerp(rotations[left], rotations[right], share),
+            (1.0 - share) * translations[left] + share * translations[right],
         )
 
     @cached_property

@@ -17,9 +17,9 @@ from regkit_plugins.synthesis.mending import interpolated
 from regkit_plugins.synthesis.motion.bodies import human_landmarks
 from regkit_plugins.synthesis.motion.body_map import body_map
 from regkit_plugins.synthesis.motion.clip import RIG, read_clip, with_arms_turned_out
-from regkit_plugins.synthesis.motion.clips import shipped_clip
 from regkit_plugins.synthesis.motion.motion import SourcePose
 from regkit_plugins.synthesis.motion.retarget import Retarget
+from regkit_plugins.synthesis.motion.shipped import shipped_clip
 
 CLIPS = ("walk", "run", "jump", "punch", "kick", "dance_a", "dance_b")
 UPRIGHT = SourcePose(np.array([0.0, 0.0, 0.8]), {joint: np.eye(3) for joint in RIG.parents})

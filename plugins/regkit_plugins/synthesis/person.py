@@ -13,9 +13,10 @@ from regkit.rigid import rigid
 from regkit.rotation import vector_to_matrix
 from regkit.skinned_mesh import SkinnedMesh
 from regkit_plugins.synthesis.motion.body_map import body_map
-from regkit_plugins.synthesis.motion.clips import shipped_clip
-from regkit_plugins.synthesis.motion.motion import Motion, Played
+from regkit_plugins.synthesis.motion.motion import Motion
+from regkit_plugins.synthesis.motion.played import Played
 from regkit_plugins.synthesis.motion.retarget import retargeted
+from regkit_plugins.synthesis.motion.shipped import shipped_clip
 from regkit_plugins.synthesis.scene import SR4000, Scene
 
 _R_CAMERA_BODY = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])

@@ -10,13 +10,15 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from regkit.arrays import Array
-from regkit.errors import DataError, RegkitError
+from regkit.errors import ConfigError, DataError, RegkitError
+from regkit.interchange.gltf import RiggedBody
+from regkit.interchange.gltf_file import SUFFIXES
 from regkit.model import InputPath, Model
 from regkit.skinned_mesh import SkinnedMesh
 from regkit_plugins.synthesis import assets
 from regkit_plugins.synthesis.landmarks import Landmark
 from regkit_plugins.synthesis.motion.body_files import read_npz_body, turned_mesh
-from regkit_plugins.synthesis.motion.body_map import BodyMap, body_map, fitting_body_map
+from regkit_plugins.synthesis.motion.body_map import BodyMap, body_map, bone_of, fitting_body_map
 from regkit_plugins.synthesis.motion.figure import figure_axes
 from regkit_plugins.synthesis.motion.map_files import MapName
 from regkit_plugins.synthesis.motion.motion import Motion
@@ -24,7 +26,7 @@ from regkit_plugins.synthesis.motion.retarget import retargeted
 
 
 @dataclass(frozen=True)
-class RiggedBody:
+class HumanBody:
     """A body whose bones are those of a human figure.
 
     Attributes:
@@ -36,13 +38,15 @@ class RiggedBody:
     map: BodyMap
 
     @classmethod
-    def of(cls, mesh: SkinnedMesh, map: BodyMap) -> RiggedBody:
+    def of(cls, mesh: SkinnedMesh, map: BodyMap) -> HumanBody:
         """A mesh whose coordinate axes may be others: it is turned as its hips and its head tell.
 
         Raises:
             ConfigError: If the mesh lacks a bone that the map names.
             DataError: If it does not stand straight.
         """
+        for label in map.bones:
+            bone_of(mesh, label)
         places = {name: mark.position for name, mark in map.landmarks(mesh).items()}
         return cls(turned_mesh(mesh, figure_axes(places)), map)
 
@@ -52,12 +56,12 @@ class RiggedBody:
         return self.map.landmarks(self.mesh)
 
     def moved(self, motion: Motion) -> Callable[[float], Array]:
-        """The bone poses ``T_ground_bone`` (J, 4, 4) at a time [s] of a motion.
+        """The bone poses ``T_ground_bone`` (J, 4, 4) at a time [s] of a motion, on the ground.
 
         Raises:
             ConfigError: If the map names a joint that the source of the motion lacks.
         """
-        return retargeted(motion, self.mesh, self.map)
+        return retargeted(motion, self.mesh, self.map, grounded=True)
 
 
 def human_landmarks(mesh: SkinnedMesh) -> dict[str, Landmark]:
@@ -69,7 +73,7 @@ class BodyConfig(Model, ABC):
     """A body that is to be moved."""
 
     @abstractmethod
-    def body(self) -> RiggedBody:
+    def body(self) -> HumanBody:
         """The body.
 
         Raises:
@@ -94,9 +98,9 @@ class ShippedBody(BodyConfig):
     name: BodyName = "average"
     """The body of average proportions, a small or a tall one; all are anny's with the CMU rig."""
 
-    def body(self) -> RiggedBody:
+    def body(self) -> HumanBody:
         """The body."""
-        return RiggedBody(_SHIPPED[self.name](), body_map("anny_cmu"))
+        return HumanBody(_SHIPPED[self.name](), body_map("anny_cmu"))
 
 
 class BodyFile(BodyConfig):
@@ -115,20 +119,27 @@ class BodyFile(BodyConfig):
     """Which of its bones are those of a figure: the name of a map that ships, or a YAML file.
     Without it, the first map that ships whose bones the body has."""
 
-    def body(self) -> RiggedBody:
+    def body(self) -> HumanBody:
         """The body."""
         mesh = self._mesh()
         try:
             found = fitting_body_map(mesh) if self.map is None else body_map(self.map)
-            return RiggedBody.of(mesh, found)
+            return HumanBody.of(mesh, found)
         except RegkitError as error:
-            raise error.at(str(self.path)) from None
+            place = f"{self.path} with the map {self.map}" if self.map else str(self.path)
+            raise error.at(place) from None
 
     def _mesh(self) -> SkinnedMesh:
         ending = self.path.suffix.lower()
         if ending == ".npz":
             return read_npz_body(self.path, self.shape)
-        raise DataError(f"a body must be .npz, .glb or .gltf, not '{ending}'", place=str(self.path))
+        if ending not in SUFFIXES:
+            raise DataError(
+                f"a body must be .npz, .glb or .gltf, not '{ending}'", place=str(self.path)
+            )
+        if self.shape:
+            raise ConfigError("a glTF holds one shape, 0", place=str(self.path))
+        return RiggedBody.read(self.path).mesh
 
 
 AnyBody = Annotated[ShippedBody | BodyFile, Field(discriminator="kind")]

@@ -5,15 +5,16 @@ from __future__ import annotations
 from typing import Literal
 
 import numpy as np
-from pydantic import Field, field_validator
+from pydantic import Field, field_validator, model_validator
 
 from regkit.arrays import Array
 from regkit.errors import ConfigError
-from regkit.model import Model, did_you_mean
+from regkit.model import Model
 from regkit.skinned_mesh import SkinnedMesh
 from regkit_plugins.synthesis.landmarks import Landmark
-from regkit_plugins.synthesis.motion.figure import FIGURE
+from regkit_plugins.synthesis.motion.figure import check_joints
 from regkit_plugins.synthesis.motion.map_files import read_map, shipped
+from regkit_plugins.synthesis.motion.names import instead_of
 
 
 class Between(Model):
@@ -35,8 +36,18 @@ class Spot(Model):
     between: tuple[str, str] | None = None
     """Two other bones, between whose starts the point lies at rest."""
 
+    along: float | None = None
+    """How far the point lies from the bone's start along the bone [m]."""
+
     crown: float | None = Field(default=None, ge=0.0, le=1.0)
-    """How far the point lies from the bone's start on the way to the mesh's highest vertex."""
+    """How far the point lies from the bone's start on the way to the mesh's highest vertex, as a
+    share of it."""
+
+    @model_validator(mode="after")
+    def _one_way(self) -> Spot:
+        if sum(way is not None for way in (self.between, self.along, self.crown)) > 1:
+            raise ValueError("give one of between, along and crown")
+        return self
 
 
 class BodyMap(Model):
@@ -63,13 +74,7 @@ class BodyMap(Model):
     @field_validator("joints")
     @classmethod
     def _of_a_figure(cls, joints: dict[str, str | Spot]) -> dict[str, str | Spot]:
-        for joint in joints:
-            if joint not in FIGURE:
-                known = list(FIGURE)
-                raise ValueError(
-                    f"a figure has no joint '{joint}'{did_you_mean(joint, known)} (it has "
-                    f"{', '.join(known)})"
-                )
+        check_joints(joints)
         missing = [joint for joint in _NEEDED if joint not in joints]
         if missing:
             raise ValueError(f"it must say where {', '.join(missing)} are")
@@ -95,11 +100,7 @@ def bone_of(mesh: SkinnedMesh, label: str) -> int:
         ConfigError: If there is none.
     """
     if label not in mesh.labels:
-        known = list(mesh.labels)
-        raise ConfigError(
-            f"the body has no bone '{label}'{did_you_mean(label, known)} (it has "
-            f"{', '.join(known)})"
-        )
+        raise ConfigError(f"the body has no bone '{label}'{instead_of(label, mesh.labels)}")
     return mesh.labels.index(label)
 
 
@@ -136,6 +137,8 @@ def _landmark(spot: str | Spot, mesh: SkinnedMesh) -> Landmark:
     if spot.between is not None:
         first, second = spot.between
         return Landmark(bone, (_start(mesh, first) + _start(mesh, second)) / 2)
+    if spot.along is not None:
+        return Landmark(bone, start + spot.along * np.asarray(mesh.rest[bone, :3, 1]))
     if spot.crown is not None:
         top = mesh.vertices[np.argmax(mesh.vertices[:, 2])]
         return Landmark(bone, (1.0 - spot.crown) * start + spot.crown * top)

@@ -13,6 +13,7 @@ from regkit.errors import DataError
 from regkit.rotation import IDENTITY, from_vector, normalized, product
 from regkit_plugins.synthesis.motion.motion import Rig
 from regkit_plugins.synthesis.motion.recording import Recording
+from regkit_plugins.synthesis.motion.standing import STANDING
 
 _R_GROUND_CLIP = np.array([[0.0, 0.0, -1.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
 """From the clip's axes (x forward, y up, z right) to the ground's (x left, y backward, z up)."""
@@ -42,35 +43,19 @@ _ROW = 44
 """Numbers in a row: duration, root position, then the rotations."""
 
 
-def _places() -> dict[str, Array]:
-    """Where the joints are at rest (3,) [m], as in a quarter of pybullet's humanoid.urdf.
+_PARTS = {
+    "pelvis": "root",
+    "chest": "chest",
+    "head": "neck",
+    **{
+        f"{side}_{joint}": f"{side}_{joint}"
+        for side in ("left", "right")
+        for joint in ("hip", "knee", "ankle", "foot", "shoulder", "elbow", "wrist")
+    },
+}
+"""What the joints are of a figure: the one called neck moves the head. Feet and wrists are ends."""
 
-    The URDF has no toes; here they point forward.
-    """
-    places = {"root": [0.0, 0.0, 0.0], "chest": [0.0, 0.0, 0.236151], "neck": [0.0, 0.0, 0.460045]}
-    for side, sign in (("left", 1.0), ("right", -1.0)):
-        places |= {
-            f"{side}_hip": [sign * 0.084887, 0.0, 0.0],
-            f"{side}_knee": [sign * 0.084887, 0.0, -0.421546],
-            f"{side}_ankle": [sign * 0.084887, 0.0, -0.831416],
-            f"{side}_toes": [sign * 0.084887, -0.13, -0.831416],
-            f"{side}_shoulder": [sign * 0.18311, 0.02405, 0.479651],
-            f"{side}_elbow": [sign * 0.18311, 0.02405, 0.204863],
-            f"{side}_wrist": [sign * 0.18311, 0.02405, -0.054084],
-        }
-    return {joint: np.array(place) for joint, place in places.items()}
-
-
-def _parts() -> dict[str, str]:
-    """The joints by what they are of a figure: the joint called neck moves the head."""
-    limbs = ("hip", "knee", "ankle", "shoulder", "elbow", "wrist")
-    sided = {f"{side}_{joint}" for side in ("left", "right") for joint in limbs}
-    own = {joint: joint for joint in sorted(sided)}
-    feet = {f"{side}_foot": f"{side}_toes" for side in ("left", "right")}
-    return {"pelvis": "root", "chest": "chest", "head": "neck", **own, **feet}
-
-
-RIG = Rig(_PARENTS, _places(), _parts())
+RIG = Rig(_PARENTS, {own: STANDING[joint] for joint, own in _PARTS.items()}, _PARTS)
 """The character of the clips."""
 
 

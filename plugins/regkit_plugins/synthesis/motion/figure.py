@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 import numpy as np
 
 from regkit.arrays import Array
 from regkit.errors import DataError
+from regkit_plugins.synthesis.motion.names import instead_of
 
 _SIDED = {
     "collar": "chest",
@@ -49,6 +50,17 @@ AIMS: Mapping[str, str] = {
     )
 }
 """The joint that a segment of a limb points to."""
+
+
+def check_joints(joints: Collection[str]) -> None:
+    """Refuse names that are no joints of a figure.
+
+    Raises:
+        ValueError: If one is none.
+    """
+    for joint in joints:
+        if joint not in FIGURE:
+            raise ValueError(f"a figure has no joint '{joint}'{instead_of(joint, FIGURE)}")
 
 
 def figure_axes(places: Mapping[str, Array]) -> Array:

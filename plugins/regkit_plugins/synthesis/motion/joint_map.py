@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Collection
+from pathlib import Path
 
 from pydantic import field_validator
 
 from regkit.errors import ConfigError
-from regkit.model import Model, did_you_mean
-from regkit_plugins.synthesis.motion.figure import FIGURE
+from regkit.model import Model
+from regkit_plugins.synthesis.motion.figure import check_joints
 from regkit_plugins.synthesis.motion.map_files import read_map, shipped
+from regkit_plugins.synthesis.motion.names import instead_of
 
 _NEEDED = (
     *("pelvis", "chest", "head"),
@@ -41,13 +43,7 @@ class JointMap(Model):
     def _of_a_figure(
         cls, joints: dict[str, str | tuple[str, ...]]
     ) -> dict[str, str | tuple[str, ...]]:
-        for joint in joints:
-            if joint not in FIGURE:
-                known = list(FIGURE)
-                raise ValueError(
-                    f"a figure has no joint '{joint}'{did_you_mean(joint, known)} (it has "
-                    f"{', '.join(known)})"
-                )
+        check_joints(joints)
         missing = [joint for joint in _NEEDED if joint not in joints]
         if missing:
             raise ValueError(f"it must say which joint {', '.join(missing)} is")
@@ -65,8 +61,8 @@ class JointMap(Model):
             own = _first(choices, names)
             if own is None:
                 raise ConfigError(
-                    f"the source has no joint '{choices[0]}' for the {joint}"
-                    f"{did_you_mean(choices[0], list(names))} (it has {', '.join(names)})"
+                    f"the source has no joint '{choices[0]}' for '{joint}'"
+                    + instead_of(choices[0], names)
                 )
             found[joint] = own
         return found
@@ -82,14 +78,30 @@ def _first(choices: Collection[str], names: Collection[str]) -> str | None:
     return next((name for choice in choices for name in names if _is(choice, name)), None)
 
 
-def joint_map(name: str | None, names: Collection[str]) -> JointMap:
-    """The map of this name that ships, the one in this YAML file, or else the first that fits.
+def parts_of(names: Collection[str], name: str | None, path: Path) -> dict[str, str]:
+    """The joint of a source in the file ``path`` for each joint of a figure.
+
+    Args:
+        names: The source's joints.
+        name: A map that ships, or a YAML file; without it, the first that fits is taken.
+        path: Where the source is, for messages.
 
     Raises:
-        RegkitError: If there is none, or it is wrong.
+        RegkitError: If there is no map, it is wrong, or it names a joint that the source lacks.
     """
-    if name is not None:
-        return read_map(JointMap, "sources", name)
+    if name is None:
+        try:
+            return _fitting(names).parts(names)
+        except ConfigError as error:
+            raise error.at(str(path)) from None
+    found = read_map(JointMap, "sources", name)
+    try:
+        return found.parts(names)
+    except ConfigError as error:
+        raise error.at(f"{path} with the map {name}") from None
+
+
+def _fitting(names: Collection[str]) -> JointMap:
     for known in shipped("sources"):
         found = read_map(JointMap, "sources", known)
         if found.fits(names):

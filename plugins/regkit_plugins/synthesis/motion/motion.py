@@ -91,37 +91,3 @@ class Motion(ABC):
         """The mean velocity of the hips (3,) along the ground [m/s]."""
         way = self.at(self.duration).root - self.at(0.0).root
         return np.asarray(way / self.duration * [1.0, 1.0, 0.0])
-
-
-@dataclass(frozen=True)
-class Played(Motion):
-    """A motion that is played in another way.
-
-    Attributes:
-        motion: The motion.
-        start: Where in it time begins [s].
-        speed: How fast it is played; 1 is as recorded.
-        taken_out: Velocity (3,) that is taken out of it, as on a treadmill [m/s].
-    """
-
-    motion: Motion
-    start: float
-    speed: float
-    taken_out: Array
-
-    @classmethod
-    def of(cls, motion: Motion, start: float = 0.0, speed: float = 1.0, way: float = 1.0) -> Played:
-        """``motion`` of whose mean velocity only the share ``way`` is kept."""
-        taken_out = (1.0 - way) * motion.velocity
-        return cls(motion.rig, motion.loops, motion, start, speed, taken_out)
-
-    @property
-    def duration(self) -> float:
-        """From where it begins to its end [s], as it is played."""
-        return (self.motion.duration - self.start) / self.speed
-
-    def at(self, time: float) -> SourcePose:
-        """The pose at ``time`` [s] of the motion as it is played."""
-        played = self.speed * time
-        pose = self.motion.at(self.start + played)
-        return SourcePose(pose.root - played * self.taken_out, pose.rotations)

@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from regkit.arrays import Array
-from regkit.rotation import to_matrix
+from regkit.rotation import from_matrix, to_matrix
 from regkit_plugins.synthesis import mending
 from regkit_plugins.synthesis.mending import interpolated
-from regkit_plugins.synthesis.motion.motion import Motion, SourcePose
+from regkit_plugins.synthesis.motion.motion import Motion, Rig, SourcePose
 
 
 @dataclass(frozen=True)
@@ -81,3 +81,21 @@ class Recording(Motion):
         roots = self.roots.copy()
         roots[:, 2] += mending.closing(self.times) * (roots[0, 2] - roots[-1, 2])
         return replace(self.closed(), roots=roots, loops=True)
+
+
+def recorded(rig: Rig, times: Array, roots: Array, turns: Array) -> Recording:
+    """A recording that does not loop, from rotations in the ground's axes.
+
+    Args:
+        rig: The J joints.
+        times: (F,) time of each row, from zero [s].
+        roots: (F, 3) the middle of the hips [m].
+        turns: (F, J, 3, 3) rotation ``R_ground_joint`` of each joint from rest.
+    """
+    names = list(rig.parents)
+    relative = turns.copy()
+    for index, parent in enumerate(rig.parents.values()):
+        if parent:
+            before = turns[:, names.index(parent)]
+            relative[:, index] = np.swapaxes(before, -1, -2) @ turns[:, index]
+    return Recording(rig, False, times, roots, from_matrix(relative))

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from regkit.arrays import Array
 from regkit.errors import ConfigError
-from regkit.model import did_you_mean
 from regkit.rotation import between, from_matrix, to_matrix
 from regkit.skinned_mesh import SkinnedMesh
 from regkit_plugins.synthesis.mending import interpolated
 from regkit_plugins.synthesis.motion.body_map import Between, BodyMap, bone_of
 from regkit_plugins.synthesis.motion.figure import AIMS, FIGURE, leg_length
 from regkit_plugins.synthesis.motion.motion import Motion, Rig, SourcePose
+from regkit_plugins.synthesis.motion.names import instead_of
+
+_LOOKS = 40
+"""How often in a motion the lowest point of the skin is looked for."""
 
 
 @dataclass(frozen=True)
@@ -23,23 +26,26 @@ class Follower:
     """What a bone follows.
 
     Attributes:
-        start: The source's joint that it turns with, or the first of two.
-        end: The second one, or the same.
-        share: How far it is turned from ``start`` towards ``end``.
-        straight: (3, 3) turns it from the body's rest to the source's.
+        joints: The source's joint that it turns with, or the two that it lies between.
+        straight: (3, 3) for each of them, what turns its segment from the body's rest to the
+            source's.
+        share: How far it is turned from the first of two towards the second.
     """
 
-    start: str
-    end: str
+    joints: tuple[str, ...]
+    straight: tuple[Array, ...]
     share: float
-    straight: Array
 
     def turn(self, pose: SourcePose) -> Array:
         """The rotation (3, 3) of the bone from its rest, in ground axes."""
-        if self.start == self.end:
-            return np.asarray(pose.rotations[self.start] @ self.straight)
-        start, end = (from_matrix(pose.rotations[joint]) for joint in (self.start, self.end))
-        return np.asarray(to_matrix(interpolated(start, end, self.share)) @ self.straight)
+        turns = [
+            pose.rotations[joint] @ straight
+            for joint, straight in zip(self.joints, self.straight, strict=True)
+        ]
+        if len(turns) == 1:
+            return np.asarray(turns[0])
+        start, end = (from_matrix(turn) for turn in turns)
+        return to_matrix(interpolated(start, end, self.share))
 
 
 @dataclass(frozen=True)
@@ -90,13 +96,27 @@ class Retarget:
         return self.mesh.turned(turns, middle - turns[0] @ self.hips)
 
 
-def retargeted(motion: Motion, mesh: SkinnedMesh, body: BodyMap) -> Callable[[float], Array]:
+def retargeted(
+    motion: Motion, mesh: SkinnedMesh, body: BodyMap, *, grounded: bool = False
+) -> Callable[[float], Array]:
     """The bone poses ``T_ground_bone`` (J, 4, 4) of a body at a time [s] of a motion.
+
+    Args:
+        motion: The motion.
+        mesh: The body; x to its left, y backward, z up.
+        body: Which of its bones follow what.
+        grounded: Whether the body is raised or lowered, once for the whole motion, so that the
+            lowest point which its skin reaches lies on the ground, at z = 0. Otherwise the height
+            of its hips is the source's, by the length of their legs.
 
     Raises:
         ConfigError: If the map names a bone that the body, or a joint that the source lacks.
     """
     retarget = Retarget.of(motion.rig, mesh, body)
+    if grounded:
+        times = np.linspace(0.0, motion.duration, _LOOKS)
+        skins = (mesh.posed(retarget.bone_poses(motion.at(time))) for time in times)
+        retarget = replace(retarget, lift=-min(float(skin[:, 2].min()) for skin in skins))
     return lambda time: retarget.bone_poses(motion.at(time))
 
 
@@ -151,16 +171,17 @@ def _aimed(
 def _follower(
     label: str, followed: str | Between, rig: Rig, straight: Mapping[str, Array]
 ) -> Follower:
-    joints = followed.between if isinstance(followed, Between) else (followed, followed)
+    joints = followed.between if isinstance(followed, Between) else (followed,)
     share = followed.share if isinstance(followed, Between) else 0.0
     own = []
     for joint in joints:
         moving = rig.moving(joint)
         if moving is None:
-            known = [*FIGURE, *rig.parents]
+            known = dict.fromkeys([*FIGURE, *rig.parents])
             raise ConfigError(
                 f"bone '{label}' follows '{joint}', which neither a figure nor this source has"
-                f"{did_you_mean(joint, known)} (there are {', '.join(dict.fromkeys(known))})"
+                + instead_of(joint, known)
             )
         own.append(moving)
-    return Follower(own[0], own[1], share, straight.get(joints[0], np.eye(3)))
+    turns = tuple(straight.get(joint, np.eye(3)) for joint in joints)
+    return Follower(tuple(own), turns, share)
