@@ -14,7 +14,7 @@ from regkit.skinned_mesh import SkinnedMesh
 from regkit_plugins.synthesis.landmarks import Landmark
 from regkit_plugins.synthesis.motion.figure import check_joints
 from regkit_plugins.synthesis.motion.map_files import read_map, shipped
-from regkit_plugins.synthesis.motion.names import instead_of
+from regkit_plugins.synthesis.motion.names import instead_of, meant
 
 
 class Between(Model):
@@ -94,14 +94,15 @@ _NEEDED = ("head", *(f"{s}_{j}" for s in ("left", "right") for j in ("hip", "kne
 
 
 def bone_of(mesh: SkinnedMesh, label: str) -> int:
-    """The index of the bone named ``label``.
+    """The index of the bone named ``label``, whatever its namespace.
 
     Raises:
         ConfigError: If there is none.
     """
-    if label not in mesh.labels:
+    found = meant(label, mesh.labels)
+    if found is None:
         raise ConfigError(f"the body has no bone '{label}'{instead_of(label, mesh.labels)}")
-    return mesh.labels.index(label)
+    return mesh.labels.index(found)
 
 
 def body_map(name: str) -> BodyMap:
@@ -121,7 +122,7 @@ def fitting_body_map(mesh: SkinnedMesh) -> BodyMap:
     """
     for name in shipped("bodies"):
         found = body_map(name)
-        if set(found.bones) <= set(mesh.labels):
+        if all(meant(label, mesh.labels) is not None for label in found.bones):
             return found
     raise ConfigError(
         f"none of the maps that ship ({', '.join(shipped('bodies'))}) is for a body with the bones "

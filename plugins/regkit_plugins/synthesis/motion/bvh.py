@@ -44,7 +44,7 @@ def read_bvh(
     left, right = (bvh.names.index(rig.parts[f"{side}_hip"]) for side in ("left", "right"))
     middles = np.array([(pose.positions[left] + pose.positions[right]) / 2 for pose in poses])
     turns = rotation @ np.array([pose.rotations for pose in poses]) @ rotation.T
-    times = bvh.frame_time * np.arange(len(poses))
+    times = bvh.frame_time * np.arange(len(poses), dtype=np.float64)
     return recorded(rig, times, middles @ rotation.T, turns)
 
 

@@ -11,7 +11,7 @@ from regkit.errors import ConfigError
 from regkit.model import Model
 from regkit_plugins.synthesis.motion.figure import check_joints
 from regkit_plugins.synthesis.motion.map_files import read_map, shipped
-from regkit_plugins.synthesis.motion.names import instead_of
+from regkit_plugins.synthesis.motion.names import instead_of, meant
 
 _NEEDED = (
     *("pelvis", "chest", "head"),
@@ -75,7 +75,8 @@ class JointMap(Model):
 
 def _first(choices: Collection[str], names: Collection[str]) -> str | None:
     """The first of ``choices`` that is among ``names``."""
-    return next((name for choice in choices for name in names if _is(choice, name)), None)
+    found = (meant(choice, names) for choice in choices)
+    return next((name for name in found if name is not None), None)
 
 
 def parts_of(names: Collection[str], name: str | None, path: Path) -> dict[str, str]:
@@ -110,7 +111,3 @@ def _fitting(names: Collection[str]) -> JointMap:
         f"none of the maps that ship ({', '.join(shipped('sources'))}) is for a source with the "
         f"joints {', '.join(names)}; name a file of your own as its map"
     )
-
-
-def _is(wanted: str, name: str) -> bool:
-    return name == wanted or (":" not in wanted and name.rpartition(":")[2] == wanted)

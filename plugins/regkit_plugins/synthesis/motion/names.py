@@ -1,4 +1,4 @@
-"""What to say where a name is unknown."""
+"""Names of joints and bones: which of them is meant, and what to say where none is."""
 
 from __future__ import annotations
 
@@ -9,6 +9,18 @@ from regkit.model import did_you_mean
 
 _MANY = 30
 """Of more names than this only the nearest are listed."""
+
+
+def meant(wanted: str, known: Collection[str]) -> str | None:
+    """The name among ``known`` that is meant by ``wanted``, if there is one.
+
+    A name without a namespace (``mixamorig:``) is found in any.
+    """
+    if wanted in known:
+        return wanted
+    if ":" in wanted:
+        return None
+    return next((name for name in known if name.rpartition(":")[2] == wanted), None)
 
 
 def instead_of(name: str, known: Collection[str]) -> str:
