@@ -131,3 +131,17 @@ def test_right_hand_waves_and_left_hand_hangs():
         assert place["right_wrist"][2] > place["neck"][2]
         assert place["left_wrist"][2] < place["left_elbow"][2] < place["left_shoulder"][2]
     assert np.linalg.norm(places[1]["right_wrist"] - places[0]["right_wrist"]) > 0.1
+
+
+@pytest.mark.parametrize("name", KEYFRAMES.names)
+def test_shipped_keyframes_keep_the_hands_out_of_the_thighs(name):
+    """A thigh and a hand touch where their bones are some 11 cm from each other."""
+    human, source = body("average"), KeyframesConfig(name=name).motion()
+    moved = human.moved(source)
+    for time in np.linspace(0.0, source.duration, 40):
+        places = joints(human, moved(time))
+        for side in ("left", "right"):
+            hip, way = places[f"{side}_hip"], places[f"{side}_knee"] - places[f"{side}_hip"]
+            for joint in ("wrist", "hand"):
+                share = np.clip((places[f"{side}_{joint}"] - hip) @ way / (way @ way), 0.0, 1.0)
+                assert np.linalg.norm(places[f"{side}_{joint}"] - hip - share * way) > 0.12
