@@ -11,6 +11,9 @@ from regkit_plugins.synthesis.motion.config import KeyframesConfig
 from regkit_plugins.synthesis.motion.keyframes import Keyframe, Keyframes
 from regkit_plugins.synthesis.motion.shipped import KEYFRAMES
 
+FAST = ("front_kicks", "tennis")
+"""A foot and a hand that are thrown go at nearly 6 m/s."""
+
 
 def _motion(*frames, loops=False):
     return Keyframes(frames=tuple(Keyframe(**frame) for frame in frames), loops=loops).motion()
@@ -98,8 +101,9 @@ def test_shipped_keyframes_move_smoothly_and_keep_a_foot_on_the_ground(name):
     places = [joints(human, moved(time)) for time in np.arange(0.0, source.duration, 1.0 / 30.0)]
     track = np.array([list(place.values()) for place in places])
     steps = np.diff(track, axis=0)
-    assert np.linalg.norm(steps, axis=-1).max() < 0.12
-    assert np.linalg.norm(np.diff(steps, axis=0), axis=-1).max() < 0.035
+    fastest, jerkiest = (0.2, 0.12) if name in FAST else (0.12, 0.035)
+    assert np.linalg.norm(steps, axis=-1).max() < fastest
+    assert np.linalg.norm(np.diff(steps, axis=0), axis=-1).max() < jerkiest
     ankles = [min(place["left_ankle"][2], place["right_ankle"][2]) for place in places]
     assert np.ptp(ankles) < 0.02
 
