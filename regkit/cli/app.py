@@ -10,6 +10,7 @@ from regkit.cli.calibrate import calibrate
 from regkit.cli.console import print_error
 from regkit.cli.doctor import doctor
 from regkit.cli.fit import fit
+from regkit.cli.import_ import import_
 from regkit.cli.plugins import plugins
 from regkit.cli.register import register
 from regkit.cli.run import run
@@ -25,6 +26,7 @@ app = typer.Typer(
 )
 for command in (run, register, calibrate, fit, validate, plugins, schema, doctor):
     app.command()(command)
+app.command("import")(import_)
 
 
 def main() -> None:

@@ -122,6 +122,10 @@ class Bvh:
             positions[index] = parent + joint.offset
         return positions
 
+    def offsets(self, joint: int) -> Array:
+        """Where a joint is in its parent's frame, in every frame, (F, 3) [m]."""
+        return self._relative[1][:, joint]
+
     def at_frame(self, index: int) -> BvhPose:
         """The pose in a frame.
 
