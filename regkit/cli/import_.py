@@ -22,8 +22,8 @@ the front, x to the body's left."""
 
 UNSHAPED = """\
 
-Where the file has no shape that could be read, a segment has a capsule along each of its bones, whose
-radius is {share:g} of the bone's length: make them what they are."""
+Where the file has no shape that could be read, a segment has a capsule along each of its bones,
+whose radius is {share:g} of the bone's length: make them what they are."""
 
 UNLIMITED = """\
 

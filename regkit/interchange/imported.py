@@ -129,7 +129,7 @@ def _ways(bones: list[Bone], index: int) -> list[Array]:
     ways: list[Array] = []
     for way in (*children, *bones[index].markers.values()):
         # Several children may be at one place.
-        if min((float(np.linalg.norm(way - other)) for other in (np.zeros(3), *ways))) > SHORTEST:
+        if min(float(np.linalg.norm(way - other)) for other in (np.zeros(3), *ways)) > SHORTEST:
             ways.append(way)
     return ways
 
