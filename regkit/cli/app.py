@@ -9,6 +9,7 @@ import typer
 from regkit.cli.calibrate import calibrate
 from regkit.cli.console import print_error
 from regkit.cli.doctor import doctor
+from regkit.cli.export import export
 from regkit.cli.fit import fit
 from regkit.cli.import_ import import_
 from regkit.cli.plugins import plugins
@@ -27,6 +28,7 @@ app = typer.Typer(
 for command in (run, register, calibrate, fit, validate, plugins, schema, doctor):
     app.command()(command)
 app.command("import")(import_)
+app.command()(export)
 
 
 def main() -> None:
