@@ -7,23 +7,12 @@ and angles in radians. ``spherical`` is no joint of that description; Bullet has
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
-from regkit.arrays import Array
-from regkit.errors import DataError
+from regkit.interchange.urdf_joints import UrdfJoint, read_joint, resolved
 from regkit.interchange.xml_lines import Element
 from regkit.model import did_you_mean
-from regkit.rigid import rigid
-from regkit.rotation import vector_to_matrix
-
-HINGES = ("revolute", "continuous")
-"""The types of joints that turn about an axis."""
-
-TYPES = (*HINGES, "fixed", "spherical")
-"""The types of joints that are read."""
 
 
 @dataclass(frozen=True)
@@ -37,48 +26,6 @@ class UrdfLink:
 
     name: str
     shapes: tuple[Element, ...]
-
-
-@dataclass(frozen=True)
-class Mimic:
-    """A joint's angle is ``ratio`` times that of another, plus an offset.
-
-    Attributes:
-        joint: Name of the joint that leads.
-        ratio: By how much it turns with that.
-        offset: Where that is zero [rad].
-    """
-
-    joint: str
-    ratio: float
-    offset: float
-
-
-@dataclass(frozen=True)
-class UrdfJoint:
-    """What ties a link to its parent.
-
-    Attributes:
-        name: Its name.
-        kind: One of ``TYPES``.
-        parent: Name of the link above.
-        child: Name of the link that it moves; their frames are one.
-        origin: T_parent_child at zero angles, (4, 4) [m].
-        axis: (3,) unit axis in the child's frame.
-        limits: Smallest and largest angle [rad], of a revolute joint.
-        mimic: What its angle follows, if it does.
-        place: ``file:line``.
-    """
-
-    name: str
-    kind: str
-    parent: str
-    child: str
-    origin: Array
-    axis: Array
-    limits: tuple[float, float] | None
-    mimic: Mimic | None
-    place: str
 
 
 @dataclass(frozen=True)
@@ -115,7 +62,7 @@ class Urdf:
             links[name] = UrdfLink(name, shapes)
         joints: dict[str, UrdfJoint] = {}
         for element in robot.all("joint"):
-            joint = _joint(element)
+            joint = read_joint(element)
             for link in (joint.parent, joint.child):
                 if link not in links:
                     raise element.wrong(
@@ -135,87 +82,4 @@ class Urdf:
             cyclic = ", ".join(name for name in links if name not in roots)
             raise robot.wrong(f"the links {cyclic} form a cycle")
         named = robot.attributes.get("name", path.stem)
-        return cls(named, {name: links[name] for name in roots}, _resolved(joints))
-
-
-def origin(element: Element) -> Array:
-    """The transform (4, 4) of an element's ``origin``, or the identity [m]."""
-    found = element.find("origin")
-    if found is None:
-        return np.eye(4)
-    # Roll, pitch and yaw turn about fixed axes, one after the other.
-    angles = found.numbers("rpy", 3, np.zeros(3))
-    x, y, z = (
-        vector_to_matrix(angle * axis) for angle, axis in zip(angles, np.eye(3), strict=True)
-    )
-    return rigid(z @ y @ x, found.numbers("xyz", 3, np.zeros(3)))
-
-
-def _joint(element: Element) -> UrdfJoint:
-    name, kind = element.text("name"), element.text("type")
-    if kind not in TYPES:
-        raise element.wrong(
-            f"joint '{name}' is {kind}; a template's joints only turn ({', '.join(TYPES)})"
-        )
-    parent, child = element.need("parent").text("link"), element.need("child").text("link")
-    axis = np.array([1.0, 0.0, 0.0])
-    if (found := element.find("axis")) is not None:
-        axis = found.numbers("xyz", 3)
-        if np.linalg.norm(axis) < 1e-9:
-            raise found.wrong(f"the axis of joint '{name}' is zero")
-    limits = _limits(element.need("limit")) if kind == "revolute" else None
-    mimic = element.find("mimic")
-    return UrdfJoint(
-        name=name,
-        kind=kind,
-        parent=parent,
-        child=child,
-        origin=origin(element),
-        axis=axis / np.linalg.norm(axis),
-        limits=limits,
-        mimic=None if mimic is None else _mimic(mimic),
-        place=element.place,
-    )
-
-
-def _limits(element: Element) -> tuple[float, float]:
-    low, high = element.number("lower", 0.0), element.number("upper", 0.0)
-    if low > high:
-        raise element.wrong(f"lower={low:g} is above upper={high:g}")
-    return low, high
-
-
-def _mimic(element: Element) -> Mimic:
-    return Mimic(
-        element.text("joint"), element.number("multiplier", 1.0), element.number("offset", 0.0)
-    )
-
-
-def _resolved(joints: Mapping[str, UrdfJoint]) -> dict[str, UrdfJoint]:
-    """The joints with every mimic following one that follows none.
-
-    Raises:
-        DataError: If one follows a joint that there is not, or itself.
-    """
-    by_name = {joint.name: joint for joint in joints.values()}
-    resolved = dict(joints)
-    for child, joint in joints.items():
-        mimic, seen = joint.mimic, [joint.name]
-        while mimic is not None:
-            leader = by_name.get(mimic.joint)
-            if leader is None or leader.name in seen:
-                raise DataError(
-                    f"joint '{joint.name}' follows '{mimic.joint}', "
-                    + ("which follows it" if leader else "which is no joint")
-                    + did_you_mean(mimic.joint, [] if leader else list(by_name)),
-                    place=joint.place,
-                )
-            seen.append(leader.name)
-            resolved[child] = replace(joint, mimic=mimic)
-            if leader.mimic is None:
-                break
-            # a = r b + o and b = s c + p give a = r s c + (r p + o).
-            above = leader.mimic
-            offset = mimic.ratio * above.offset + mimic.offset
-            mimic = Mimic(above.joint, mimic.ratio * above.ratio, offset)
-    return resolved
+        return cls(named, {name: links[name] for name in roots}, resolved(joints))

@@ -6,7 +6,8 @@ import numpy as np
 
 from regkit.arrays import Array
 from regkit.interchange.imported import vector
-from regkit.interchange.urdf import UrdfLink, origin
+from regkit.interchange.urdf import UrdfLink
+from regkit.interchange.urdf_joints import origin
 from regkit.interchange.xml_lines import Element
 from regkit.skeleton.description import CapsuleDescription
 

@@ -10,7 +10,8 @@ import numpy as np
 from regkit.arrays import Array
 from regkit.errors import DataError
 from regkit.interchange.imported import SHORTEST, Bone, ImportedSkeleton, ball, vector
-from regkit.interchange.urdf import HINGES, Mimic, Urdf, UrdfJoint
+from regkit.interchange.urdf import Urdf
+from regkit.interchange.urdf_joints import Mimic, UrdfJoint
 from regkit.interchange.urdf_shapes import capsules_of
 from regkit.rigid import rigid
 from regkit.skeleton.joints import (
@@ -96,19 +97,13 @@ def _coupling(joint: UrdfJoint, mimic: Mimic, robot: Urdf) -> CouplingDescriptio
     """How a hinge follows another.
 
     Raises:
-        DataError: If it hardly turns with it, or that is no hinge.
+        DataError: If it hardly turns with it, over others that follow each other.
     """
     leader = next(other for other in robot.joints.values() if other.name == mimic.joint)
-    if leader.kind not in HINGES:
-        raise DataError(
-            f"joint '{joint.name}' follows '{leader.name}', which is {leader.kind}; a hinge "
-            f"({' or '.join(HINGES)}) can follow a hinge",
-            place=joint.place,
-        )
     if abs(mimic.ratio) < LEAST_RATIO:
         raise DataError(
-            f"joint '{joint.name}' follows '{leader.name}' with the multiplier {mimic.ratio:g}; "
-            "one that does not turn must be fixed",
+            f"joint '{joint.name}' turns by {mimic.ratio:g} with '{leader.name}'; one that does "
+            "not turn must be fixed",
             place=joint.place,
         )
     return CouplingDescription(
