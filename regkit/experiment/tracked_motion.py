@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import zipfile
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import Field
 
+from regkit.arrays import Array
 from regkit.body import Body
 from regkit.document import Document
 from regkit.errors import ConfigError, DataError
@@ -25,9 +28,10 @@ SAME = 1e-6
 
 
 class _Configuration(Model):
-    """The part of an experiment's configuration that makes the body."""
+    """The part of an experiment's configuration that makes the bodies."""
 
     template: Template
+    subjects: dict[str, Template] = Field(default_factory=dict)
 
 
 def read_tracked_motion(folder: Path, fps: float | None = None) -> TrackedMotion:
@@ -41,8 +45,27 @@ def read_tracked_motion(folder: Path, fps: float | None = None) -> TrackedMotion
         RegkitError: If there is no finished sequence, or the template is another one since.
     """
     arrays = _arrays(folder)
-    template = _template(folder.resolve().parents[1] / "config.yaml")
-    body = template.body(float(arrays["size"]))
+    given = fps if fps is not None else arrays.get("fps")
+    if given is None:
+        raise ConfigError(
+            "the results do not say how many frames there were in a second; give --fps",
+            place=str(folder),
+        )
+    name = f"{folder.resolve().parent.name} {folder.resolve().name}"
+    for template in _templates(folder.resolve().parents[1] / "config.yaml"):
+        body = template.body(float(arrays["size"]))
+        transforms = _placed(body, arrays)
+        if transforms is not None:
+            return TrackedMotion(name, body, transforms, float(given), _skin(template, body))
+    raise DataError(
+        "the template is not the one that these poses were found with: it was changed since; run "
+        "the experiment again",
+        place=str(folder),
+    )
+
+
+def _placed(body: Body, arrays: Mapping[str, NDArray[Any]]) -> Array | None:
+    """The transforms (T, S, 4, 4) of a body's segments, if its markers come to lie as they were."""
     skeleton = body.skeleton
     shapes = {
         "balls": (len(skeleton.ball_links), 4),
@@ -50,26 +73,12 @@ def read_tracked_motion(folder: Path, fps: float | None = None) -> TrackedMotion
         "markers": (len(body.markers.names), 3),
     }
     if any(arrays[name].shape[1:] != shape for name, shape in shapes.items()):
-        raise _changed(folder)
-    transforms = np.array(
-        [
-            body.place(Pose(root, balls, hinges)).transforms
-            for root, balls, hinges in zip(
-                arrays["root"], arrays["balls"], arrays["hinges"], strict=True
-            )
-        ]
-    )
+        return None
+    poses = zip(arrays["root"], arrays["balls"], arrays["hinges"], strict=True)
+    transforms = np.array([body.place(Pose(*pose)).transforms for pose in poses])
     placed = np.array([body.markers.place(one) for one in transforms])
-    if np.abs(placed - arrays["markers"]).max(initial=0.0) > SAME:
-        raise _changed(folder)
-    given = fps if fps is not None else arrays.get("fps")
-    if given is None:
-        raise ConfigError(
-            "the results do not say how many frames there were in a second; give --fps",
-            place=str(folder),
-        )
-    name = f"{folder.parent.name} {folder.name}"
-    return TrackedMotion(name, body, transforms, float(given), _skin(template, body))
+    same = np.abs(placed - arrays["markers"]).max(initial=0.0) <= SAME
+    return transforms if same else None
 
 
 def _arrays(folder: Path) -> dict[str, NDArray[Any]]:
@@ -100,14 +109,20 @@ def _arrays(folder: Path) -> dict[str, NDArray[Any]]:
     return arrays
 
 
-def _template(config: Path) -> Template:
-    """The template of an experiment's configuration, which need not be valid otherwise."""
+def _templates(config: Path) -> tuple[Template, ...]:
+    """The templates of an experiment's configuration, which need not be valid otherwise.
+
+    Raises:
+        RegkitError: If there is none, or one is wrong.
+    """
     document = Document.read(config)
     if "template" not in document.data:
         raise ConfigError("there is no template; this is no results folder", place=str(config))
-    places = {at: place for at, place in document.places.items() if at[:1] in ((), ("template",))}
-    own = Document({"template": document.data["template"]}, places)
-    return own.validated(_Configuration).template
+    fields = [field for field in _Configuration.model_fields if field in document.data]
+    places = {at: place for at, place in document.places.items() if not at or at[0] in fields}
+    own = Document({field: document.data[field] for field in fields}, places)
+    read = own.validated(_Configuration)
+    return (read.template, *read.subjects.values())
 
 
 def _skin(template: Template, body: Body) -> SkinnedMesh | None:
@@ -119,11 +134,3 @@ def _skin(template: Template, body: Body) -> SkinnedMesh | None:
     scale = body.size / description.size.value
     rest = rigid(mesh.rest[:, :3, :3], scale * mesh.rest[:, :3, 3])
     return replace(mesh, vertices=scale * mesh.vertices, rest=rest)
-
-
-def _changed(folder: Path) -> DataError:
-    return DataError(
-        "the template is not the one that these poses were found with: it was changed since; run "
-        "the experiment again",
-        place=str(folder),
-    )

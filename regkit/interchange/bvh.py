@@ -73,7 +73,7 @@ class Bvh:
         except OSError as error:
             raise DataError(f"cannot be read: {error.strerror}", place=str(path)) from None
         except UnicodeDecodeError:
-            raise DataError("is not text; a BVH file is", place=str(path)) from None
+            raise DataError("is not UTF-8 text; a BVH file is text", place=str(path)) from None
         lines = Lines(path, text)
         joints = read_hierarchy(lines, scale)
         count = _field(lines, "Frames")
