@@ -25,10 +25,10 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
-for command in (run, register, calibrate, fit, validate, plugins, schema, doctor):
-    app.command()(command)
-app.command("import")(import_)
-app.command()(export)
+COMMANDS = (run, export, register, calibrate, fit, import_, validate, plugins, schema, doctor)
+for command in COMMANDS:
+    # A word of Python's own has an underscore behind it.
+    app.command(command.__name__.rstrip("_"))(command)
 
 
 def main() -> None:

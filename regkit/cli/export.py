@@ -39,9 +39,7 @@ def export(
     unit: Annotated[Unit, typer.Option(help="Unit of length of a .bvh file.")] = Unit.M,
     fps: Annotated[
         float | None,
-        typer.Option(
-            help="Frames per second. [default: those of the sequence]", show_default=False
-        ),
+        typer.Option(help="Frames per second, if not those of the sequence.", show_default=False),
     ] = None,
     plugin: PluginFiles = None,
 ) -> None:
@@ -59,8 +57,8 @@ def export(
     motion = read_tracked_motion(results, fps)
     write_motion(motion, to, scale=0.01 if unit is Unit.CM else 1.0)
     output.print(
-        f"written: {to} ({len(motion.transforms)} frames, {motion.fps:g} a second, "
-        f"{len(motion.body.skeleton.names)} segments)",
+        f"written: {to} (frames: {len(motion.transforms)}, {motion.fps:g} a second; "
+        f"segments: {len(motion.body.skeleton.names)})",
         highlight=False,
         markup=False,
         soft_wrap=True,

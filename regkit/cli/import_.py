@@ -46,7 +46,7 @@ def import_(
         typer.Option(
             "--name",
             metavar="TEXT",
-            help="What it is, in a line. [default: the file's name]",
+            help="What it is, in a line; the file's name without it.",
             show_default=False,
         ),
     ] = None,
@@ -54,7 +54,7 @@ def import_(
         str | None,
         typer.Option(
             metavar="AXIS",
-            help="The file's axis that points up, such as y or -z. [default: y of BVH, z of URDF]",
+            help="The file's axis that points up, such as y or -z; by custom y of BVH, z of URDF.",
             show_default=False,
         ),
     ] = None,
@@ -62,7 +62,7 @@ def import_(
         str | None,
         typer.Option(
             metavar="AXIS",
-            help="The one that points to the front. [default: z of BVH, x of URDF]",
+            help="The one that points to the front; by custom z of BVH, x of URDF.",
             show_default=False,
         ),
     ] = None,

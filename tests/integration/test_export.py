@@ -35,7 +35,7 @@ def test_all_formats_hold_the_tracked_motion(regkit, tmp_path, tracked):
         unit = ("--unit", "cm") if name == "large.bvh" else ()
         ended = regkit("export", tracked, "--to", tmp_path / name, *unit)
         assert ended.code == 0, ended.err
-        assert f"written: {tmp_path / name} (1 frames, 30 a second, 15 segments)" in ended.out
+        assert f"written: {tmp_path / name} (frames: 1, 30 a second; segments: 15)" in ended.out
     truth = markers(tracked)
     for name, scale in (("motion.bvh", 1.0), ("large.bvh", 0.01)):
         motion = Bvh.read(tmp_path / name, scale=scale)
@@ -83,6 +83,18 @@ def test_poses_of_another_template_are_refused(regkit, tmp_path, tracked):
     assert ended.code == 1
     assert "config.yaml:" in ended.err
     assert "did you mean 'human'?" in ended.err
+
+
+def test_the_template_of_a_subject_is_found(regkit, tmp_path, tracked):
+    config = tracked.parents[1] / "config.yaml"
+    human = "kind: human\n  height: 1.7"
+    others = (
+        "kind: hand\nsubjects: {her: {kind: human, height: 1.6}, him: {kind: human, height: 1.7}}"
+    )
+    assert human in config.read_text()
+    config.write_text(config.read_text().replace(human, others))
+    ended = regkit("export", tracked, "--to", tmp_path / "motion.bvh")
+    assert ended.code == 0, ended.err
 
 
 def test_what_is_no_result_is_refused(regkit, tmp_path, tracked):
