@@ -102,15 +102,16 @@ def _tell(imported: ImportedSkeleton) -> None:
     )
     capsules = sum(len(segment.capsules) for segment in segments)
     output.print(
-        f"{len(kinds)} segments ({joints}), {capsules} capsules; "
-        f"{description.size.name} {description.size.value:.4g} m",
+        f"segments: {len(kinds)} ({joints}); capsules: {capsules}; "
+        f"{description.size.name}: {description.size.value:.4g} m",
         highlight=False,
         markup=False,
         soft_wrap=True,
     )
     if imported.shaped:
         output.print(
-            f"{imported.shaped} segments had no shape and got one along their bones: look at them",
+            f"segments that had no shape and got one along their bones: {imported.shaped}; look at "
+            "them",
             highlight=False,
             markup=False,
             soft_wrap=True,

@@ -23,6 +23,9 @@ from regkit.rigid import rigid
 from regkit.skeleton import Pose
 from regkit.skinned_mesh import SkinnedMesh
 
+NEEDED = ("root", "balls", "hinges", "markers", "size")
+"""The arrays of ``poses.npz`` that make a motion."""
+
 SAME = 1e-6
 """A marker that is placed again lies so near to where it was [m]."""
 
@@ -45,18 +48,13 @@ def read_tracked_motion(folder: Path, fps: float | None = None) -> TrackedMotion
         RegkitError: If there is no finished sequence, or the template is another one since.
     """
     arrays = _arrays(folder)
-    given = fps if fps is not None else arrays.get("fps")
-    if given is None:
-        raise ConfigError(
-            "the results do not say how many frames there were in a second; give --fps",
-            place=str(folder),
-        )
+    given = _fps(folder, arrays) if fps is None else fps
     name = f"{folder.resolve().parent.name} {folder.resolve().name}"
     for template in _templates(folder.resolve().parents[1] / "config.yaml"):
         body = template.body(float(arrays["size"]))
         transforms = _placed(body, arrays)
         if transforms is not None:
-            return TrackedMotion(name, body, transforms, float(given), _skin(template, body))
+            return TrackedMotion(name, body, transforms, given, _skin(template, body))
     raise DataError(
         "the template is not the one that these poses were found with: it was changed since; run "
         "the experiment again",
@@ -89,24 +87,43 @@ def _arrays(folder: Path) -> dict[str, NDArray[Any]]:
         DataError: If it is damaged.
     """
     file = folder / "poses.npz"
-    needed = ("root", "balls", "hinges", "markers", "size")
-    try:
-        with np.load(file) as content:
-            arrays: dict[str, NDArray[Any]] = {key: content[key] for key in content.files}
-    except FileNotFoundError:
+    if not file.is_file():
         others = sorted(folder.glob("**/poses.npz"))
         hint = f"; there are: {', '.join(str(other.parent) for other in others)}" if others else ""
         raise ConfigError(
             f"no poses.npz is here; name the folder of a finished sequence, "
             f"RESULTS/METHOD/SEQUENCE{hint}",
             place=str(folder),
-        ) from None
-    except (ValueError, EOFError, zipfile.BadZipFile) as error:
-        raise DataError(f"damaged ({error})", place=str(file)) from None
-    missing = [key for key in needed if key not in arrays]
+        )
+    arrays = _read(file)
+    missing = [name for name in NEEDED if name not in arrays]
     if missing:
         raise DataError(f"lacks the arrays {', '.join(missing)}", place=str(file))
     return arrays
+
+
+def _fps(folder: Path, arrays: Mapping[str, NDArray[Any]]) -> float:
+    """Frames per second at which the sequence was recorded.
+
+    Raises:
+        ConfigError: If the results do not say it.
+    """
+    record = folder / "record.npz"
+    told = _read(record) if "fps" not in arrays and record.is_file() else arrays
+    if "fps" not in told:
+        raise ConfigError(
+            "the results do not say how many frames there were in a second; give --fps",
+            place=str(folder),
+        )
+    return float(told["fps"])
+
+
+def _read(file: Path) -> dict[str, NDArray[Any]]:
+    try:
+        with np.load(file) as content:
+            return {key: content[key] for key in content.files}
+    except (OSError, ValueError, EOFError, zipfile.BadZipFile) as error:
+        raise DataError(f"damaged ({error})", place=str(file)) from None
 
 
 def _templates(config: Path) -> tuple[Template, ...]:

@@ -26,8 +26,8 @@ THINNEST = 0.005
 SHORTEST = 1e-4
 """What is shorter is no bone [m]."""
 
-UPRIGHT = 0.5
-"""A skeleton is as high as it is long if it is at least this part of it."""
+UPRIGHT = 0.8
+"""The size is the height if that is at least this part of the largest extent."""
 
 
 @dataclass(frozen=True)

@@ -71,6 +71,20 @@ def test_frames_per_second_can_be_given(regkit, tmp_path, tracked):
     assert Bvh.read(tmp_path / "motion.bvh").frame_time == pytest.approx(0.08)
 
 
+def test_results_without_a_rate_need_one(regkit, tmp_path, tracked):
+    with np.load(tracked / "poses.npz") as arrays:
+        kept = {name: arrays[name] for name in arrays.files if name != "fps"}
+    np.savez(tracked / "poses.npz", **kept)
+    (tracked / "record.npz").unlink(missing_ok=True)
+    ended = regkit("export", tracked, "--to", tmp_path / "motion.bvh")
+    assert ended.code == 1
+    assert "how many frames there were in a second; give --fps" in ended.err
+    assert regkit("export", tracked, "--to", tmp_path / "motion.bvh", "--fps", 5).code == 0
+    np.savez(tracked / "record.npz", fps=20.0)
+    assert regkit("export", tracked, "--to", tmp_path / "motion.bvh").code == 0
+    assert Bvh.read(tmp_path / "motion.bvh").frame_time == pytest.approx(0.05)
+
+
 def test_poses_of_another_template_are_refused(regkit, tmp_path, tracked):
     config = tracked.parents[1] / "config.yaml"
     text = config.read_text()

@@ -40,8 +40,8 @@ def read(path: Path) -> BodyDescription:
 def test_an_imported_skeleton_is_registered(regkit, files, out):
     ended = regkit("import", BVH, "--scale", 0.01, "--out", out, "--name", "A dancer")
     assert ended.code == 0, ended.err
-    assert "19 segments (18 ball), 21 capsules; height 1.673 m" in ended.out
-    assert "19 segments had no shape" in ended.out
+    assert "segments: 19 (18 ball); capsules: 21; height: 1.673 m" in ended.out
+    assert "segments that had no shape and got one along their bones: 19" in ended.out
     assert f"template: {{kind: file, path: {out}}}" in ended.out
     assert regkit("validate", out).out.strip() == f"{out}: a valid template"
     assert out.read_text().startswith("# What `regkit import mocapbank.bvh --scale 0.01` made.")
@@ -58,7 +58,7 @@ def test_a_robots_limits_and_followers_are_in_its_template(regkit, tmp_path, out
     robot.write_text(ROBOT)
     ended = regkit("import", robot, "--out", out)
     assert ended.code == 0, ended.err
-    assert "4 segments (2 hinge, 1 fixed), 2 capsules" in ended.out
+    assert "segments: 4 (2 hinge, 1 fixed); capsules: 2" in ended.out
     assert regkit("validate", out).code == 0
     text = out.read_text()
     # x forward is the body's z, y left its x, and z up its y.
