@@ -316,11 +316,18 @@ def _scaled(scale: list[float]) -> list[dict]:
     return [{"children": [1, 4], "scale": scale}, *ARM["nodes"][1:]]
 
 
+def _moving(target: dict, sampler: int) -> list[dict]:
+    return [ARM["animations"][0] | {"channels": [{"sampler": sampler, "target": target}]}]
+
+
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
         ({"nodes": _scaled([1, 1, 2])}, "scaled unevenly"),
         ({"nodes": _scaled([-1, 1, 1])}, "is mirrored"),
+        ({"animations": _moving({"node": 9, "path": "rotation"}, 0)}, "node 9, which there is not"),
+        ({"animations": _moving({"node": 1, "path": "rotation"}, 5)}, "animation 0 cannot be read"),
+        ({"animations": _moving({"node": 1, "path": "scale"}, 0)}, "8 numbers; it needs 6"),
         ({"skins": []}, "has 0 skins; a file with one is needed"),
         ({"asset": {"version": "1.0"}}, "not a glTF 2.0 file"),
         ({"extensionsRequired": ["KHR_draco_mesh_compression"]}, "export it without compression"),
