@@ -23,6 +23,7 @@ from regkit.interchange.bvh_hierarchy import (
     BvhJoint,
     Lines,
     hierarchy_text,
+    in_file_order,
     read_hierarchy,
     row,
 )
@@ -72,7 +73,7 @@ class Bvh:
         except OSError as error:
             raise DataError(f"cannot be read: {error.strerror}", place=str(path)) from None
         except UnicodeDecodeError:
-            raise DataError("is not text; a BVH file is", place=str(path)) from None
+            raise DataError("is not UTF-8 text; a BVH file is text", place=str(path)) from None
         lines = Lines(path, text)
         joints = read_hierarchy(lines, scale)
         count = _field(lines, "Frames")
@@ -92,11 +93,15 @@ class Bvh:
         Raises:
             DataError: If the file cannot be written.
         """
-        names = [channel for joint in self.joints for channel in joint.channels]
-        units = np.array([scale if name.endswith("position") else 1.0 for name in names])
+        counts = [len(joint.channels) for joint in self.joints]
+        columns = np.split(self.frames, np.cumsum(counts)[:-1], axis=1)
+        order = in_file_order(self.joints)
+        frames = np.concatenate([columns[index] for index in order], axis=1)
+        names = [channel for index in order for channel in self.joints[index].channels]
+        frames[:, [name.endswith("position") for name in names]] /= scale
         head = ["MOTION", f"Frames: {len(self.frames)}", f"Frame Time: {self.frame_time:.10g}"]
-        rows = [row(numbers) for numbers in self.frames / units]
-        write_text(path, "\n".join([*hierarchy_text(self.joints, scale), *head, *rows]) + "\n")
+        lines = [*hierarchy_text(self.joints, scale), *head, *map(row, frames)]
+        write_text(path, "\n".join(lines) + "\n")
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -121,6 +126,10 @@ class Bvh:
             parent = positions[joint.parent] if joint.parent >= 0 else 0.0
             positions[index] = parent + joint.offset
         return positions
+
+    def offsets(self, joint: int) -> Array:
+        """Where a joint is in its parent's frame, in every frame, (F, 3) [m]."""
+        return self._relative[1][:, joint]
 
     def at_frame(self, index: int) -> BvhPose:
         """The pose in a frame.

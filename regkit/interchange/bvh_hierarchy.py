@@ -168,30 +168,36 @@ def _channels(lines: Lines) -> tuple[str, ...]:
     return channels
 
 
+def in_file_order(joints: Sequence[BvhJoint]) -> list[int]:
+    """The joints' indices in the order of a file: each one's children follow it at once."""
+    order: list[int] = []
+    ahead = [0]
+    while ahead:
+        index = ahead.pop()
+        order.append(index)
+        children = [child for child, joint in enumerate(joints) if joint.parent == index]
+        ahead += reversed(children)
+    return order
+
+
 def hierarchy_text(joints: Sequence[BvhJoint], scale: float) -> list[str]:
     """The lines of a hierarchy; ``scale`` is metres per unit of the file."""
-    children: list[list[int]] = [[] for _ in joints]
-    for index, joint in enumerate(joints[1:], start=1):
-        children[joint.parent].append(index)
     lines = ["HIERARCHY"]
-
-    def write(index: int, indent: str) -> None:
+    depths = [-1] * len(joints)
+    depth = -1
+    for index in in_file_order(joints):
         joint = joints[index]
-        within = indent + "\t"
-        channels = " ".join([str(len(joint.channels)), *joint.channels])
-        lines.extend([f"{indent}{'JOINT' if index else 'ROOT'} {joint.name}", f"{indent}{{"])
-        lines.extend(
-            [f"{within}OFFSET {row(joint.offset / scale)}", f"{within}CHANNELS {channels}"]
-        )
-        for child in children[index]:
-            write(child, within)
+        above = depths[joint.parent] if joint.parent >= 0 else -1
+        lines += ["\t" * open_joint + "}" for open_joint in range(depth, above, -1)]
+        depth = depths[index] = above + 1
+        indent, within = "\t" * depth, "\t" * (depth + 1)
+        lines += [f"{indent}{'JOINT' if depth else 'ROOT'} {joint.name}", f"{indent}{{"]
+        lines.append(f"{within}OFFSET {row(joint.offset / scale)}")
+        lines.append(" ".join([f"{within}CHANNELS {len(joint.channels)}", *joint.channels]))
         for end in joint.ends:
-            lines.extend([f"{within}End Site", f"{within}{{"])
-            lines.extend([f"{within}\tOFFSET {row(end / scale)}", f"{within}}}"])
-        lines.append(f"{indent}}}")
-
-    write(0, "")
-    return lines
+            lines += [f"{within}End Site", f"{within}{{"]
+            lines += [f"{within}\tOFFSET {row(end / scale)}", f"{within}}}"]
+    return [*lines, *("\t" * open_joint + "}" for open_joint in range(depth, -1, -1))]
 
 
 def row(numbers: Array) -> str:

@@ -115,11 +115,16 @@ class GltfClip:
         """
         clips = []
         for index, animation in enumerate(file.content.animations or ()):
-            channels = tuple(
-                _channel(file, animation.samplers[channel.sampler], channel.target)
-                for channel in animation.channels
-                if channel.target.path in _WIDTHS and channel.target.node is not None
-            )
+            try:
+                targets = [
+                    (animation.samplers[channel.sampler], channel.target)
+                    for channel in animation.channels
+                    if channel.target.path in _WIDTHS and channel.target.node is not None
+                ]
+                channels = tuple(_channel(file, *pair) for pair in targets)
+            # The file need not hold what the format says.
+            except (AttributeError, IndexError, TypeError) as error:
+                raise file.wrong(f"animation {index} cannot be read ({error})") from None
             if channels:
                 times = np.unique(np.concatenate([channel.times for channel in channels]))
                 name = str(animation.name or f"animation_{index}")
@@ -128,6 +133,8 @@ class GltfClip:
 
 
 def _channel(file: GltfFile, sampler: Any, target: Any) -> GltfChannel:
+    if not 0 <= target.node < len(file.content.nodes):
+        raise file.wrong(f"an animation moves node {target.node}, which there is not")
     interpolation = str(sampler.interpolation or "LINEAR")
     times = file.floats(sampler.input)[:, 0]
     if not len(times) or (np.diff(times) <= 0.0).any():

@@ -104,7 +104,7 @@ class GltfFile:
                 (view.byteOffset or 0) + (described.byteOffset or 0),
                 (view.byteStride or own, kind.itemsize),
             )
-        except (IndexError, KeyError, TypeError, ValueError) as error:
+        except (AttributeError, IndexError, KeyError, TypeError, ValueError) as error:
             raise self.wrong(f"accessor {accessor} cannot be read ({error})") from None
 
     @cached_property

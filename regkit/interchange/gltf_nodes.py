@@ -56,6 +56,8 @@ class Nodes:
             DataError: If they are no forest, or a number is missing.
         """
         nodes = file.content.nodes
+        if not nodes or None in nodes:
+            raise file.wrong("has no nodes, or an empty one")
         parents = [-1] * len(nodes)
         for index, node in enumerate(nodes):
             for child in node.children or ():

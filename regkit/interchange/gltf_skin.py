@@ -31,8 +31,9 @@ class SkinnedVertices:
     faces: Indices
 
     def joined(self) -> SkinnedVertices:
-        """The same surface, with equal vertices made one."""
-        rows = np.concatenate([self.positions, self.bones, self.weights], axis=1)
+        """The same surface, with vertices made one that are at one place and move alike."""
+        # Weights come in several precisions.
+        rows = np.concatenate([self.positions, self.bones, self.weights.round(5)], axis=1)
         _, first, number = np.unique(rows, axis=0, return_index=True, return_inverse=True)
         kept = np.sort(first)
         place = np.searchsorted(kept, first)[number.ravel()]

@@ -175,7 +175,7 @@ def test_a_file_that_stops_early_or_is_missing_says_so(tmp_path: Path) -> None:
     with pytest.raises(DataError, match=r"short.bvh:1: the file ends where HIERARCHY"):
         Bvh.read(path)
     path.write_bytes(b"\x89PNG\xff\xfe\x00")
-    with pytest.raises(DataError, match="is not text"):
+    with pytest.raises(DataError, match="is not UTF-8 text"):
         Bvh.read(path)
     with pytest.raises(DataError, match="the file is missing"):
         Bvh.read(tmp_path / "none.bvh")
