@@ -11,6 +11,9 @@ from regkit_plugins.synthesis.motion.config import KeyframesConfig
 from regkit_plugins.synthesis.motion.keyframes import Keyframe, Keyframes
 from regkit_plugins.synthesis.motion.shipped import KEYFRAMES
 
+FAST = ("front_kicks", "tennis")
+"""A foot and a hand that are thrown go at nearly 6 m/s."""
+
 
 def _motion(*frames, loops=False):
     return Keyframes(frames=tuple(Keyframe(**frame) for frame in frames), loops=loops).motion()
@@ -98,8 +101,9 @@ def test_shipped_keyframes_move_smoothly_and_keep_a_foot_on_the_ground(name):
     places = [joints(human, moved(time)) for time in np.arange(0.0, source.duration, 1.0 / 30.0)]
     track = np.array([list(place.values()) for place in places])
     steps = np.diff(track, axis=0)
-    assert np.linalg.norm(steps, axis=-1).max() < 0.12
-    assert np.linalg.norm(np.diff(steps, axis=0), axis=-1).max() < 0.035
+    fastest, jerkiest = (0.2, 0.12) if name in FAST else (0.12, 0.035)
+    assert np.linalg.norm(steps, axis=-1).max() < fastest
+    assert np.linalg.norm(np.diff(steps, axis=0), axis=-1).max() < jerkiest
     ankles = [min(place["left_ankle"][2], place["right_ankle"][2]) for place in places]
     assert np.ptp(ankles) < 0.02
 
@@ -131,3 +135,17 @@ def test_right_hand_waves_and_left_hand_hangs():
         assert place["right_wrist"][2] > place["neck"][2]
         assert place["left_wrist"][2] < place["left_elbow"][2] < place["left_shoulder"][2]
     assert np.linalg.norm(places[1]["right_wrist"] - places[0]["right_wrist"]) > 0.1
+
+
+@pytest.mark.parametrize("name", KEYFRAMES.names)
+def test_shipped_keyframes_keep_the_hands_out_of_the_thighs(name):
+    """A thigh and a hand touch where their bones are some 11 cm from each other."""
+    human, source = body("average"), KeyframesConfig(name=name).motion()
+    moved = human.moved(source)
+    for time in np.linspace(0.0, source.duration, 40):
+        places = joints(human, moved(time))
+        for side in ("left", "right"):
+            hip, way = places[f"{side}_hip"], places[f"{side}_knee"] - places[f"{side}_hip"]
+            for joint in ("wrist", "hand"):
+                share = np.clip((places[f"{side}_{joint}"] - hip) @ way / (way @ way), 0.0, 1.0)
+                assert np.linalg.norm(places[f"{side}_{joint}"] - hip - share * way) > 0.12

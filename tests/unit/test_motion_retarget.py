@@ -11,9 +11,9 @@ from motion_cases import BODIES, LIMBS, REFERENCE, SOURCES, body, joints, motion
 
 from regkit.rotation import vector_to_matrix
 from regkit_plugins.synthesis.assets import average_human
-from regkit_plugins.synthesis.motion.body_map import body_map
+from regkit_plugins.synthesis.motion.body_map import Between, body_map
 from regkit_plugins.synthesis.motion.motion import SourcePose
-from regkit_plugins.synthesis.motion.retarget import retargeted
+from regkit_plugins.synthesis.motion.retarget import Retarget, retargeted
 from regkit_plugins.synthesis.motion.shipped import CLIPS, shipped_clip
 
 PAIRS = [(name, source) for name in BODIES for source in SOURCES]
@@ -130,6 +130,24 @@ def test_bones_that_the_map_does_not_name_follow_their_parents():
     assert "LThumb" not in human.map.bones
     relative = np.linalg.inv(moved[hand]) @ moved[thumb]
     assert np.allclose(relative, np.linalg.inv(mesh.rest[hand]) @ mesh.rest[thumb], atol=1e-9)
+
+
+def test_forearm_takes_a_part_of_the_twist_of_the_hand_and_no_bend():
+    human, rig = body("average"), motion("keyframes").rig
+    bones = {
+        **human.map.bones,
+        "LeftForeArm": Between(between=("left_elbow", "left_wrist"), share=0.5, only_twist=True),
+    }
+    twisted = Retarget.of(rig, human.mesh, human.map.model_copy(update={"bones": bones}))
+    still = dict.fromkeys(rig.parents, np.eye(3))
+    bone = human.mesh.bone("LeftForeArm")
+    rest = twisted.bone_poses(SourcePose(np.zeros(3), still))[bone, :3, :3]
+    # The arm hangs, so that its bones' axes are about the vertical, and the wrist's bend is not.
+    for angles, part in (((0.0, 0.0, 0.8), 0.4), ((0.5, 0.0, 0.0), 0.0)):
+        pose = SourcePose(np.zeros(3), {**still, "left_wrist": vector_to_matrix(np.array(angles))})
+        turned = twisted.bone_poses(pose)[bone, :3, :3]
+        expected = vector_to_matrix(np.array([0.0, 0.0, part])) @ rest
+        assert np.abs(turned - expected).max() < 0.03
 
 
 def test_map_may_declare_how_far_the_hips_go():

@@ -26,6 +26,10 @@ class Between(Model):
     share: float = Field(ge=0.0, le=1.0)
     """How far the bone is turned from the first one towards the second."""
 
+    only_twist: bool = False
+    """Whether the bone goes with the first joint, and takes from the second one only its twist
+    about the way to it: a forearm does so with the hand."""
+
 
 class Spot(Model):
     """A point that a bone carries."""

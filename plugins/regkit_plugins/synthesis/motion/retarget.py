@@ -9,43 +9,16 @@ import numpy as np
 
 from regkit.arrays import Array
 from regkit.errors import ConfigError
-from regkit.rotation import between, from_matrix, to_matrix
+from regkit.rotation import between
 from regkit.skinned_mesh import SkinnedMesh
-from regkit_plugins.synthesis.mending import interpolated
 from regkit_plugins.synthesis.motion.body_map import Between, BodyMap, bone_of
 from regkit_plugins.synthesis.motion.figure import AIMS, FIGURE, leg_length
+from regkit_plugins.synthesis.motion.followers import Blended, Follower, Segment, Twisted
 from regkit_plugins.synthesis.motion.motion import Motion, Rig, SourcePose
 from regkit_plugins.synthesis.motion.names import instead_of
 
 _LOOKS = 40
 """How often in a motion the lowest point of the skin is looked for."""
-
-
-@dataclass(frozen=True)
-class Follower:
-    """What a bone follows.
-
-    Attributes:
-        joints: The source's joint that it turns with, or the two that it lies between.
-        straight: (3, 3) for each of them, what turns its segment from the body's rest to the
-            source's.
-        share: How far it is turned from the first of two towards the second.
-    """
-
-    joints: tuple[str, ...]
-    straight: tuple[Array, ...]
-    share: float
-
-    def turn(self, pose: SourcePose) -> Array:
-        """The rotation (3, 3) of the bone from its rest, in ground axes."""
-        turns = [
-            pose.rotations[joint] @ straight
-            for joint, straight in zip(self.joints, self.straight, strict=True)
-        ]
-        if len(turns) == 1:
-            return np.asarray(turns[0])
-        start, end = (from_matrix(turn) for turn in turns)
-        return to_matrix(interpolated(start, end, self.share))
 
 
 @dataclass(frozen=True)
@@ -74,12 +47,13 @@ class Retarget:
             ConfigError: If the map names a bone that the body, or a joint that the source lacks.
         """
         places = {name: mark.position for name, mark in body.landmarks(mesh).items()}
-        straight = straightening(places, rig.figure)
+        fit = _Fit(rig, mesh, places, straightening(places, rig.figure))
         followers: list[Follower | None] = [None] * len(mesh.labels)
         for label, followed in body.bones.items():
-            followers[bone_of(mesh, label)] = _follower(label, followed, rig, straight)
+            bone = bone_of(mesh, label)
+            followers[bone] = fit.follower(bone, followed)
         if followers[0] is None:
-            followers[0] = _follower(mesh.labels[0], "pelvis", rig, straight)
+            followers[0] = fit.follower(0, "pelvis")
         scale = body.root_scale
         if scale == "leg":
             scale = leg_length(places) / leg_length(rig.figure)
@@ -168,20 +142,45 @@ def _aimed(
     return between(*ways)
 
 
-def _follower(
-    label: str, followed: str | Between, rig: Rig, straight: Mapping[str, Array]
-) -> Follower:
-    joints = followed.between if isinstance(followed, Between) else (followed,)
-    share = followed.share if isinstance(followed, Between) else 0.0
-    own = []
-    for joint in joints:
-        moving = rig.moving(joint)
-        if moving is None:
-            known = dict.fromkeys([*FIGURE, *rig.parents])
+@dataclass(frozen=True)
+class _Fit:
+    """A source and a body that are fitted to each other.
+
+    Attributes:
+        rig: The source.
+        mesh: The body.
+        places: (3,) where the joints of the figure are on the body at rest [m].
+        straight: (3, 3) what turns each segment of the body into the source's direction.
+    """
+
+    rig: Rig
+    mesh: SkinnedMesh
+    places: Mapping[str, Array]
+    straight: Mapping[str, Array]
+
+    def follower(self, bone: int, followed: str | Between) -> Follower:
+        """What a bone turns with, by what the map says.
+
+        Raises:
+            ConfigError: If neither a figure nor the source has such a joint.
+        """
+        if isinstance(followed, str):
+            return self._segment(bone, followed)
+        start, end = (self._segment(bone, joint) for joint in followed.between)
+        if not followed.only_twist:
+            return Blended(start, end, followed.share)
+        along = self.mesh.rest[bone, :3, 1]
+        if followed.between[1] in self.places:
+            # About the way to the next joint, which therefore stays where it is.
+            along = self.places[followed.between[1]] - self.mesh.rest[bone, :3, 3]
+        return Twisted(start, end, followed.share, along / np.linalg.norm(along))
+
+    def _segment(self, bone: int, joint: str) -> Segment:
+        own = self.rig.moving(joint)
+        if own is None:
+            known = dict.fromkeys([*FIGURE, *self.rig.parents])
             raise ConfigError(
-                f"bone '{label}' follows '{joint}', which neither a figure nor this source has"
-                + instead_of(joint, known)
+                f"bone '{self.mesh.labels[bone]}' follows '{joint}', which neither a figure nor "
+                f"this source has{instead_of(joint, known)}"
             )
-        own.append(moving)
-    turns = tuple(straight.get(joint, np.eye(3)) for joint in joints)
-    return Follower(tuple(own), turns, share)
+        return Segment(own, self.straight.get(joint, np.eye(3)))
