@@ -14,7 +14,7 @@ from regkit_plugins.synthesis.assets import average_human
 from regkit_plugins.synthesis.motion.body_map import Between, body_map
 from regkit_plugins.synthesis.motion.motion import SourcePose
 from regkit_plugins.synthesis.motion.retarget import Retarget, retargeted
-from regkit_plugins.synthesis.motion.shipped import CLIPS, shipped_clip
+from regkit_plugins.synthesis.motion.shipped import shipped_clip
 
 PAIRS = [(name, source) for name in BODIES for source in SOURCES]
 
@@ -113,7 +113,7 @@ def test_lowest_point_of_the_skin_lies_on_the_ground():
     assert min(human.mesh.posed(moved(time))[:, 2].min() for time in times) == pytest.approx(0.0)
 
 
-@pytest.mark.parametrize("name", CLIPS.names)
+@pytest.mark.parametrize("name", ["walk", "run", "jump", "punch", "kick", "dance_a", "dance_b"])
 def test_declared_map_moves_clips_as_the_special_retargeting_did(name):
     """What was computed before retargeting had a map, from bone names in its code."""
     golden = np.load(Path(__file__).parents[1] / "assets" / "retargeted_clips.npz")
