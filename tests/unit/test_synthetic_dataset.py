@@ -9,7 +9,6 @@ from regkit.camera import Camera
 from regkit.document import Document
 from regkit.errors import ConfigError, RegkitError
 from regkit.files import write_text
-from regkit.interfaces import Dataset
 from regkit_plugins.datasets.synthetic import Synthetic
 from regkit_plugins.synthesis.cameras import CAMERAS
 
@@ -226,12 +225,3 @@ def test_take_that_cannot_be_rendered_is_named(tmp_path, setting, expected):
         walk.prepare()
     assert str(caught.value).startswith("dataset.takes.walk: this take cannot be rendered: ")
     assert expected in str(caught.value)
-
-
-def test_smmc_like_has_28_sequences_of_three_subjects_that_stay_in_the_image():
-    preset = Dataset._resolved({"preset": "smmc_like", "seed": 1, "frames": 20})
-    sequences = preset.chosen()
-    assert [s.name[:3] for s in sequences] == [f"{number:02d}_" for number in range(1, 29)]
-    assert {s.subject for s in sequences} == {"average", "small", "tall"}
-    assert {s.length for s in sequences} == {20}
-    assert all(take.difficulty and take.view.distance is None for take in preset.takes.values())
