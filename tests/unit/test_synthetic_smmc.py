@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from pydantic import TypeAdapter
 
 from regkit.interfaces import Dataset
 
-PRESET = Dataset._resolved({"preset": "smmc_like"})
+PRESET = TypeAdapter(Dataset).validate_python({"preset": "smmc_like"})
 
 
 @pytest.mark.slow
