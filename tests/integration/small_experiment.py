@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, NamedTuple
 
-from regkit.experiment.runner import Progress
 from regkit.interfaces import Follower, Registered, Registrar, Tracker
 from regkit.plugin import register
 
@@ -106,16 +105,3 @@ def damage(image: Path) -> bytes:
     content = image.read_bytes()
     image.write_bytes(content[: len(content) // 2])
     return content
-
-
-class Silence(Progress):
-    """Wants to know nothing."""
-
-    def begin(self, method, sequence, frames) -> None:
-        pass
-
-    def advance(self) -> None:
-        pass
-
-    def end(self, method, sequence, outcome) -> None:
-        pass
