@@ -35,6 +35,12 @@ def replacing(path: Path) -> Iterator[Path]:
         raise DataError(f"cannot be written: {error.strerror or error}", place=str(path)) from None
 
 
+def remove_unfinished(folder: Path, name: str = "*") -> None:
+    """Remove what ``replacing`` left of a file, or of all, when its process was killed."""
+    for path in folder.glob(f".{name}.*.tmp*"):
+        path.unlink(missing_ok=True)
+
+
 def write_text(path: Path, text: str) -> None:
     """Write ``text`` as UTF-8."""
     with replacing(path) as temporary:

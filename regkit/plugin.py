@@ -47,7 +47,7 @@ class Plugin(Model):
         found: dict[str, EntryPoint | type[Self]] = {}
         for point in entry_points(group=cls.group):
             other = found.get(point.name)
-            if isinstance(other, EntryPoint) and other.value != point.value:
+            if other is not None and not isinstance(other, type) and other.value != point.value:
                 raise PluginError(
                     f"two plug-ins in {cls.group} are called {point.name!r}: {other.value} and "
                     f"{point.value}; uninstall one of their distributions"
@@ -69,7 +69,8 @@ class Plugin(Model):
                 f"no plug-in '{kind}' in {cls.group} (installed: {', '.join(available)})"
                 + did_you_mean(kind, list(available))
             )
-        if isinstance(plugin, EntryPoint):
+        # The package importlib_metadata, once imported, gives entry points of a class of its own.
+        if not isinstance(plugin, type):
             origin = plugin.dist.name if plugin.dist else plugin.value
             try:
                 plugin = plugin.load()

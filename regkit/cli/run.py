@@ -61,7 +61,10 @@ def run(
     folder = out or Path("results") / study.name / f"{datetime.now():%Y%m%d-%H%M%S}"
     stopping = "stopping" if workers.remote else "stopping after this frame"
     try:
-        with Interrupt(stopping) as interrupt, RunProgress(interrupt) as progress:
+        with (
+            Interrupt(stopping) as interrupt,
+            RunProgress(interrupt, frames=not workers.remote) as progress,
+        ):
             outcome = run_experiment(study, folder, progress, only=only or (), workers=workers)
     except KeyboardInterrupt:
         errors.print(

@@ -29,8 +29,10 @@ class RunProgress(Watcher):
     or while workers are busy, it lets an interrupt be answered.
     """
 
-    def __init__(self, interrupt: Interrupt) -> None:
+    def __init__(self, interrupt: Interrupt, *, frames: bool) -> None:
+        """``frames`` is whether each frame will be told."""
         self._interrupt = interrupt
+        self._frames = frames
         self._bars = Progress(
             TextColumn("{task.description}", markup=False),
             BarColumn(),
@@ -66,7 +68,8 @@ class RunProgress(Watcher):
         """Show that something is being done."""
         self._interrupt.check()
         visible = len(self._current) < SHOWN
-        self._current[label] = self._bars.add_task(f"  {label}", total=frames, visible=visible)
+        total = frames if self._frames else None
+        self._current[label] = self._bars.add_task(f"  {label}", total=total, visible=visible)
 
     def advance(self) -> None:
         """Move on by one frame."""

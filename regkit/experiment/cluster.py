@@ -55,41 +55,37 @@ class DaskCluster(Workers):
         return f"--cluster dask:{self.address}"
 
     @contextmanager
-    def team(self, hold: Hold) -> Iterator[Team]:
+    def team(self) -> Iterator[Team]:
         """The workers there are, and those that come later.
 
         Raises:
             DependencyError: If Dask is not installed.
-            ConfigError: If there is no scheduler, or none of its workers can serve.
+            ConfigError: If there is no scheduler, or it has no workers.
         """
         distributed = library("distributed", install=INSTALL)
         # What its parts tell each other of lost connections, the run tells in its own words.
         logging.getLogger("distributed").setLevel(logging.CRITICAL)
         try:
+            # A client that is given a wrong address prints a traceback when it is collected.
+            distributed.comm.resolve_address(self.address)
             client = distributed.Client(self.address, timeout=REACHED_WITHIN, set_as_default=False)
-        except (OSError, TimeoutError, ValueError) as error:
-            raise ConfigError(
-                f"there is no Dask scheduler ({str(error).splitlines()[0]})", place=self.place
-            ) from None
+        except (OSError, ValueError) as error:
+            reason = str(error).splitlines()[0]
+            raise ConfigError(f"there is no Dask scheduler: {reason}", place=self.place) from None
         try:
-            self._check(client, hold)
-            yield _DaskTeam(client, hold, self.place)
+            self._wait(client, distributed.TimeoutError)
+            yield _DaskTeam(client, self.place)
         finally:
             client.close(timeout=REACHED_WITHIN)
 
-    def _check(self, client: Any, hold: Hold) -> None:
-        """See whether every worker can serve, before hours are spent."""
+    def _wait(self, client: Any, too_late: type[Exception]) -> None:
         try:
             client.wait_for_workers(1, timeout=REACHED_WITHIN)
-        except TimeoutError:
+        except too_late:
             raise ConfigError(
                 f"the scheduler has no workers; start some: dask worker {self.address}",
                 place=self.place,
             ) from None
-        answers = client.run(_answer, hold, __version__, on_error="return")
-        for worker, answer in answers.items():
-            if answer is not None:
-                raise ConfigError(f"the worker {worker} cannot serve: {answer}", place=self.place)
 
 
 def _answer(hold: Hold, version: str) -> str | None:
@@ -104,9 +100,18 @@ def _answer(hold: Hold, version: str) -> str | None:
 class _DaskTeam(Team):
     """No more tasks are sent than there are workers; one that loses its worker Dask sends again."""
 
-    def __init__(self, client: Any, hold: Hold, place: str) -> None:
-        self._client, self._hold, self._place = client, hold, place
+    def __init__(self, client: Any, place: str) -> None:
+        self._client, self._place = client, place
+        self._hold: Hold | None = None
         self._ended: SimpleQueue[tuple[Task, Any]] = SimpleQueue()
+
+    def serve(self, hold: Hold) -> None:
+        """See whether every worker can, before hours are spent."""
+        self._hold = hold
+        answers = self._client.run(_answer, hold, __version__, on_error="return")
+        for worker, answer in answers.items():
+            if answer is not None:
+                raise ConfigError(f"the worker {worker} cannot serve: {answer}", place=self._place)
 
     def count(self) -> int:
         """The workers there are now, whatever number of threads each has."""
@@ -114,6 +119,7 @@ class _DaskTeam(Team):
 
     def begin(self, task: Task) -> None:
         """Send it to the scheduler."""
+        assert self._hold is not None
         future = self._client.submit(performed, Packed.of(task, self._hold), pure=False)
         future.add_done_callback(lambda done: self._ended.put((task, done)))
 

@@ -44,13 +44,15 @@ class Hold:
 
 @contextmanager
 def held(folder: Path) -> Iterator[Hold]:
-    """A results folder as this run's alone; it is made if it is not there.
+    """A results folder as this run's alone.
+
+    It is made if it is not there, and then is gone again if nothing was written to it.
 
     Raises:
         ConfigError: If another run is writing there.
         DataError: If it cannot be written to.
     """
-    hold = Hold(folder.absolute(), uuid4().hex)
+    hold, new = Hold(folder.absolute(), uuid4().hex), not folder.exists()
     try:
         folder.mkdir(parents=True, exist_ok=True)
         descriptor = _locked(folder)
@@ -67,6 +69,9 @@ def held(folder: Path) -> Iterator[Hold]:
         with suppress(OSError):
             (folder / MARK).unlink()
         os.close(descriptor)
+        if new:
+            with suppress(OSError):
+                folder.rmdir()
 
 
 def _locked(folder: Path) -> int:

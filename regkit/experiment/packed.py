@@ -7,7 +7,6 @@ import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
-from importlib.metadata import EntryPoint
 from pathlib import Path
 from threading import Lock
 from typing import Any
@@ -15,6 +14,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from regkit import __version__
+from regkit.document import Document
 from regkit.errors import ConfigError, DataError, DependencyError, RegkitError
 from regkit.experiment.experiment import Experiment
 from regkit.experiment.hold import Hold
@@ -75,7 +75,7 @@ class Packed:
             if not path.is_file():
                 raise DataError("the worker does not see this file", place=str(path))
         _run_files(tuple((path, _digest(path)) for path in self.plugins))
-        experiment = Experiment.model_validate(self.config)
+        experiment = Document(self.config, {(): "on a worker"}).validated(Experiment)
         return Task(experiment, self.folder, self.sequence, self.method, self.setting)
 
 
@@ -86,8 +86,6 @@ def performed(packed: Packed) -> Result:
             task = packed.task()
         except RegkitError as error:
             return error
-        except ValueError as error:
-            return ConfigError(f"a worker cannot make the experiment: {error}")
         try:
             return task.result(_Wanted(packed.hold).check)
         except _NotWanted:
@@ -118,7 +116,8 @@ def check_shared(experiment: Experiment) -> None:
         ConfigError: If one is known in this process only.
     """
     for plugin in _plugins_in(experiment):
-        installed = isinstance(type(plugin).available().get(plugin.kind), EntryPoint)
+        origin = type(plugin).available().get(plugin.kind)
+        installed = origin is not None and not isinstance(origin, type)
         if not installed and not from_file(type(plugin)):
             raise ConfigError(
                 f"the plug-in '{plugin.kind}' was registered in this process, and workers do not "

@@ -50,9 +50,9 @@ class Processes(Workers):
         return True
 
     @contextmanager
-    def team(self, hold: Hold) -> Iterator[Team]:
+    def team(self) -> Iterator[Team]:
         """The processes, which are killed in the end, busy or not: what counts is on the disk."""
-        team = _ProcessTeam(self.jobs, hold)
+        team = _ProcessTeam(self.jobs)
         try:
             yield team
         finally:
@@ -62,13 +62,17 @@ class Processes(Workers):
 class _ProcessTeam(Team):
     """Each worker is a pool of one process, so that it is known whose task killed it."""
 
-    def __init__(self, jobs: int, hold: Hold) -> None:
-        self._hold = hold
+    def __init__(self, jobs: int) -> None:
+        self._hold: Hold | None = None
         self._idle = [_pool() for _ in range(jobs)]
         self._busy: dict[Task, Any] = {}
         self._deaths: Counter[Task] = Counter()
         self._ended: SimpleQueue[tuple[Task, Any]] = SimpleQueue()
         self._jobs = jobs
+
+    def serve(self, hold: Hold) -> None:
+        """They see what this process sees."""
+        self._hold = hold
 
     def count(self) -> int:
         """As many as there are processes."""
@@ -76,6 +80,7 @@ class _ProcessTeam(Team):
 
     def begin(self, task: Task) -> None:
         """Send it to an idle process, which starts when it is first needed."""
+        assert self._hold is not None
         pool = self._busy[task] = self._idle.pop()
         with _deaf_children():
             future = pool.submit(performed, Packed.of(task, self._hold))

@@ -14,10 +14,10 @@ class Progress(Protocol):
         """A run begins: so many sequences times methods, of which some were finished before."""
 
     def begin(self, label: str, frames: int | None) -> None:
-        """Something is begun; the number of frames is known if ``advance`` will tell of each."""
+        """A track of so many frames is begun, or a sequence is made ready."""
 
     def advance(self) -> None:
-        """One more frame is done of the only thing that is being done."""
+        """One more frame is done of the only thing that is being done; workers do not tell."""
 
     def wait(self) -> None:
         """Nothing has ended for a moment; workers are busy."""

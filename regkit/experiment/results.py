@@ -16,7 +16,7 @@ from regkit.errors import ConfigError, DataError, PluginError, RegkitError
 from regkit.experiment.differences import differences
 from regkit.experiment.environment import environment
 from regkit.experiment.hold import MARK
-from regkit.files import write_arrays, write_json, write_text
+from regkit.files import remove_unfinished, write_arrays, write_json, write_text
 from regkit.metrics import Measure, mean_of
 from regkit.tracking import Track
 
@@ -66,6 +66,7 @@ class Results:
                 "the folder holds other files; choose a new or an empty one",
                 place=f"--out {folder}",
             )
+        remove_unfinished(folder)
         write_text(file, text)
         write_json(folder / "environment.json", environment(folder / "environment.json", workers))
         return cls(folder)

@@ -55,13 +55,14 @@ def run(
             check_shared(one)
     if folder.exists() and not folder.is_dir():
         raise ConfigError("this is a file, not a folder", place=f"--out {folder}")
-    with held(folder) as hold:
+    with workers.team() as team, held(folder) as hold:
+        team.serve(hold)
         whole = Results.opened(folder, study.config(), workers.described)
         if study.lists:
             for record in records:
                 record.open(workers.described)
         try:
-            work(records, hold, workers, progress)
+            work(records, team, progress)
         finally:
             for record in records:
                 record.write()

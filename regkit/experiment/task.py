@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from glob import escape
 from pathlib import Path
 
 from regkit.errors import RegkitError
 from regkit.experiment.experiment import Experiment
 from regkit.experiment.results import Results
 from regkit.experiment.starts import start_file, start_of
+from regkit.files import remove_unfinished
 from regkit.interfaces import Registrar, Sequence
 from regkit.metrics import Measure, matched, measured
 from regkit.observation import Truth
@@ -75,6 +77,8 @@ class Task:
             return results.failed(place, error)
 
     def _made_ready(self) -> None:
+        start = start_file(self.folder, self.sequence)
+        remove_unfinished(start.parent, escape(start.name))
         sequence = self._sequence()
         start = start_of(self.experiment, sequence, self.folder)
         truth = self._truth(sequence)
@@ -83,6 +87,7 @@ class Task:
             matched(start.body, truth, self.experiment.dataset.joints)
 
     def _tracked(self, results: Results, name: str, each_frame: Callable[[], None]) -> Measure:
+        remove_unfinished(results.sequence_folder(name, self.sequence))
         sequence = self._sequence()
         start = start_of(self.experiment, sequence, self.folder)
         method = self.experiment.methods[name]

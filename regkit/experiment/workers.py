@@ -15,7 +15,15 @@ TRIES = 3
 
 
 class Team(ABC):
-    """Workers that are busy for one run."""
+    """Workers that are there for one run."""
+
+    @abstractmethod
+    def serve(self, hold: Hold) -> None:
+        """Work for the run that holds a results folder.
+
+        Raises:
+            RegkitError: If they cannot.
+        """
 
     @abstractmethod
     def count(self) -> int:
@@ -38,7 +46,7 @@ class Workers(ABC):
     """A choice of who does the tasks."""
 
     @abstractmethod
-    def team(self, hold: Hold) -> AbstractContextManager[Team]:
+    def team(self) -> AbstractContextManager[Team]:
         """Workers for a run, that leave when the context is left.
 
         Raises:
@@ -72,7 +80,7 @@ class ThisProcess(Workers, Team):
         """Here."""
         return False
 
-    def team(self, hold: Hold) -> AbstractContextManager[Team]:
+    def team(self) -> AbstractContextManager[Team]:
         """This very object."""
         return self
 
@@ -87,6 +95,9 @@ class ThisProcess(Workers, Team):
         traceback: TracebackType | None,
     ) -> None:
         """Nothing to leave."""
+
+    def serve(self, hold: Hold) -> None:
+        """Nothing stands in the way."""
 
     def count(self) -> int:
         """One."""

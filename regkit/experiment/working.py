@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 from regkit.errors import RegkitError
-from regkit.experiment.hold import Hold
 from regkit.experiment.progress import Progress
 from regkit.experiment.record import Record
 from regkit.experiment.schedule import Schedule
 from regkit.experiment.task import Result, Task
-from regkit.experiment.workers import Workers
+from regkit.experiment.workers import Team
 
 
-def work(records: list[Record], hold: Hold, workers: Workers, progress: Progress) -> None:
+def work(records: list[Record], team: Team, progress: Progress) -> None:
     """Do all that is missing in some experiments' folders.
 
     Raises:
-        RegkitError: If there are no workers, or they are lost.
+        RegkitError: If all workers are lost.
     """
     for record in records:
         for label, error in record.read():
@@ -24,23 +23,18 @@ def work(records: list[Record], hold: Hold, workers: Workers, progress: Progress
         sum(record.planned for record in records), sum(record.finished for record in records)
     )
     schedule = Schedule(pair for record in records for pair in record.tracks())
-    if schedule.over:
-        return
     owners = {record.setting: record for record in records}
     busy = 0
-    with workers.team(hold) as team:
-        while busy or not schedule.over:
-            count = team.count()
-            while busy < count and (task := schedule.next(count)):
-                # Only what is done here tells of its frames.
-                frames = None if workers.remote else owners[task.setting].frames(task)
-                progress.begin(task.label, frames)
-                team.begin(task)
-                busy += 1
-            task, result = team.ended(progress)
-            busy -= 1
-            ended = _taken_in(task, result, owners[task.setting], schedule)
-            progress.end(task.label, ended, result if isinstance(result, RegkitError) else None)
+    while busy or not schedule.over:
+        count = team.count()
+        while busy < count and (task := schedule.next(count)):
+            progress.begin(task.label, owners[task.setting].frames(task))
+            team.begin(task)
+            busy += 1
+        task, result = team.ended(progress)
+        busy -= 1
+        ended = _taken_in(task, result, owners[task.setting], schedule)
+        progress.end(task.label, ended, result if isinstance(result, RegkitError) else None)
 
 
 def _taken_in(task: Task, result: Result, record: Record, schedule: Schedule) -> int:
