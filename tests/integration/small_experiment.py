@@ -2,6 +2,8 @@
 
 import json
 import shutil
+import subprocess
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -105,3 +107,29 @@ def damage(image: Path) -> bytes:
     content = image.read_bytes()
     image.write_bytes(content[: len(content) // 2])
     return content
+
+
+def figures_but_times(out: Path) -> list:
+    """All figures of a run but the frames per second, in the order in which they are written."""
+
+    def without(value):
+        if not isinstance(value, dict):
+            return value
+        return [(key, without(inner)) for key, inner in value.items() if key != "fps"]
+
+    return without(json.loads((out / "metrics.json").read_text()))
+
+
+@dataclass(frozen=True)
+class Started:
+    """The command line in a process of its own."""
+
+    process: subprocess.Popen
+
+    def wait_for(self, path: Path) -> None:
+        """Until a file is there, while the command still runs."""
+        end = time.monotonic() + 120.0
+        while not path.exists():
+            assert self.process.poll() is None, self.process.communicate()
+            assert time.monotonic() < end
+            time.sleep(0.01)
