@@ -144,6 +144,8 @@ class Document:
         value: Any = self.data
         kept: list[str | int] = []
         for part in location:
+            if isinstance(part, int) and isinstance(value, dict):
+                part = str(part)  # Items of a preset's list are named by their numbers.
             try:
                 value = value[part]
             except (KeyError, IndexError, TypeError):
