@@ -132,7 +132,7 @@ def test_items_of_a_presets_list_are_swept(files):
     assert kinds == [term.kind for term in methods["best,least=0.3"].terms]
     text = files.experiment.read_text()
     for wrong, expected in (
-        ("terms.0.lest", "small.yaml:8: methods.best,lest=0.1.terms.0.lest: no such field"),
+        ("terms.0.lest", "small.yaml:9: methods.best,lest=0.1.terms.0.lest: no such field"),
         ("terms.9.least", "terms is a list of 4 in the preset, whose items are named by numbers"),
     ):
         files.experiment.write_text(text.replace("terms.0.least", wrong))
