@@ -8,10 +8,12 @@ from rich.progress import (
     BarColumn,
     MofNCompleteColumn,
     Progress,
+    Task,
     TaskID,
     TextColumn,
     TimeRemainingColumn,
 )
+from rich.text import Text
 
 from regkit.cli.console import errors
 from regkit.cli.interrupt import Interrupt
@@ -20,6 +22,14 @@ from regkit.experiment import Progress as Watcher
 
 SHOWN = 8
 """Of so many things that are being done at once a line is shown."""
+
+
+class _Done(MofNCompleteColumn):
+    """How much is done, of what is told."""
+
+    def render(self, task: Task) -> Text:
+        """Nothing of what only tells its end."""
+        return Text() if task.total is None else super().render(task)
 
 
 class RunProgress(Watcher):
@@ -36,7 +46,7 @@ class RunProgress(Watcher):
         self._bars = Progress(
             TextColumn("{task.description}", markup=False),
             BarColumn(),
-            MofNCompleteColumn(),
+            _Done(),
             TimeRemainingColumn(elapsed_when_finished=True),
             console=errors,
             disable=not errors.is_terminal,

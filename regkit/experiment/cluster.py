@@ -63,20 +63,23 @@ class DaskCluster(Workers):
             ConfigError: If there is no scheduler, or it has no workers.
         """
         distributed = library("distributed", install=INSTALL)
-        # What its parts tell each other of lost connections, the run tells in its own words.
-        logging.getLogger("distributed").setLevel(logging.CRITICAL)
-        try:
-            # A client that is given a wrong address prints a traceback when it is collected.
-            distributed.comm.resolve_address(self.address)
-            client = distributed.Client(self.address, timeout=REACHED_WITHIN, set_as_default=False)
-        except (OSError, ValueError) as error:
-            reason = str(error).splitlines()[0]
-            raise ConfigError(f"there is no Dask scheduler: {reason}", place=self.place) from None
-        try:
-            self._wait(client, distributed.TimeoutError)
-            yield _DaskTeam(client, self.place)
-        finally:
-            client.close(timeout=REACHED_WITHIN)
+        with _quiet():
+            try:
+                # A client that is given a wrong address prints a traceback when it is collected.
+                distributed.comm.resolve_address(self.address)
+                client = distributed.Client(
+                    self.address, timeout=REACHED_WITHIN, set_as_default=False
+                )
+            except (OSError, ValueError) as error:
+                reason = str(error).splitlines()[0]
+                raise ConfigError(
+                    f"there is no Dask scheduler: {reason}", place=self.place
+                ) from None
+            try:
+                self._wait(client, distributed.TimeoutError)
+                yield _DaskTeam(client, self.place)
+            finally:
+                client.close(timeout=REACHED_WITHIN)
 
     def _wait(self, client: Any, too_late: type[Exception]) -> None:
         try:
@@ -86,6 +89,24 @@ class DaskCluster(Workers):
                 f"the scheduler has no workers; start some: dask worker {self.address}",
                 place=self.place,
             ) from None
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """What Dask's parts tell each other of lost connections, the run tells in its own words."""
+    loggers = [
+        logging.getLogger(name)
+        for name in list(logging.Logger.manager.loggerDict)
+        if name.partition(".")[0] == "distributed"
+    ]
+    levels = [logger.level for logger in loggers]
+    try:
+        for logger in loggers:
+            logger.setLevel(logging.CRITICAL)
+        yield
+    finally:
+        for logger, level in zip(loggers, levels, strict=True):
+            logger.setLevel(level)
 
 
 def _answer(hold: Hold, version: str) -> str | None:

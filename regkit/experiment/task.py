@@ -48,7 +48,8 @@ class Task:
     @property
     def label(self) -> str:
         """What a person would call it."""
-        what = self.sequence if self.method is None else f"{self.method} on {self.sequence}"
+        who = "preparing" if self.method is None else f"{self.method} on"
+        what = f"{who} {self.sequence}"
         return f"{self.setting}: {what}" if self.setting else what
 
     def result(self, each_frame: Callable[[], None]) -> Result:
@@ -77,8 +78,8 @@ class Task:
             return results.failed(place, error)
 
     def _made_ready(self) -> None:
-        start = start_file(self.folder, self.sequence)
-        remove_unfinished(start.parent, escape(start.name))
+        kept = start_file(self.folder, self.sequence)
+        remove_unfinished(kept.parent, escape(kept.name))
         sequence = self._sequence()
         start = start_of(self.experiment, sequence, self.folder)
         truth = self._truth(sequence)
