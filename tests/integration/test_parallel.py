@@ -105,12 +105,6 @@ def test_track_that_kills_every_process_fails_alone(regkit, files, deadly):
 
 
 @pytest.mark.slow
-@pytest.mark.filterwarnings(
-    # Dask's worker is killed on purpose, and what it leaves open is collected at any time.
-    "ignore::pytest.PytestUnraisableExceptionWarning",
-    "ignore:unclosed:ResourceWarning",
-    "ignore::DeprecationWarning:distributed",
-)
 def test_figures_of_a_dask_cluster_are_those_of_one_process(regkit, files, serial, deadly):
     """Two workers; one of them is killed in its work, and a new one takes its place."""
     from distributed import LocalCluster
