@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import sys
 import threading
 import time
 from collections import Counter
@@ -141,12 +142,15 @@ def _follow_parent(parent: int) -> None:
 
 @contextmanager
 def _deaf_children() -> Iterator[None]:
-    """Let processes that are started here not hear Ctrl-C, not even while they import."""
-    if threading.current_thread() is not threading.main_thread():
+    """Let processes that are started here not hear Ctrl-C, not even while they import.
+
+    What is blocked here is blocked there; here it is only put off.
+    """
+    if sys.platform == "win32":
         yield
         return
-    former = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    former = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
     finally:
-        signal.signal(signal.SIGINT, former)
+        signal.pthread_sigmask(signal.SIG_SETMASK, former)

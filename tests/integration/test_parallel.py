@@ -6,10 +6,10 @@ import signal
 from typing import Literal
 
 import pytest
-from small_experiment import QUICK, Stepping, add_method, figures_but_times
+from small_experiment import QUICK, Stepping, add_method, figures_but_times, small
 
 from regkit.errors import DataError, DependencyError
-from regkit.experiment import cluster
+from regkit.experiment import Experiment, cluster, run
 from regkit.experiment.hold import Hold, held
 from regkit.experiment.packed import check_worker
 from regkit.interfaces import Tracker
@@ -53,13 +53,20 @@ class Dying(Follower):
 '''
 
 
-@pytest.fixture
-def serial(regkit, files):
+@pytest.fixture(scope="module")
+def serial(tmp_path_factory):
     """The figures of two methods, worked out in one process."""
+    files = small(tmp_path_factory.mktemp("serial"))
     add_method(files.experiment, "sog", "sog")
-    out = files.out.with_name("serial")
-    assert regkit("run", files.experiment, "--out", out).code == 0
-    return figures_but_times(out)
+    run(Experiment.read(files.experiment), files.out)
+    return figures_but_times(files.out)
+
+
+@pytest.fixture
+def files(files):
+    """An experiment of two methods."""
+    add_method(files.experiment, "sog", "sog")
+    return files
 
 
 @pytest.fixture
@@ -96,7 +103,6 @@ def test_killed_process_loses_nothing(regkit, files, serial, deadly):
 
 @pytest.mark.slow
 def test_track_that_kills_every_process_fails_alone(regkit, files, deadly):
-    add_method(files.experiment, "sog", "sog")
     ended = regkit("run", files.experiment, "--out", files.out, "--jobs", 2, *QUICK, *deadly(99))
     assert ended.code == 1
     assert "gsog on first failed: its process died 3 times, as if killed" in ended.err
@@ -174,14 +180,14 @@ def test_worker_that_cannot_serve_says_why(tmp_path):
 
 @pytest.mark.slow
 def test_interrupt_ends_the_processes_and_the_run_is_completed_later(
-    regkit, files, serial, tmp_path, started
+    regkit, files, serial, started
 ):
     """Ctrl-C, as a terminal sends it: to the run and all of its processes."""
-    run = started("run", files.experiment, "--out", files.out, "--jobs", 2)
-    run.wait_for(files.out / ".running")
-    os.killpg(run.process.pid, signal.SIGINT)
-    told = run.process.communicate(timeout=60)[1]
-    assert run.process.returncode == 130
+    begun = started("run", files.experiment, "--out", files.out, "--jobs", 2)
+    begun.wait_for(files.out / "environment.json")
+    os.killpg(begun.process.pid, signal.SIGINT)
+    told = begun.process.communicate(timeout=60)[1]
+    assert begun.process.returncode == 130
     assert told.splitlines() == [
         "stopping; Ctrl-C again ends at once",
         f"interrupted; what was finished is kept: repeat with --out {files.out}",

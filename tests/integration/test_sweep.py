@@ -2,6 +2,7 @@
 
 import json
 import re
+from dataclasses import replace
 
 import pytest
 from small_experiment import QUICK, add_method, figures_but_times
@@ -166,3 +167,14 @@ def test_subject_that_nobody_is_is_refused(regkit, files):
         "error: subjects: no sequence shows a subject 'anna' (there are: none)"
     )
     assert not files.out.exists()
+
+
+def test_subject_has_a_template_of_its_own(files):
+    append(files, "subjects: {anna: {kind: human, height: 1.6}}\n")
+    experiment = Experiment.read(files.experiment)
+    (sequence, _) = experiment.dataset.chosen()
+    heights = [
+        experiment.template_of(replace(sequence, subject=subject)).given_size()
+        for subject in ("anna", "bert", None)
+    ]
+    assert heights == [1.6, 1.7, 1.7]
