@@ -18,7 +18,6 @@ from rich.text import Text
 from regkit.cli.console import errors
 from regkit.cli.interrupt import Interrupt
 from regkit.errors import RegkitError
-from regkit.experiment import Progress as Watcher
 
 SHOWN = 8
 """Of so many things that are being done at once a line is shown."""
@@ -32,7 +31,7 @@ class _Done(MofNCompleteColumn):
         return Text() if task.total is None else super().render(task)
 
 
-class RunProgress(Watcher):
+class RunProgress:
     """Progress on a terminal, silence in a pipe; failures are told in both.
 
     One bar is that of the whole run; below it is what is being done just now. Between two frames,
