@@ -8,6 +8,7 @@ until it is named, so a broken third-party plug-in can only harm those who name 
 
 from __future__ import annotations
 
+import hashlib
 import importlib.util
 import inspect
 import sys
@@ -46,7 +47,7 @@ class Plugin(Model):
         found: dict[str, EntryPoint | type[Self]] = {}
         for point in entry_points(group=cls.group):
             other = found.get(point.name)
-            if isinstance(other, EntryPoint) and other.value != point.value:
+            if other is not None and not isinstance(other, type) and other.value != point.value:
                 raise PluginError(
                     f"two plug-ins in {cls.group} are called {point.name!r}: {other.value} and "
                     f"{point.value}; uninstall one of their distributions"
@@ -68,7 +69,8 @@ class Plugin(Model):
                 f"no plug-in '{kind}' in {cls.group} (installed: {', '.join(available)})"
                 + did_you_mean(kind, list(available))
             )
-        if isinstance(plugin, EntryPoint):
+        # The package importlib_metadata, once imported, gives entry points of a class of its own.
+        if not isinstance(plugin, type):
             origin = plugin.dist.name if plugin.dist else plugin.value
             try:
                 plugin = plugin.load()
@@ -158,6 +160,8 @@ class Plugin(Model):
 
 P = TypeVar("P", bound=Plugin)
 _REGISTERED: dict[str, dict[str, type[Any]]] = {}
+_FROM_FILE = "regkit_plugin_file_"
+"""How the names of modules begin that ``run_plugin_file`` makes."""
 
 
 def register(plugin: type[P]) -> type[P]:
@@ -179,6 +183,18 @@ def _kind_of(plugin: type[Plugin]) -> str:
     return kind
 
 
+def from_file(plugin: type[Plugin]) -> bool:
+    """Whether a plug-in was registered by a file that ``run_plugin_file`` ran."""
+    return plugin.__module__.startswith(_FROM_FILE)
+
+
+def plugin_files() -> tuple[Path, ...]:
+    """The files whose plug-ins are registered, for other processes to run them too."""
+    plugins = [plugin for by_kind in _REGISTERED.values() for plugin in by_kind.values()]
+    modules = sorted({plugin.__module__ for plugin in plugins if from_file(plugin)})
+    return tuple(Path(str(sys.modules[module].__file__)) for module in modules)
+
+
 def run_plugin_file(path: Path) -> None:
     """Run a Python file that registers plug-ins with ``@register``.
 
@@ -186,7 +202,9 @@ def run_plugin_file(path: Path) -> None:
         PluginError: If the file is missing, fails, or registers nothing.
     """
     before = {group: dict(plugins) for group, plugins in _REGISTERED.items()}
-    spec = importlib.util.spec_from_file_location(f"regkit_plugin_file_{path.stem}", path)
+    where = hashlib.sha256(str(path.absolute()).encode()).hexdigest()[:8]
+    name = f"{_FROM_FILE}{path.stem}_{where}"
+    spec = importlib.util.spec_from_file_location(name, path.absolute())
     if spec is None or spec.loader is None or not path.is_file():
         raise PluginError("there is no such Python file", place=str(path))
     module = importlib.util.module_from_spec(spec)

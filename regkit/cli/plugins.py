@@ -102,6 +102,6 @@ def _preset_summary(group: str, name: str) -> str:
 
 
 def _distribution(origin: EntryPoint | type[Plugin]) -> str:
-    if isinstance(origin, EntryPoint):
+    if not isinstance(origin, type):
         return f"{origin.dist.name} {origin.dist.version}" if origin.dist else origin.value
     return origin.__module__

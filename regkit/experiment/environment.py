@@ -2,18 +2,40 @@
 
 from __future__ import annotations
 
+import json
 import os
 import platform
+from contextlib import suppress
 from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
 from typing import Any
 
 from regkit import __version__
 
-LIBRARIES = ("numpy", "scipy", "numba", "pydantic", "open3d-cpu", "open3d", "casadi", "matplotlib")
+LIBRARIES = (
+    "numpy",
+    "scipy",
+    "numba",
+    "pydantic",
+    "open3d-cpu",
+    "open3d",
+    "casadi",
+    "matplotlib",
+    "joblib",
+    "distributed",
+)
 
 
-def environment() -> dict[str, Any]:
-    """Versions and machine, as JSON."""
+def environment(earlier: Path, workers: str) -> dict[str, Any]:
+    """Versions, machine and workers, as JSON.
+
+    Args:
+        earlier: The file with what was written when the run was begun, if it is resumed.
+        workers: Who does the work this time; frames per second are theirs, who share the machine.
+    """
+    told = []
+    with suppress(OSError, ValueError, KeyError):
+        told = list(json.loads(earlier.read_text(encoding="utf-8"))["workers"])
     return {
         "regkit": __version__,
         "python": platform.python_version(),
@@ -21,6 +43,7 @@ def environment() -> dict[str, Any]:
         "system": platform.platform(),
         "processor": _processor(),
         "cores": os.cpu_count(),
+        "workers": list(dict.fromkeys([*told, workers])),
     }
 
 

@@ -11,11 +11,12 @@ from typing import Any
 import numpy as np
 
 from regkit.body import Body
-from regkit.document import yaml_text
+from regkit.document import yaml_data, yaml_text
 from regkit.errors import ConfigError, DataError, PluginError, RegkitError
+from regkit.experiment.differences import differences
 from regkit.experiment.environment import environment
-from regkit.experiment.experiment import Experiment
-from regkit.files import write_arrays, write_json, write_text
+from regkit.experiment.hold import MARK
+from regkit.files import remove_unfinished, write_arrays, write_json, write_text
 from regkit.metrics import Measure, mean_of
 from regkit.tracking import Track
 
@@ -25,7 +26,8 @@ class Results:
     """An experiment's folder.
 
     config.yaml               the experiment with every default filled in
-    environment.json          versions and machine
+    environment.json          versions, machine and workers
+    starts/SEQUENCE.json      where every method begins
     metrics.json              figures by method and sequence, and their means
     report.md                 the same as tables, and pictures
     METHOD/SEQUENCE/          measure.json, poses.npz and overlay.png of a finished sequence
@@ -37,31 +39,37 @@ class Results:
     folder: Path
 
     @classmethod
-    def opened(cls, folder: Path, experiment: Experiment) -> Results:
+    def opened(cls, folder: Path, config: dict[str, Any], workers: str) -> Results:
         """The folder for an experiment, new or begun before with the same configuration.
+
+        Args:
+            folder: Where it is; the run holds it already.
+            config: The experiment as JSON has it.
+            workers: Who does the work this time.
 
         Raises:
             ConfigError: If it holds the results of another configuration.
         """
-        results = cls(folder)
-        config = yaml_text(experiment.model_dump(mode="json"))
+        text = yaml_text(config)
         file = folder / "config.yaml"
-        if folder.exists() and not folder.is_dir():
-            raise ConfigError("this is a file, not a folder", place=f"--out {folder}")
-        if file.exists() and file.read_text(encoding="utf-8") != config:
-            raise ConfigError(
-                f"the folder holds the results of another configuration ({file}); "
-                "choose another folder, or run what it was begun with",
-                place=f"--out {folder}",
-            )
-        if not file.exists() and folder.exists() and any(folder.iterdir()):
+        if file.exists():
+            before = file.read_text(encoding="utf-8")
+            if before != text:
+                raise ConfigError(
+                    f"the folder holds the results of another configuration ({file}): "
+                    f"{differences(yaml_data(before), yaml_data(text))}; choose another folder, or "
+                    "run what it was begun with",
+                    place=f"--out {folder}",
+                )
+        elif any(path.name != MARK for path in folder.iterdir()):
             raise ConfigError(
                 "the folder holds other files; choose a new or an empty one",
                 place=f"--out {folder}",
             )
-        write_text(file, config)
-        write_json(folder / "environment.json", environment())
-        return results
+        remove_unfinished(folder)
+        write_text(file, text)
+        write_json(folder / "environment.json", environment(folder / "environment.json", workers))
+        return cls(folder)
 
     def sequence_folder(self, method: str, sequence: str) -> Path:
         """Where a method's results on a sequence are."""
@@ -103,11 +111,10 @@ class Results:
         (folder / "error.txt").unlink(missing_ok=True)
         write_json(folder / "measure.json", measure.to_dict())
 
-    def failed(self, method: str, sequence: str, error: Exception) -> RegkitError:
+    def failed(self, file: Path, error: Exception) -> RegkitError:
         """The error as one that can be told; of a programming error the traceback is kept."""
         if isinstance(error, RegkitError):
             return error
-        file = self.sequence_folder(method, sequence) / "error.txt"
         write_text(file, "".join(traceback.format_exception(error)))
         return PluginError(
             f"{type(error).__name__}: {error}; this is a fault of the program or of a plug-in, and "

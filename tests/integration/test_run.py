@@ -12,7 +12,6 @@ from small_experiment import (
     FRAMES,
     QUICK,
     Files,
-    Silence,
     add_method,
     small,
 )
@@ -28,7 +27,7 @@ def done(tmp_path_factory) -> Files:
     files = small(tmp_path_factory.mktemp("done"))
     add_method(files.experiment, "sog", "sog")
     experiment = Experiment.read(files.experiment)
-    outcome = run(experiment, files.out, Silence())
+    outcome = run(experiment, files.out)
     assert outcome.failures == {"sog": {}, "gsog": {}}
     return files
 
