@@ -12,6 +12,7 @@ from regkit.cli.doctor import doctor
 from regkit.cli.fit import fit
 from regkit.cli.plugins import plugins
 from regkit.cli.register import register
+from regkit.cli.report import report
 from regkit.cli.run import run
 from regkit.cli.schema import schema
 from regkit.cli.validate import validate
@@ -23,7 +24,7 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
-for command in (run, register, calibrate, fit, validate, plugins, schema, doctor):
+for command in (run, report, register, calibrate, fit, validate, plugins, schema, doctor):
     app.command()(command)
 
 

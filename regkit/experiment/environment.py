@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import platform
+from datetime import datetime
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
@@ -13,8 +14,9 @@ LIBRARIES = ("numpy", "scipy", "numba", "pydantic", "open3d-cpu", "open3d", "cas
 
 
 def environment() -> dict[str, Any]:
-    """Versions and machine, as JSON."""
+    """Versions and machine, and when it was looked at, as JSON."""
     return {
+        "date": f"{datetime.now().astimezone():%Y-%m-%d %H:%M %z}",
         "regkit": __version__,
         "python": platform.python_version(),
         "libraries": {name: installed(name) for name in LIBRARIES if installed(name)},

@@ -13,11 +13,11 @@ from regkit.errors import ConfigError, RegkitError
 from regkit.experiment.experiment import Experiment
 from regkit.experiment.results import Results
 from regkit.interfaces import Method, Sequence
-from regkit.metrics import Measure, matched, measured
+from regkit.metrics import Measure, joint_errors, matched, measured
 from regkit.model import did_you_mean
 from regkit.observation import Observation, Truth
 from regkit.optional import one_blas_thread
-from regkit.report import draw_overlay, report
+from regkit.report import Record
 from regkit.start import Start, found_start, given_start
 from regkit.tracking import Track, tracked
 
@@ -81,8 +81,8 @@ def run(
                 else:
                     outcome.measures[name][sequence.name] = measure
                     progress.end(name, sequence.name, measure)
-                results.write_metrics(outcome.measures, outcome.failures)
-                results.write_report(report(experiment.name, outcome.measures, outcome.failures))
+                results.write_summary(outcome.measures, outcome.failures)
+    results.write_report(outcome.measures, outcome.failures)
     return outcome
 
 
@@ -115,11 +115,11 @@ class _Task:
             frames.append(frame)
             progress.advance()
         track = Track.of(frames, registrar)
-        measure = measured(track, registrar.body, self.truth, joints)
-        picture = self.results.sequence_folder(name, self.sequence.name) / "overlay.png"
-        title = f"{name} on {self.sequence.name}"
-        draw_overlay(picture, title, frames, track, registrar, self.truth)
-        self.results.write(name, self.sequence.name, track, registrar.body, measure)
+        body, truth, fps = registrar.body, self.truth, self.sequence.fps
+        errors = None if truth is None else joint_errors(track, body, truth, joints)
+        measure = measured(track, body, errors, fps)
+        record = Record.of(frames, track, registrar, errors, truth, fps)
+        self.results.write(name, self.sequence.name, track, body, measure, record)
         return measure
 
     @cached_property
