@@ -19,7 +19,7 @@ VIEWS = {"from the front": (0, 1), "from its left": (2, 1)}
 
 DPI = 110
 
-BONE, FOUND = "#E69F00", "#B00020"
+BONE, FOUND = "#4D4D4D", "#B00020"
 
 
 def draw_overlay(path: Path, title: str, record: Record, colour: str) -> None:
@@ -62,7 +62,7 @@ def _draw(plot: Axes, view: tuple[int, int], look: Look, colour: str) -> None:
         plot.fill(*outline, facecolor=colour, alpha=0.10)
         plot.plot(*outline, color=colour, linewidth=0.8)
     for bone in look.bones:
-        plot.plot(bone[:, across], bone[:, down], color=BONE, lw=1.5)
+        plot.plot(bone[:, across], bone[:, down], color=BONE, lw=1.2)
     markers, reference = look.markers, look.reference
     plot.plot(markers[:, across], markers[:, down], ".", color=FOUND, markersize=5, label="found")
     if len(reference):

@@ -110,8 +110,8 @@ class Run:
 
 def method_styles(config: Mapping[str, Any], others: Iterable[str] = ()) -> dict[str, Style]:
     """How each method of an experiment is drawn, and others that it does not name."""
-    methods: dict[str, Mapping[str, Any]] = {name: {} for name in others}
-    methods.update(config.get("methods", {}))
+    methods: dict[str, Mapping[str, Any]] = dict(config.get("methods", {}))
+    methods.update({name: {} for name in others if name not in methods})
     return styles({name: shape_of(method) or name for name, method in methods.items()})
 
 

@@ -136,12 +136,11 @@ def pair_table(pairs: list[Pair]) -> Table:
         pairs = []
     for pair in pairs:
         digits = BY_NAME[pair.figure].digits
-        unit = BY_NAME[pair.figure].unit
         tied = f", {pair.tied} the same" if pair.tied else ""
         table.append(
             [
                 Cell(f"{pair.method} against {pair.other}", pair.method, number=False),
-                Cell(f"{NAMES[pair.figure]} [{unit}]", pair.figure, number=False),
+                Cell(BY_NAME[pair.figure].heading, pair.figure, number=False),
                 Cell(f"{pair.won} of {pair.n}{tied}", pair.won / pair.n),
                 Cell(
                     f"{pair.difference:+.{digits}f}",
@@ -155,8 +154,9 @@ def pair_table(pairs: list[Pair]) -> Table:
     return Table(
         "pairs",
         "The best method against each other one, methods that differ in their shape model alone, "
-        "and pairs that were asked for. A negative difference is in favour of the first.",
-        ["pair", "figure", "first is better in", "median difference", "p (Wilcoxon)", "p (Holm)"],
+        "and pairs that were asked for: in how many sequences the first one is better, and by how "
+        "much; a negative difference is in its favour.",
+        ["pair", "figure", "won", "median difference", "p (Wilcoxon)", "p (Holm)"],
         table,
     )
 

@@ -40,7 +40,7 @@ COLUMNS = (
     Column("within_10cm_percent", "in 10 cm", "%", "more"),
     Column("area_percent", "area", "%", "more"),
     Column("lost_frames", "lost", "frames", "less"),
-    Column("recovery_s", "lost for", "s", "less"),
+    Column("recovery_s", "lost for", "s", "less", 2),
     Column("surface_distance_mm", "surface", "mm"),
     Column("limit_violation_deg", "limits", "°", "less"),
     Column("evaluations_per_frame", "evaluations", "/frame"),

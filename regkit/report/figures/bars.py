@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from regkit.report.plot import Ink, Plot, canvas, inked, styled
+from regkit.report.plot import Ink, Plot, canvas, legend_above, styled
 from regkit.report.run import Run
 from regkit.report.words import BY_NAME, NAMES, axis_label, many
 
@@ -104,6 +104,5 @@ def _drawn(
     axes.set_ylim(len(rows) - 0.5, -0.5)
     axes.tick_params(axis="y", length=0)
     axes.set_xlabel(axis_label(run.figure))
-    columns = min(len(methods), 4)
-    inked(figure.legend(loc="outside upper center", ncols=columns, fontsize=8.5), ink)
+    legend_above(figure, ink)
     return figure

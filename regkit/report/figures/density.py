@@ -9,7 +9,7 @@ import numpy as np
 from regkit.arrays import Array
 from regkit.report.look import Form, Look
 from regkit.report.outlines import outlines
-from regkit.report.plot import Ink, Plot, Value, canvas, styled
+from regkit.report.plot import WIDTH, Ink, Plot, Value, canvas, styled
 from regkit.report.run import Run
 
 if TYPE_CHECKING:
@@ -126,7 +126,7 @@ def _drawn(by_shape: dict[str, tuple[str, Look]], ink: Ink) -> Figure:
     points = np.concatenate([look.form.centres for look in looks])
     low, high = points.min(axis=0)[:2] - reach, points.max(axis=0)[:2] + reach
     sides = high - low
-    width = 6.4 / max(2, len(looks))
+    width = WIDTH / max(2, len(looks))
     figure = canvas(ink, min(5.5, 0.55 + width * float(sides[1] / sides[0])))
     grid = figure.subplots(1, len(looks), sharex=True, sharey=True, squeeze=False)[0]
     step = float(sides.max()) / PIXELS

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from regkit.metrics import JointErrors
-from regkit.report.plot import Ink, Plot, canvas, inked, styled
+from regkit.report.plot import Ink, Plot, canvas, legend_above, styled
 from regkit.report.run import Run
 
 if TYPE_CHECKING:
@@ -88,5 +88,5 @@ def _drawn(run: Run, joints: list[str], means: dict[str, dict[str, float]], ink:
     axes.set_xlim(left=0.0)
     axes.tick_params(axis="y", length=0)
     axes.set_xlabel("mean joint error [cm]")
-    inked(figure.legend(loc="outside upper center", ncols=4, fontsize=8.5), ink)
+    legend_above(figure, ink)
     return figure

@@ -8,7 +8,7 @@ import numpy as np
 
 from regkit.metrics import Summary, summary
 from regkit.metrics.statistics import FEWEST
-from regkit.report.plot import Ink, Plot, canvas, inked, styled
+from regkit.report.plot import Ink, Plot, canvas, legend_above, styled
 from regkit.report.run import Run
 from regkit.report.words import NAMES, axis_label
 
@@ -98,11 +98,7 @@ def _drawn(run: Run, figures: list[str], ink: Ink) -> Figure:
     grid[0].set_ylim(max(places.values()) + 0.5, -0.5)
     if len(families) > 1:
         handles = [Patch(facecolor=_colour(run, family), label=family) for family in families]
-        legend = figure.legend(handles=handles, title="shape model", loc="outside upper center",
-                               ncols=min(4, len(families)), fontsize=8.5)  # fmt: skip
-        legend.get_title().set_color(ink.text)
-        legend.get_title().set_fontsize(8.5)
-        inked(legend, ink)
+        legend_above(figure, ink, handles, "shape model")
     return figure
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from regkit.arrays import Array
 from regkit.metrics import NEAR, share_within
 from regkit.metrics.measure import WIDEST
-from regkit.report.plot import Ink, Plot, canvas, inked, styled
+from regkit.report.plot import Ink, Plot, canvas, legend_above, styled
 from regkit.report.run import Run
 
 if TYPE_CHECKING:
@@ -98,5 +98,5 @@ def _drawn(
         axes.set_ylim(0.0, 101.0)
         axes.set_xlabel("threshold [cm]")
     grid[0].set_ylabel("joints within it [%]")
-    inked(figure.legend(loc="outside upper center", ncols=4, fontsize=8.5), ink)
+    legend_above(figure, ink)
     return figure

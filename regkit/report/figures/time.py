@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from regkit.arrays import Array
-from regkit.report.plot import Ink, Plot, Value, canvas, inked, styled
+from regkit.report.plot import Ink, Plot, Value, canvas, legend_above, styled
 from regkit.report.record import Record
 from regkit.report.run import Run
 
@@ -103,7 +103,7 @@ def _drawn(run: Run, curves: dict[str, dict[str, Array]], label: str, ink: Ink) 
                      label=name)[0]
         for name in methods
     ]  # fmt: skip
-    inked(figure.legend(handles=handles, loc="outside upper center", ncols=4, fontsize=8.5), ink)
+    legend_above(figure, ink, handles)
     return figure
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from regkit.report.plot import Ink, Plot, canvas, inked, styled
+from regkit.report.plot import Ink, Plot, canvas, legend_above, styled
 from regkit.report.run import Run
 
 if TYPE_CHECKING:
@@ -79,7 +79,7 @@ def _drawn(run: Run, rows: list[tuple[str, float, float, float]], ink: Ink) -> F
         Patch(facecolor=ink.text, alpha=0.35, label="observing"),
         Patch(facecolor=ink.text, label="registering"),
     ]
-    inked(figure.legend(handles=handles, loc="outside upper center", ncols=2, fontsize=8.5), ink)
+    legend_above(figure, ink, handles)
     return figure
 
 
