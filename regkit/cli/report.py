@@ -18,12 +18,12 @@ def report(
     ] = None,
 ) -> None:
     """Write the report of a results folder anew, also of a run that was interrupted."""
-    from regkit.experiment import Results
+    from regkit.experiment import found
+    from regkit.experiment import report as write_report
 
-    results = Results.existing(folder)
-    measures, failures = results.found()
+    measures, failures = found(folder)
     pairs = [_pair(text, list(measures)) for text in compare or ()]
-    page = results.write_report(measures, failures, pairs)
+    page = write_report(folder, measures, failures, pairs)
     output.print(f"report: {page}", highlight=False, soft_wrap=True)
 
 

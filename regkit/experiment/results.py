@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import json
 import traceback
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 from zipfile import BadZipFile
@@ -19,21 +18,8 @@ from regkit.experiment.environment import environment
 from regkit.experiment.experiment import Experiment
 from regkit.files import write_arrays, write_json, write_text
 from regkit.metrics import Measure
-from regkit.report import (
-    Record,
-    Run,
-    draw_overlay,
-    method_styles,
-    write_report,
-    write_summary,
-)
+from regkit.report import Record, draw_overlay, method_styles
 from regkit.tracking import Track
-
-Measures = Mapping[str, Mapping[str, Measure]]
-"""Figures by method and sequence."""
-
-Failures = Mapping[str, Mapping[str, str]]
-"""Why sequences failed, by method and sequence."""
 
 
 @dataclass(frozen=True)
@@ -80,21 +66,6 @@ class Results:
         write_json(folder / "environment.json", environment())
         return results
 
-    @classmethod
-    def existing(cls, folder: Path) -> Results:
-        """The folder of a run that took place.
-
-        Raises:
-            DataError: If it is none.
-        """
-        if not (folder / "config.yaml").is_file() or not (folder / "environment.json").is_file():
-            raise DataError(
-                "this is not a results folder of `regkit run`: it has no config.yaml and "
-                "environment.json",
-                place=str(folder),
-            )
-        return cls(folder)
-
     def sequence_folder(self, method: str, sequence: str) -> Path:
         """Where a method's results on a sequence are."""
         return self.folder / method / sequence
@@ -116,33 +87,6 @@ class Results:
                 place=str(file),
             ) from None
 
-    def found(self) -> tuple[dict[str, dict[str, Measure]], dict[str, dict[str, str]]]:
-        """The figures of all finished sequences, and why others failed, as the folder tells.
-
-        Methods and sequences are in the order of the configuration and of ``metrics.json``; those
-        that neither names come last.
-
-        Raises:
-            DataError: If a file is damaged.
-        """
-        file = self.folder / "metrics.json"
-        told = _json(file).get("methods", {}) if file.exists() else {}
-        methods = self._config().data.get("methods", {})
-        measures: dict[str, dict[str, Measure]] = {}
-        failures: dict[str, dict[str, str]] = {}
-        written = sorted(path.parent for path in self.folder.glob("*/*/measure.json"))
-        for method in dict.fromkeys([*methods, *told, *(one.parent.name for one in written)]):
-            sequences = told.get(method, {}).get("sequences", {})
-            own = [one.name for one in written if one.parent.name == method]
-            measures[method], failures[method] = {}, {}
-            for sequence in dict.fromkeys([*sequences, *own]):
-                measure = self.finished(method, sequence)
-                if measure is not None:
-                    measures[method][sequence] = measure
-                elif "error" in sequences.get(sequence, {}):
-                    failures[method][sequence] = sequences[sequence]["error"]
-        return measures, failures
-
     def record(self, method: str, sequence: str) -> Record | None:
         """What is kept of a finished sequence for the report, or None.
 
@@ -153,7 +97,7 @@ class Results:
         if not file.exists():
             return None
         try:
-            with np.load(file, allow_pickle=False) as arrays:
+            with file.open("rb") as stream, np.load(stream, allow_pickle=False) as arrays:
                 return Record.from_arrays(dict(arrays))
         except (ValueError, KeyError, EOFError, OSError, BadZipFile) as error:
             raise DataError(
@@ -182,7 +126,8 @@ class Results:
         arrays |= {name: np.array(values, dtype=np.str_) for name, values in names.items()}
         write_arrays(folder / "poses.npz", arrays | {"size": np.array(body.size)})
         write_arrays(folder / "record.npz", record.arrays())
-        colour = method_styles(self._config().data, [method])[method].colour
+        config = Document.read(self.folder / "config.yaml").data
+        colour = method_styles(config, [method])[method].colour
         draw_overlay(folder / "overlay.png", f"{method} on {sequence}", record, colour)
         (folder / "error.txt").unlink(missing_ok=True)
         write_json(folder / "measure.json", measure.to_dict())
@@ -197,65 +142,3 @@ class Results:
             f"{type(error).__name__}: {error}; this is a fault of the program or of a plug-in, and "
             f"{file} says where"
         )
-
-    def write_summary(self, measures: Measures, failures: Failures) -> None:
-        """Write ``metrics.json`` and ``report.md`` as far as the run is, without figures."""
-        write_summary(self._run(measures, failures), self.folder)
-
-    def write_report(
-        self, measures: Measures, failures: Failures, pairs: Iterable[tuple[str, str]] = ()
-    ) -> Path:
-        """Write the report with its figures and tables, and ``metrics.json``, from the files.
-
-        Args:
-            measures: Figures by method and sequence.
-            failures: Why sequences failed, by method and sequence.
-            pairs: Methods to be compared beside the best one with the others.
-
-        Returns:
-            The page.
-
-        Raises:
-            DataError: If a file is damaged or cannot be written.
-        """
-        records = {
-            method: {
-                sequence: record
-                for sequence in by_sequence
-                if (record := self.record(method, sequence)) is not None
-            }
-            for method, by_sequence in measures.items()
-        }
-        run = replace(self._run(measures, failures), records=records, chosen=tuple(pairs))
-        write_report(run, self.folder)
-        return self.folder / "report.html"
-
-    def _run(self, measures: Measures, failures: Failures) -> Run:
-        config = self._config()
-        return Run(
-            config=config.data,
-            text=(self.folder / "config.yaml").read_text(encoding="utf-8"),
-            environment=_json(self.folder / "environment.json"),
-            measures=measures,
-            failures=failures,
-            records={},
-        )
-
-    def _config(self) -> Document:
-        """The experiment as it was written, whose plug-ins need not be installed."""
-        return Document.read(self.folder / "config.yaml")
-
-
-def _json(file: Path) -> dict[str, Any]:
-    """A JSON object that was written before.
-
-    Raises:
-        DataError: If it is missing or damaged.
-    """
-    try:
-        data = json.loads(file.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise DataError(f"missing or damaged ({error})", place=str(file)) from None
-    if not isinstance(data, dict):
-        raise DataError("damaged: it is no JSON object", place=str(file))
-    return data

@@ -11,6 +11,7 @@ from typing import Protocol
 
 from regkit.errors import ConfigError, RegkitError
 from regkit.experiment.experiment import Experiment
+from regkit.experiment.reporting import report, summarise
 from regkit.experiment.results import Results
 from regkit.interfaces import Method, Sequence
 from regkit.metrics import Measure, joint_errors, matched, measured
@@ -81,8 +82,8 @@ def run(
                 else:
                     outcome.measures[name][sequence.name] = measure
                     progress.end(name, sequence.name, measure)
-                results.write_summary(outcome.measures, outcome.failures)
-    results.write_report(outcome.measures, outcome.failures)
+                summarise(results.folder, outcome.measures, outcome.failures)
+    report(results.folder, outcome.measures, outcome.failures)
     return outcome
 
 

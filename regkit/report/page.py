@@ -13,6 +13,7 @@ from urllib.parse import quote
 
 from regkit.files import write_json, write_text
 from regkit.metrics import mean_of
+from regkit.metrics.pairs import best
 from regkit.report.brief import brief, flow
 from regkit.report.figures import plots
 from regkit.report.overlay import draw_overlay
@@ -122,20 +123,19 @@ def _text(template: str, run: Run, folder: Path, drawn: list[Drawn]) -> str:
 
 def _finding(run: Run) -> str:
     """The comparison in one sentence."""
-    counts = many(len(run.finished), "method"), many(len(run.sequences), "sequence")
-    means = {
-        name: value
-        for name, by in run.finished.items()
-        if (value := getattr(mean_of(list(by.values())), run.figure)) is not None
-    }
-    if not means:
-        return f"{counts[0]} on {counts[1]}."
-    first = min(means, key=means.__getitem__)
+    counts = f"{many(len(run.finished), 'method')} on {many(len(run.sequences), 'sequence')}"
+    first = best(run.finished, run.figure)
+    if first is None:
+        return f"{counts}."
+    shared = [run.measures[first][sequence] for sequence in run.shared]
     column = BY_NAME[run.figure]
-    least = f"{column.shown(means[first])} {column.unit}"
-    if len(means) == 1:
-        return f"{counts[0]} on {counts[1]}: its {NAMES[run.figure]} is {least}."
-    return f"{counts[0]} on {counts[1]}: {first} has the least {NAMES[run.figure]}, {least}."
+    least = f"{column.shown(getattr(mean_of(shared), run.figure))} {column.unit}"
+    if len(run.finished) == 1:
+        return f"{counts}: its {NAMES[run.figure]} is {least}."
+    part = (
+        "" if len(run.shared) == len(run.sequences) else f" on the {len(run.shared)} that all did"
+    )
+    return f"{counts}: {first} has the least {NAMES[run.figure]}, {least}{part}."
 
 
 def _compared(run: Run) -> list[tuple[str, str]]:

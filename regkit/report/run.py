@@ -54,12 +54,20 @@ class Run:
         return {name: by_sequence for name, by_sequence in self.measures.items() if by_sequence}
 
     @cached_property
+    def shared(self) -> list[str]:
+        """The sequences that every method finished, of those that finished any."""
+        return [s for s in self.sequences if all(s in by for by in self.finished.values())]
+
+    @cached_property
+    def compared(self) -> bool:
+        """Whether anyone has a joint error."""
+        known = (m.joint_error_raw_cm for by in self.measures.values() for m in by.values())
+        return any(one is not None for one in known)
+
+    @property
     def figure(self) -> str:
         """The figure that methods are judged by: the joint error where anyone has it."""
-        known = (m.joint_error_raw_cm for by in self.measures.values() for m in by.values())
-        return (
-            "joint_error_raw_cm" if any(one is not None for one in known) else "surface_distance_mm"
-        )
+        return "joint_error_raw_cm" if self.compared else "surface_distance_mm"
 
     def value(self, method: str, sequence: str, figure: str | None = None) -> float | None:
         """A figure of a method on a sequence, or None."""
@@ -86,18 +94,19 @@ class Run:
             (one, other)
             for index, one in enumerate(names)
             for other in names[index + 1 :]
-            if methods[one] == methods[other] and kind_of(shapes[one]) != kind_of(shapes[other])
+            if methods[one] == methods[other]
+            and kind_of(shapes[one]) != kind_of(shapes[other])
+            and one.rpartition("/")[0] == other.rpartition("/")[0]
         ]
 
     def method(self, name: str) -> Mapping[str, Any]:
         """The configuration of a method."""
-        method: Mapping[str, Any] = self.config.get("methods", {}).get(name, {})
-        return method
+        return _configured(self.config, name)
 
     def pairs(self) -> list[Pair]:
         """The tests between pairs of methods: the best one, of shape models, and chosen ones."""
         figures = [self.figure]
-        if self.figure == "joint_error_raw_cm":
+        if self.compared:
             figures.append("joint_error_adjusted_cm")
         chosen = (*self.shape_pairs, *self.chosen)
         return [pair for figure in figures for pair in compared(self.finished, figure, chosen)]
@@ -111,8 +120,14 @@ class Run:
 def method_styles(config: Mapping[str, Any], others: Iterable[str] = ()) -> dict[str, Style]:
     """How each method of an experiment is drawn, and others that it does not name."""
     methods: dict[str, Mapping[str, Any]] = dict(config.get("methods", {}))
-    methods.update({name: {} for name in others if name not in methods})
+    methods.update({name: _configured(config, name) for name in others if name not in methods})
     return styles({name: shape_of(method) or name for name, method in methods.items()})
+
+
+def _configured(config: Mapping[str, Any], name: str) -> Mapping[str, Any]:
+    """The configuration of a method, which a sweep calls ``SETTING/METHOD``."""
+    methods: Mapping[str, Mapping[str, Any]] = config.get("methods", {})
+    return methods.get(name, methods.get(name.rpartition("/")[2], {}))
 
 
 def shape_of(method: Mapping[str, Any]) -> str | None:

@@ -82,6 +82,7 @@ def main_table(measures: Measures) -> Table:
     finished = {name: list(by.values()) for name, by in measures.items() if by}
     means = {name: mean_of(found) for name, found in finished.items()}
     columns = _known(list(means.values()))
+    alike = len({frozenset(by) for by in measures.values() if by}) == 1
     table = []
     for name, mean in means.items():
         cells = [
@@ -94,13 +95,15 @@ def main_table(measures: Measures) -> Table:
             if column.figure in NAMES:
                 whole = summary([getattr(one, column.figure) for one in finished[name]])
                 note = interval_text(whole.interval, column.digits)
-            best = _is_best(value, [getattr(one, column.figure) for one in means.values()], column)
+            rivals = [getattr(one, column.figure) for one in means.values()]
+            best = alike and _is_best(value, rivals, column)
             cells.append(Cell(column.shown(value), value, best, note))
         table.append(cells)
     return Table(
         "methods",
         "The mean of each figure over the sequences that a method finished; below it the 95 % "
-        "bootstrap interval of the mean, where there are sequences enough.",
+        "bootstrap interval of the mean, where there are sequences enough."
+        + ("" if alike else " Nothing is bold, for the methods finished different sequences."),
         ["method", "sequences", *(column.heading for column in columns)],
         table,
     )

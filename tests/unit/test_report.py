@@ -3,6 +3,7 @@
 import csv
 import json
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -276,3 +277,13 @@ def test_record_tells_when_the_body_was_lost(random):
     made = record(random, 0.5)
     assert made.losses.lost.sum() == FRAMES
     assert record(random, 0.5, compared=False).losses is None
+
+
+def test_methods_of_different_settings_are_no_pair_of_shape_models():
+    """A sweep calls its methods ``SETTING/METHOD``, and names them once."""
+    run = made_run(1)
+    one, other = run.measures["sog"], run.measures["gsog"]
+    swept = replace(run, measures={f"{s}/{m}": of for s in "ab" for m, of in
+                                   (("sog", one), ("gsog", other))})  # fmt: skip
+    assert swept.shape_pairs == [("a/sog", "a/gsog"), ("b/sog", "b/gsog")]
+    assert swept.style("a/sog").shape == "sog"

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 def method_means(run: Run) -> Plot | None:
     """Each method's mean over the sequences, its 95 % interval, and the sequences themselves."""
     figures = [run.figure]
-    if run.figure == "joint_error_raw_cm":
+    if run.compared:
         figures.append("joint_error_adjusted_cm")
     figures = [
         name for name in figures if any(_values(run, method, name) for method in run.finished)
@@ -91,7 +91,8 @@ def _drawn(run: Run, figures: list[str], ink: Ink) -> Figure:
             axes.scatter(values, place + np.asarray(spread), s=9, color=style.colour, alpha=0.35,
                          linewidths=0)  # fmt: skip
             _mark(axes, summary(values), place, style.colour, style.marker)
-        axes.set_xlim(left=0.0)
+        largest = max(value for method in places for value in _values(run, method, name))
+        axes.set_xlim(0.0, 1.06 * largest or 1.0)
         axes.set_xlabel(axis_label(name).replace("mean joint", "joint"))
         axes.tick_params(axis="y", length=0)
     grid[0].set_yticks(list(places.values()), list(places))

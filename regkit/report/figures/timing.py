@@ -66,7 +66,9 @@ def _drawn(run: Run, rows: list[tuple[str, float, float, float]], ink: Ink) -> F
             edgecolor=ink.paper, linewidth=0,
         )  # fmt: skip
         total = observing + registering
-        told = f"{_rounded(total)} ms, {_rounded(evaluations)} evaluations"
+        # Methods of other libraries do not count them.
+        counted = f", {_rounded(evaluations)} evaluations" if evaluations else ""
+        told = f"{_rounded(total)} ms{counted}"
         axes.text(
             total + 0.01 * widest, place, told, va="center", color=ink.text, fontsize=8.5
         )  # fmt: skip
