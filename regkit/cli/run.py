@@ -75,18 +75,19 @@ def run(
         raise typer.Exit(130) from None
     output.print(_table(outcome.measures))
     output.print(f"results: {folder}", highlight=False, soft_wrap=True)
+    output.print(f"report: {folder / 'report.html'}", highlight=False, soft_wrap=True)
     if any(outcome.failures.values()):
         raise typer.Exit(1)
 
 
 def _table(measures: dict[str, dict[str, Measure]]) -> Table:
-    from regkit.report.tables import COLUMNS, rows
+    from regkit.report.tables import TERMINAL, rows
 
     # A terminal of 80 characters holds all figures: titles may break there, names may not.
     table = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
     table.add_column("method", no_wrap=True)
     table.add_column("seq.")
-    for title in COLUMNS.values():
+    for title in TERMINAL.values():
         table.add_column(escape(title), justify="right")
     for row in rows(measures):
         table.add_row(*row)

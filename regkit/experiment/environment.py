@@ -6,6 +6,7 @@ import json
 import os
 import platform
 from contextlib import suppress
+from datetime import datetime
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
@@ -27,16 +28,18 @@ LIBRARIES = (
 
 
 def environment(earlier: Path, workers: str) -> dict[str, Any]:
-    """Versions, machine and workers, as JSON.
+    """Versions, machine, workers, and when the run was begun, as JSON.
 
     Args:
         earlier: The file with what was written when the run was begun, if it is resumed.
         workers: Who does the work this time; frames per second are theirs, who share the machine.
     """
-    told = []
+    told, begun = [], f"{datetime.now().astimezone():%Y-%m-%d %H:%M %z}"
     with suppress(OSError, ValueError, KeyError):
-        told = list(json.loads(earlier.read_text(encoding="utf-8"))["workers"])
+        before = json.loads(earlier.read_text(encoding="utf-8"))
+        told, begun = list(before["workers"]), str(before["date"])
     return {
+        "date": begun,
         "regkit": __version__,
         "python": platform.python_version(),
         "libraries": {name: installed(name) for name in LIBRARIES if installed(name)},

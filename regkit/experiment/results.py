@@ -7,17 +7,19 @@ import traceback
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
+from zipfile import BadZipFile
 
 import numpy as np
 
 from regkit.body import Body
-from regkit.document import yaml_data, yaml_text
+from regkit.document import Document, yaml_data, yaml_text
 from regkit.errors import ConfigError, DataError, PluginError, RegkitError
 from regkit.experiment.differences import differences
 from regkit.experiment.environment import environment
 from regkit.experiment.hold import MARK
 from regkit.files import remove_unfinished, write_arrays, write_json, write_text
-from regkit.metrics import Measure, mean_of
+from regkit.metrics import Measure
+from regkit.report import Record, draw_overlay, method_styles
 from regkit.tracking import Track
 
 
@@ -28,9 +30,10 @@ class Results:
     config.yaml               the experiment with every default filled in
     environment.json          versions, machine and workers
     starts/SEQUENCE.json      where every method begins
-    metrics.json              figures by method and sequence, and their means
-    report.md                 the same as tables, and pictures
-    METHOD/SEQUENCE/          measure.json, poses.npz and overlay.png of a finished sequence
+    metrics.json              figures by method and sequence, and what they say together
+    report.html, report.md    the same as tables, figures and pictures
+    figures/, tables/         the figures, and all numbers as CSV
+    METHOD/SEQUENCE/          measure.json, poses.npz, record.npz and overlay.png of a finished one
 
     Attributes:
         folder: Where it is.
@@ -92,8 +95,32 @@ class Results:
                 place=str(file),
             ) from None
 
+    def record(self, method: str, sequence: str) -> Record | None:
+        """What is kept of a finished sequence for the report, or None.
+
+        Raises:
+            DataError: If the file was damaged since.
+        """
+        file = self.sequence_folder(method, sequence) / "record.npz"
+        if not file.exists():
+            return None
+        try:
+            with file.open("rb") as stream, np.load(stream, allow_pickle=False) as arrays:
+                return Record.from_arrays(dict(arrays))
+        except (ValueError, KeyError, EOFError, OSError, BadZipFile) as error:
+            raise DataError(
+                f"damaged ({error}); delete measure.json beside it to have the sequence done again",
+                place=str(file),
+            ) from None
+
     def write(
-        self, method: str, sequence: str, track: Track, body: Body, measure: Measure, fps: float
+        self,
+        method: str,
+        sequence: str,
+        track: Track,
+        body: Body,
+        measure: Measure,
+        record: Record,
     ) -> None:
         """Write a finished sequence; its figures come last, and with them it counts as finished."""
         folder = self.sequence_folder(method, sequence)
@@ -105,9 +132,11 @@ class Results:
             "ball_names": [skeleton.names[links.index(link)] for link in skeleton.ball_links],
         }
         arrays |= {name: np.array(values, dtype=np.str_) for name, values in names.items()}
-        write_arrays(
-            folder / "poses.npz", arrays | {"size": np.array(body.size), "fps": np.array(fps)}
-        )
+        write_arrays(folder / "poses.npz", arrays | {"size": np.array(body.size)})
+        write_arrays(folder / "record.npz", record.arrays())
+        config = Document.read(self.folder / "config.yaml").data
+        colour = method_styles(config, [method])[method].colour
+        draw_overlay(folder / "overlay.png", f"{method} on {sequence}", record, colour)
         (folder / "error.txt").unlink(missing_ok=True)
         write_json(folder / "measure.json", measure.to_dict())
 
@@ -120,22 +149,3 @@ class Results:
             f"{type(error).__name__}: {error}; this is a fault of the program or of a plug-in, and "
             f"{file} says where"
         )
-
-    def write_report(self, text: str) -> None:
-        """Write ``report.md``."""
-        write_text(self.folder / "report.md", text)
-
-    def write_metrics(
-        self, measures: dict[str, dict[str, Measure]], failures: dict[str, dict[str, str]]
-    ) -> None:
-        """Write ``metrics.json``; a failed sequence has all its figures null, and says why."""
-        methods = {}
-        for method, by_sequence in measures.items():
-            sequences: dict[str, Any] = {
-                sequence: measure.to_dict() for sequence, measure in by_sequence.items()
-            }
-            for sequence, reason in failures.get(method, {}).items():
-                sequences[sequence] = mean_of([]).to_dict() | {"error": reason}
-            mean = mean_of(list(by_sequence.values()))
-            methods[method] = {"sequences": sequences, "mean": mean.to_dict()}
-        write_json(self.folder / "metrics.json", {"methods": methods})

@@ -8,15 +8,18 @@ from pathlib import Path
 from regkit.errors import ConfigError
 from regkit.experiment.experiment import Experiment
 from regkit.experiment.hold import held
+from regkit.experiment.ledger import Ledger, Outcome
 from regkit.experiment.packed import check_shared
 from regkit.experiment.progress import Progress, Silent
-from regkit.experiment.record import Outcome, Record
+from regkit.experiment.reporting import report, summarise
 from regkit.experiment.results import Results
 from regkit.experiment.study import Study
 from regkit.experiment.workers import ThisProcess, Workers
 from regkit.experiment.working import work
 from regkit.model import did_you_mean
-from regkit.report import report
+
+REPORTING = "writing the report"
+"""What is begun last."""
 
 
 def run(
@@ -49,7 +52,7 @@ def run(
     """
     study = Study.of_one(experiment) if isinstance(experiment, Experiment) else experiment
     workers, progress = workers or ThisProcess(), progress or Silent()
-    records = _records(study, folder, tuple(only))
+    ledgers = _ledgers(study, folder, tuple(only))
     if workers.remote:
         for one in study.experiments.values():
             check_shared(one)
@@ -57,37 +60,42 @@ def run(
         raise ConfigError("this is a file, not a folder", place=f"--out {folder}")
     with workers.team() as team, held(folder) as hold:
         team.serve(hold)
-        whole = Results.opened(folder, study.config(), workers.described)
+        Results.opened(folder, study.config(), workers.described)
         if study.lists:
-            for record in records:
-                record.open(workers.described)
+            for ledger in ledgers:
+                ledger.open(workers.described)
         try:
-            work(records, team, progress)
+            work(ledgers, team, progress)
         finally:
-            for record in records:
-                record.write()
-            outcome = _together(records) if study.lists else records[0].outcome
+            for ledger in ledgers:
+                ledger.summarise()
+            outcome = _together(ledgers) if study.lists else ledgers[0].outcome
             if study.lists:
-                whole.write_metrics(outcome.measures, outcome.failures)
-                whole.write_report(report(study.name, outcome.measures, outcome.failures))
+                summarise(folder, outcome.measures, outcome.failures)
+        progress.begin(REPORTING, None)
+        for ledger in ledgers:
+            ledger.report()
+        if study.lists:
+            report(folder, outcome.measures, outcome.failures)
+        progress.end(REPORTING, 0, None)
     return outcome
 
 
-def _records(study: Study, folder: Path, only: tuple[str, ...]) -> list[Record]:
+def _ledgers(study: Study, folder: Path, only: tuple[str, ...]) -> list[Ledger]:
     """What is known of each experiment before anything is run.
 
     Raises:
         RegkitError: If a method, a sequence or a subject is named that there is not.
     """
     methods = _chosen(study.methods, only)
-    records: list[Record] = []
+    ledgers: list[Ledger] = []
     for name, one in study.experiments.items():
-        if records and one.dataset == records[-1].experiment.dataset:
-            lengths = records[-1].lengths
+        if ledgers and one.dataset == ledgers[-1].experiment.dataset:
+            lengths = ledgers[-1].lengths
         else:
             lengths = _lengths(one)
-        records.append(Record(one, Results(folder / name), methods, lengths, name))
-    return records
+        ledgers.append(Ledger(one, Results(folder / name), methods, lengths, name))
+    return ledgers
 
 
 def _lengths(experiment: Experiment) -> dict[str, int]:
@@ -120,12 +128,12 @@ def _chosen(known: list[str], only: tuple[str, ...]) -> list[str]:
             if not only or name in only or head in only]  # fmt: skip
 
 
-def _together(records: list[Record]) -> Outcome:
+def _together(ledgers: list[Ledger]) -> Outcome:
     """The outcomes of all experiments as one."""
     whole = Outcome({}, {})
-    for record in records:
-        outcome = record.outcome
+    for ledger in ledgers:
+        outcome = ledger.outcome
         for method in outcome.measures:
-            whole.measures[f"{record.setting}/{method}"] = outcome.measures[method]
-            whole.failures[f"{record.setting}/{method}"] = outcome.failures[method]
+            whole.measures[f"{ledger.setting}/{method}"] = outcome.measures[method]
+            whole.failures[f"{ledger.setting}/{method}"] = outcome.failures[method]
     return whole

@@ -13,10 +13,10 @@ from regkit.experiment.results import Results
 from regkit.experiment.starts import start_file, start_of
 from regkit.files import remove_unfinished
 from regkit.interfaces import Registrar, Sequence
-from regkit.metrics import Measure, matched, measured
+from regkit.metrics import Measure, joint_errors, matched, measured
 from regkit.observation import Truth
 from regkit.optional import one_thread
-from regkit.report import draw_overlay
+from regkit.report import Record
 from regkit.tracking import Track, TrackedFrame, tracked
 
 Result = Measure | RegkitError | None
@@ -103,7 +103,7 @@ class Task:
         ):
             frames.append(frame)
             each_frame()
-        return self._recorded(results, name, frames, registrar, self._truth(sequence))
+        return self._recorded(results, name, frames, registrar, sequence)
 
     def _recorded(
         self,
@@ -111,14 +111,15 @@ class Task:
         name: str,
         frames: list[TrackedFrame],
         registrar: Registrar,
-        truth: Truth | None,
+        sequence: Sequence,
     ) -> Measure:
         """All that is made of a track: its figures, its picture and its files."""
-        track = Track.of(frames, registrar)
-        measure = measured(track, registrar.body, truth, self.experiment.dataset.joints)
-        picture = results.sequence_folder(name, self.sequence) / "overlay.png"
-        draw_overlay(picture, f"{name} on {self.sequence}", frames, track, registrar, truth)
-        results.write(name, self.sequence, track, registrar.body, measure)
+        track, body, truth = Track.of(frames, registrar), registrar.body, self._truth(sequence)
+        joints = self.experiment.dataset.joints
+        errors = None if truth is None else joint_errors(track, body, truth, joints)
+        measure = measured(track, body, errors, sequence.fps)
+        record = Record.of(frames, track, registrar, errors, truth, sequence.fps)
+        results.write(name, self.sequence, track, body, measure, record)
         return measure
 
     def _sequence(self) -> Sequence:

@@ -3,27 +3,27 @@
 from __future__ import annotations
 
 from regkit.errors import RegkitError
+from regkit.experiment.ledger import Ledger
 from regkit.experiment.progress import Progress
-from regkit.experiment.record import Record
 from regkit.experiment.schedule import Schedule
 from regkit.experiment.task import Result, Task
 from regkit.experiment.workers import Team
 
 
-def work(records: list[Record], team: Team, progress: Progress) -> None:
+def work(ledgers: list[Ledger], team: Team, progress: Progress) -> None:
     """Do all that is missing in some experiments' folders.
 
     Raises:
         RegkitError: If all workers are lost.
     """
-    for record in records:
-        for label, error in record.read():
+    for ledger in ledgers:
+        for label, error in ledger.read():
             progress.end(label, 0, error)
     progress.planned(
-        sum(record.planned for record in records), sum(record.finished for record in records)
+        sum(ledger.planned for ledger in ledgers), sum(ledger.finished for ledger in ledgers)
     )
-    schedule = Schedule(pair for record in records for pair in record.tracks())
-    owners = {record.setting: record for record in records}
+    schedule = Schedule(pair for ledger in ledgers for pair in ledger.tracks())
+    owners = {ledger.setting: ledger for ledger in ledgers}
     busy = 0
     while busy or not schedule.over:
         count = team.count()
@@ -37,12 +37,12 @@ def work(records: list[Record], team: Team, progress: Progress) -> None:
         progress.end(task.label, ended, result if isinstance(result, RegkitError) else None)
 
 
-def _taken_in(task: Task, result: Result, record: Record, schedule: Schedule) -> int:
+def _taken_in(task: Task, result: Result, ledger: Ledger, schedule: Schedule) -> int:
     """How many tracks have ended with a task, after what became of it is noted."""
     if result is None:
         schedule.opened(task)
         return 0
     tracks = schedule.closed(task) if task.method is None else [task]
     for track in tracks:
-        record.ended(track, result)
+        ledger.ended(track, result)
     return len(tracks)

@@ -46,6 +46,7 @@ def test_resumed_run_does_only_what_is_missing(regkit, files):
     assert changed == {
         "gsog/second/measure.json",
         "gsog/second/poses.npz",
+        "gsog/second/record.npz",
         "gsog/second/overlay.png",
     }
     for method, figures in files.metrics().items():
@@ -91,7 +92,7 @@ def test_interrupted_run_is_completed_later(regkit, files, interrupt):
     begun = len(steps)
     assert regkit(*arguments).code == 0
     assert len(steps) - begun == FRAMES
-    assert len(files.written()) == 6
+    assert len(files.written()) == 8
 
 
 def test_damaged_measure_is_told_and_the_rest_is_kept(regkit, files):

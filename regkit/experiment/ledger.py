@@ -8,10 +8,10 @@ from dataclasses import dataclass, field
 
 from regkit.errors import RegkitError
 from regkit.experiment.experiment import Experiment
+from regkit.experiment.reporting import report, summarise
 from regkit.experiment.results import Results
 from regkit.experiment.task import Task
 from regkit.metrics import Measure
-from regkit.report import report
 
 WRITTEN_EVERY = 1.0
 """The figures are written no more often than this [s] while the run goes on."""
@@ -30,7 +30,7 @@ Track = tuple[str, str]
 
 
 @dataclass
-class Record:
+class Ledger:
     """An experiment's figures so far.
 
     Attributes:
@@ -106,7 +106,7 @@ class Record:
         else:
             self._measures[track] = result
         if time.monotonic() - self._written > WRITTEN_EVERY:
-            self.write_metrics()
+            self.summarise()
 
     @property
     def outcome(self) -> Outcome:
@@ -122,18 +122,16 @@ class Record:
                 measures[method], failures[method] = found, failed
         return Outcome(measures, failures)
 
-    def write_metrics(self) -> None:
-        """Write the figures."""
+    def summarise(self) -> None:
+        """Write the figures so far."""
         outcome = self.outcome
-        self.results.write_metrics(outcome.measures, outcome.failures)
+        summarise(self.results.folder, outcome.measures, outcome.failures)
         self._written = time.monotonic()
 
-    def write(self) -> None:
-        """Write the figures and the report."""
-        self.write_metrics()
+    def report(self) -> None:
+        """Write the figures, and the report with its pictures."""
         outcome = self.outcome
-        title = f"{self.experiment.name}: {self.setting}" if self.setting else self.experiment.name
-        self.results.write_report(report(title, outcome.measures, outcome.failures))
+        report(self.results.folder, outcome.measures, outcome.failures)
 
     def _task(self, sequence: str, method: str, *, opening: bool = False) -> Task:
         # Each worker reads the experiment anew: it shall not read a hundred methods for one.
