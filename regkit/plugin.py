@@ -93,7 +93,7 @@ class Plugin(Model):
     ) -> CoreSchema:
         """A concrete plug-in is validated as a model, a slot by the plug-in that is named."""
         if "group" not in vars(cls):
-            return handler(source)
+            return super().__get_pydantic_core_schema__(source, handler)
         return core_schema.no_info_plain_validator_function(
             cls._resolved, metadata={"pydantic_js_functions": [cls._slot_json_schema]}
         )
