@@ -97,6 +97,10 @@ class Text(str):
         text.folder = folder
         return text
 
+    def __getnewargs__(self) -> tuple[str, Path]:  # type: ignore[override]
+        """What a copy is made of."""
+        return str(self), self.folder
+
 
 def _from_its_folder(value: Any) -> Any:
     if isinstance(value, Text):

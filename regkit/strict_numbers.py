@@ -30,7 +30,8 @@ def _strict(part: Any, model: type) -> Any:
     if kind == "model" and part.get("cls") is not model:
         return part  # It saw to its own numbers.
     if kind in ("int", "float"):
-        return core_schema.no_info_before_validator_function(_number, cast(CoreSchema, part))
+        check = _whole_number if kind == "int" else _number
+        return core_schema.no_info_before_validator_function(check, cast(CoreSchema, part))
     if kind == "bool":
         return {**part, "strict": True}
     return {key: value if key in _OPAQUE else _strict(value, model) for key, value in part.items()}
@@ -39,4 +40,10 @@ def _strict(part: Any, model: type) -> Any:
 def _number(value: Any) -> Any:
     if isinstance(value, (str, bool)):
         raise PydanticCustomError("number_type", "Input should be a valid number")
+    return value
+
+
+def _whole_number(value: Any) -> Any:
+    if isinstance(value, (str, bool)):
+        raise PydanticCustomError("number_type", "Input should be a valid integer")
     return value

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
-from pydantic import BaseModel
+from pydantic import BaseModel, TypeAdapter
+from pydantic.json_schema import GenerateJsonSchema
 
 from regkit.cli.console import PluginFiles, errors, output, run_plugin_files
 from regkit.errors import PluginError
@@ -34,8 +35,8 @@ def schema(
     """Write the JSON Schemas of experiments, templates and skeletons, for editors."""
     run_plugin_files(plugin)
     with only_from(OWN):
-        own = _schemas()
-    whole = own if built_in else _schemas()
+        own = _texts()
+    whole = own if built_in else _texts()
     if not built_in:
         _tell_broken()
     stale = False
@@ -67,17 +68,47 @@ def _tell_broken() -> None:
                 )
 
 
-def _schemas() -> dict[str, str]:
+def schemas() -> dict[str, dict[str, Any]]:
+    """Each schema by the name of its file."""
     from regkit.body import BodyDescription
     from regkit.experiment import Experiment
+    from regkit.interfaces import Method
     from regkit.skeleton import SkeletonDescription
 
-    models: dict[str, type[BaseModel]] = {
-        "experiment": Experiment,
-        "template": BodyDescription,
-        "skeleton": SkeletonDescription,
-    }
     return {
-        name: json.dumps(model.model_json_schema(), indent=2) + "\n"
-        for name, model in models.items()
+        "experiment": _schema_of(Experiment),
+        "template": _schema_of(BodyDescription),
+        "skeleton": _schema_of(SkeletonDescription),
+        "method": _whole(_schema_of(Method), "A method as a file: a preset."),
     }
+
+
+def _texts() -> dict[str, str]:
+    return {name: json.dumps(found, indent=2) + "\n" for name, found in schemas().items()}
+
+
+def _schema_of(model: type[BaseModel]) -> dict[str, Any]:
+    schema = TypeAdapter(model).json_schema(schema_generator=_Untitled)
+    return {"$schema": _Untitled.schema_dialect, **schema}
+
+
+def _whole(schema: dict[str, Any], description: str) -> dict[str, Any]:
+    """The schema of a file that must name its kind, made of that of a slot."""
+    definitions = schema["$defs"]
+    # pydantic sets a slot among the definitions only if it is used more than once.
+    slot = definitions[schema["$ref"].rpartition("/")[2]] if "$ref" in schema else schema
+    (named,) = (form for form in slot["anyOf"] if "oneOf" in form)
+    return {
+        "$schema": schema["$schema"],
+        "description": description,
+        **named,
+        "$defs": definitions,
+    }
+
+
+class _Untitled(GenerateJsonSchema):
+    """Schemas whose fields have descriptions, but no titles, which only repeat the names."""
+
+    def field_title_should_be_set(self, schema: Any) -> bool:
+        """Never."""
+        return False
