@@ -15,10 +15,11 @@ from regkit.errors import PluginError
 from regkit.files import write_text
 from regkit.installed import OWN, only_from
 from regkit.interfaces import SLOTS
+from regkit.schema_line import FOLDER, MARK
 
 
 def schema(
-    folder: Annotated[Path, typer.Argument(help="Where the schemas are.")] = Path("schemas"),
+    folder: Annotated[Path, typer.Argument(help="Where the schemas are.")] = Path(FOLDER),
     check: Annotated[
         bool,
         typer.Option(
@@ -32,7 +33,7 @@ def schema(
     ] = False,
     plugin: PluginFiles = None,
 ) -> None:
-    """Write the JSON Schemas of experiments, templates and skeletons, for editors."""
+    """Write the JSON Schemas of experiments, templates, skeletons and methods, for editors."""
     run_plugin_files(plugin)
     with only_from(OWN):
         own = _texts()
@@ -52,6 +53,14 @@ def schema(
         else:
             write_text(file, text)
             output.print(f"written: {file}", highlight=False, soft_wrap=True)
+    if not check:
+        line = f"{MARK}{(folder / 'experiment.json').as_posix()}"
+        output.print(
+            f"for an editor, begin an experiment with this line, the path as seen from it: {line}",
+            markup=False,
+            highlight=False,
+            soft_wrap=True,
+        )
     if stale:
         raise typer.Exit(1)
 

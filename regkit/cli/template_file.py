@@ -9,6 +9,7 @@ from regkit.body.writing import template_text
 from regkit.document import Document
 from regkit.errors import ConfigError, RegkitError
 from regkit.files import write_text
+from regkit.schema_line import schema_line
 from regkit.skinned_mesh import SkinnedMesh
 
 
@@ -31,9 +32,14 @@ def check_replaceable(out: Path) -> None:
 def write_template(
     out: Path, description: BodyDescription, skin: SkinnedMesh | None, opening: str
 ) -> None:
-    """Write a template, which ``opening`` introduces, and its skin."""
+    """Write a template, which ``opening`` introduces, and its skin.
+
+    If there is a schema of templates nearby, the file names it for editors.
+    """
     if skin is not None:
         mesh = out.with_name(f"{out.stem}_mesh.npz")
         skin.write(mesh)
         description = description.model_copy(update={"mesh": mesh})
-    write_text(out, template_text(description, opening, {}))
+    line = schema_line(out, "template")
+    text = template_text(description, opening, {})
+    write_text(out, text if line is None else f"{line}\n{text}")
