@@ -9,7 +9,9 @@ import typer
 from regkit.cli.calibrate import calibrate
 from regkit.cli.console import print_error
 from regkit.cli.doctor import doctor
+from regkit.cli.export import export
 from regkit.cli.fit import fit
+from regkit.cli.import_ import import_
 from regkit.cli.plugins import plugins
 from regkit.cli.register import register
 from regkit.cli.run import run
@@ -23,8 +25,10 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
-for command in (run, register, calibrate, fit, validate, plugins, schema, doctor):
-    app.command()(command)
+COMMANDS = (run, export, register, calibrate, fit, import_, validate, plugins, schema, doctor)
+for command in COMMANDS:
+    # A word of Python's own has an underscore behind it.
+    app.command(command.__name__.rstrip("_"))(command)
 
 
 def main() -> None:

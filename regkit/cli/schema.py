@@ -33,7 +33,7 @@ def schema(
     ] = False,
     plugin: PluginFiles = None,
 ) -> None:
-    """Write the JSON Schemas of experiments, templates, skeletons and methods, for editors."""
+    """Write the JSON Schemas of experiments and their parts, for editors."""
     run_plugin_files(plugin)
     with only_from(OWN):
         own = _texts()
@@ -81,7 +81,7 @@ def schemas() -> dict[str, dict[str, Any]]:
     """Each schema by the name of its file."""
     from regkit.body import BodyDescription
     from regkit.experiment import Experiment
-    from regkit.interfaces import Method
+    from regkit.interfaces import Dataset, Method
     from regkit.skeleton import SkeletonDescription
 
     return {
@@ -89,6 +89,7 @@ def schemas() -> dict[str, dict[str, Any]]:
         "template": _schema_of(BodyDescription),
         "skeleton": _schema_of(SkeletonDescription),
         "method": _whole(_schema_of(Method), "A method as a file: a preset."),
+        "dataset": _whole(_schema_of(Dataset), "A dataset as a file: a preset."),
     }
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 from regkit.body import BodyDescription
@@ -30,9 +31,13 @@ def check_replaceable(out: Path) -> None:
 
 
 def write_template(
-    out: Path, description: BodyDescription, skin: SkinnedMesh | None, opening: str
+    out: Path,
+    description: BodyDescription,
+    skin: SkinnedMesh | None,
+    opening: str,
+    comments: Mapping[str, str] | None = None,
 ) -> None:
-    """Write a template, which ``opening`` introduces, and its skin.
+    """Write a template, which ``opening`` introduces, and its skin; ``comments`` are on joints.
 
     If there is a schema of templates nearby, the file names it for editors.
     """
@@ -41,5 +46,5 @@ def write_template(
         skin.write(mesh)
         description = description.model_copy(update={"mesh": mesh})
     line = schema_line(out, "template")
-    text = template_text(description, opening, {})
+    text = template_text(description, opening, comments or {})
     write_text(out, text if line is None else f"{line}\n{text}")

@@ -84,7 +84,9 @@ class Results:
                 place=str(file),
             ) from None
 
-    def write(self, method: str, sequence: str, track: Track, body: Body, measure: Measure) -> None:
+    def write(
+        self, method: str, sequence: str, track: Track, body: Body, measure: Measure, fps: float
+    ) -> None:
         """Write a finished sequence; its figures come last, and with them it counts as finished."""
         folder = self.sequence_folder(method, sequence)
         arrays: dict[str, Any] = {f.name: getattr(track, f.name) for f in fields(track)}
@@ -95,7 +97,9 @@ class Results:
             "ball_names": [skeleton.names[links.index(link)] for link in skeleton.ball_links],
         }
         arrays |= {name: np.array(values, dtype=np.str_) for name, values in names.items()}
-        write_arrays(folder / "poses.npz", arrays | {"size": np.array(body.size)})
+        write_arrays(
+            folder / "poses.npz", arrays | {"size": np.array(body.size), "fps": np.array(fps)}
+        )
         (folder / "error.txt").unlink(missing_ok=True)
         write_json(folder / "measure.json", measure.to_dict())
 

@@ -119,7 +119,8 @@ class _Task:
         picture = self.results.sequence_folder(name, self.sequence.name) / "overlay.png"
         title = f"{name} on {self.sequence.name}"
         draw_overlay(picture, title, frames, track, registrar, self.truth)
-        self.results.write(name, self.sequence.name, track, registrar.body, measure)
+        sequence = self.sequence
+        self.results.write(name, sequence.name, track, registrar.body, measure, sequence.fps)
         return measure
 
     @cached_property

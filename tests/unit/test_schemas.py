@@ -21,7 +21,7 @@ from regkit.cli.schema import schemas
 from regkit.cli.template_file import write_template
 from regkit.document import Document
 from regkit.experiment import Experiment
-from regkit.interfaces import Method, Problem, Solution, Solver
+from regkit.interfaces import Dataset, Method, Problem, Solution, Solver
 from regkit.plugin import register
 from regkit.schema_line import MARK, schema_line
 from regkit.skeleton import SkeletonDescription
@@ -30,7 +30,8 @@ ROOT = Path(__file__).parents[2]
 EXPERIMENTS = sorted((ROOT / "docs" / "examples").glob("*.yaml"))
 PLUGINS = ROOT / "plugins" / "regkit_plugins"
 TEMPLATES = sorted((PLUGINS / "templates").glob("*.yaml"))
-PRESETS = sorted((PLUGINS / "presets").glob("*.yaml"))
+DATASETS = [PLUGINS / "presets" / "smmc_like.yaml"]
+METHODS = sorted(set((PLUGINS / "presets").glob("*.yaml")) - set(DATASETS))
 
 Location = tuple[str | int, ...]
 
@@ -271,9 +272,17 @@ def test_templates_are_accepted_by_both_or_refused_by_both(mutant):
     check_alike("template", BodyDescription, *mutant)
 
 
+@alike(60)
+@given(mutants(DATASETS))
+def test_datasets_are_accepted_by_both_or_refused_by_both(mutant):
+    data, told = mutant
+    if isinstance(data.get("kind"), str):
+        check_alike("dataset", Dataset, data, told)
+
+
 @alike(150)
-@given(mutants(PRESETS))
-def test_presets_are_accepted_by_both_or_refused_by_both(mutant):
+@given(mutants(METHODS))
+def test_methods_are_accepted_by_both_or_refused_by_both(mutant):
     data, told = mutant
     if isinstance(data.get("kind"), str):  # A preset must say its kind, which a method need not.
         check_alike("method", Method, data, told)
@@ -369,7 +378,8 @@ def test_preset_shows_its_own_values_as_defaults():
     [
         *(("experiment", path) for path in EXPERIMENTS),
         *(("template", path) for path in TEMPLATES),
-        *(("method", path) for path in PRESETS),
+        *(("method", path) for path in METHODS),
+        *(("dataset", path) for path in DATASETS),
     ],
     ids=lambda value: value.name if isinstance(value, Path) else value,
 )
