@@ -8,7 +8,8 @@ from typing import Annotated, Any
 
 import typer
 from pydantic import BaseModel, TypeAdapter
-from pydantic.json_schema import GenerateJsonSchema
+from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue
+from pydantic_core import core_schema
 
 from regkit.cli.console import PluginFiles, errors, output, run_plugin_files
 from regkit.errors import PluginError
@@ -98,8 +99,8 @@ def _texts() -> dict[str, str]:
 
 
 def _schema_of(model: type[BaseModel]) -> dict[str, Any]:
-    schema = TypeAdapter(model).json_schema(schema_generator=_Untitled)
-    return {"$schema": _Untitled.schema_dialect, **schema}
+    schema = TypeAdapter(model).json_schema(schema_generator=_ForEditors)
+    return {"$schema": _ForEditors.schema_dialect, **schema}
 
 
 def _whole(schema: dict[str, Any], description: str) -> dict[str, Any]:
@@ -116,9 +117,15 @@ def _whole(schema: dict[str, Any], description: str) -> dict[str, Any]:
     }
 
 
-class _Untitled(GenerateJsonSchema):
+class _ForEditors(GenerateJsonSchema):
     """Schemas whose fields have descriptions, but no titles, which only repeat the names."""
 
     def field_title_should_be_set(self, schema: Any) -> bool:
         """Never."""
         return False
+
+    def tagged_union_schema(self, schema: core_schema.TaggedUnionSchema) -> JsonSchemaValue:
+        """The alternatives, which must say what they are even if that is also their default."""
+        union = super().tagged_union_schema(schema)
+        tag = schema["discriminator"]
+        return {**union, "type": "object", "required": [tag]} if isinstance(tag, str) else union
