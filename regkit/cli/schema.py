@@ -129,3 +129,12 @@ class _ForEditors(GenerateJsonSchema):
         union = super().tagged_union_schema(schema)
         tag = schema["discriminator"]
         return {**union, "type": "object", "required": [tag]} if isinstance(tag, str) else union
+
+    def dict_schema(self, schema: core_schema.DictSchema) -> JsonSchemaValue:
+        """A mapping, which has no other keys than those that are right."""
+        mapping = super().dict_schema(schema)
+        return (
+            {**mapping, "additionalProperties": False}
+            if "patternProperties" in mapping
+            else mapping
+        )

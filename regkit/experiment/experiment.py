@@ -51,9 +51,7 @@ class Experiment(Model):
     start: PoseDescription | None = None
     """Pose in the first frame of every sequence; found from the cloud without it. It needs the
     template's size."""
-    methods: dict[Name, Method] = Field(
-        min_length=1, json_schema_extra={"additionalProperties": False}
-    )
+    methods: dict[Name, Method] = Field(min_length=1)
     """What is compared, by a name of your own."""
 
     @field_validator("start")

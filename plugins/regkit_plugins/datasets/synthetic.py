@@ -156,7 +156,9 @@ def _over(defaults: Mapping[str, Any], take: Mapping[str, Any]) -> dict[str, Any
         for field, kind in (("body", "shipped"), ("motion", "clip"))
         if isinstance(take.get(field), str) and isinstance(defaults.get(field), dict)
     }
-    return changed(defaults, {**take, **named})
+    # A preset's name has no place in a take, and is kept here only to be refused.
+    preset = {"preset": take["preset"]} if "preset" in take else {}
+    return {**changed(defaults, {**take, **named}), **preset}
 
 
 def _seen(scene: Scene, seed: int) -> DepthSequence:
