@@ -14,6 +14,7 @@ from regkit.cli.fit import fit
 from regkit.cli.import_ import import_
 from regkit.cli.plugins import plugins
 from regkit.cli.register import register
+from regkit.cli.report import report
 from regkit.cli.run import run
 from regkit.cli.schema import schema
 from regkit.cli.validate import validate
@@ -25,7 +26,9 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
-COMMANDS = (run, export, register, calibrate, fit, import_, validate, plugins, schema, doctor)
+COMMANDS = (
+    run, report, export, register, calibrate, fit, import_, validate, plugins, schema, doctor
+)  # fmt: skip
 for command in COMMANDS:
     # A word of Python's own has an underscore behind it.
     app.command(command.__name__.rstrip("_"))(command)

@@ -81,12 +81,12 @@ def _tell_broken() -> None:
 def schemas() -> dict[str, dict[str, Any]]:
     """Each schema by the name of its file."""
     from regkit.body import BodyDescription
-    from regkit.experiment import Experiment
+    from regkit.experiment.sweep import SweptExperiment
     from regkit.interfaces import Dataset, Method
     from regkit.skeleton import SkeletonDescription
 
     return {
-        "experiment": _schema_of(Experiment),
+        "experiment": _schema_of(SweptExperiment),
         "template": _schema_of(BodyDescription),
         "skeleton": _schema_of(SkeletonDescription),
         "method": _whole(_schema_of(Method), "A method as a file: a preset."),

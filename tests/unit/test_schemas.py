@@ -20,7 +20,7 @@ from regkit.body import BodyDescription
 from regkit.cli.schema import schemas
 from regkit.cli.template_file import write_template
 from regkit.document import Document
-from regkit.experiment import Experiment
+from regkit.experiment.sweep import SweptExperiment
 from regkit.interfaces import Dataset, Method, Problem, Solution, Solver
 from regkit.plugin import register
 from regkit.schema_line import MARK, schema_line
@@ -229,7 +229,7 @@ def test_experiment_is_right_or_wrong_for_both(field, value, right):
     *path, last = field.split(".")
     get(data, tuple(path))[last] = value
     assert validator("experiment").is_valid(data) == right
-    assert (not complaints(Experiment, data)) == right
+    assert (not complaints(SweptExperiment, data)) == right
 
 
 @pytest.mark.parametrize("value", [float("inf"), float("nan")])
@@ -238,7 +238,7 @@ def test_numbers_that_json_does_not_have_are_refused_by_regkit_alone(value):
     data = copy.deepcopy(data_of(ROOT / "docs" / "examples" / "demo.yaml"))
     data["observer"]["sigma"] = value
     assert validator("experiment").is_valid(data)
-    assert complaints(Experiment, data) == ["observer.sigma: Input should be a finite number"]
+    assert complaints(SweptExperiment, data) == ["observer.sigma: Input should be a finite number"]
 
 
 @pytest.mark.parametrize(
@@ -273,7 +273,7 @@ def test_joint_is_right_or_wrong_for_both(name, field, value, right):
 @alike(250)
 @given(mutants(EXPERIMENTS))
 def test_experiments_are_accepted_by_both_or_refused_by_both(mutant):
-    check_alike("experiment", Experiment, *mutant)
+    check_alike("experiment", SweptExperiment, *mutant)
 
 
 @alike(100)
@@ -332,10 +332,10 @@ def test_plugin_that_holds_others_of_its_own_group_is_described(monkeypatch):
     inner = {"kind": "twice", "inner": "lbfgs"}
     data["methods"]["sog"]["solver"] = {"kind": "twice", "inner": inner}
     assert checked.is_valid(data)
-    assert not complaints(Experiment, data)
+    assert not complaints(SweptExperiment, data)
     inner["inner"] = "lbfg"
     assert not checked.is_valid(data)
-    assert complaints(Experiment, data)
+    assert complaints(SweptExperiment, data)
 
 
 class Twice(Solver):

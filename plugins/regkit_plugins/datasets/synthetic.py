@@ -149,16 +149,23 @@ class SyntheticSequence(Sequence):
         )
 
 
+_SOURCES = frozenset({"name", "path", "frames"})
+"""Fields that say which body or motion is meant, each alone."""
+
+
 def _over(defaults: Mapping[str, Any], take: Mapping[str, Any]) -> dict[str, Any]:
     """A take as it was written, with what it leaves to the defaults."""
-    named = {
-        field: {"kind": kind, "name": take[field]}
-        for field, kind in (("body", "shipped"), ("motion", "clip"))
-        if isinstance(take.get(field), str) and isinstance(defaults.get(field), dict)
-    }
+    common, own = dict(defaults), dict(take)
+    for field, kind in (("body", "shipped"), ("motion", "clip")):
+        if isinstance(common.get(field), dict) and field in own:
+            if isinstance(own[field], str):
+                own[field] = {"kind": kind, "name": own[field]}
+            if isinstance(own[field], dict) and not _SOURCES.isdisjoint(own[field]):
+                # Only one of them can say where it comes from.
+                common[field] = {k: v for k, v in common[field].items() if k not in _SOURCES}
     # A preset's name has no place in a take, and is kept here only to be refused.
-    preset = {"preset": take["preset"]} if "preset" in take else {}
-    return {**changed(defaults, {**take, **named}), **preset}
+    preset = {"preset": own["preset"]} if "preset" in own else {}
+    return {**changed(common, own), **preset}
 
 
 def _seen(scene: Scene, seed: int) -> DepthSequence:

@@ -68,7 +68,7 @@ class Take(Model):
             name: What the sequence is called.
             sensor: What looks at it.
             fps: Frames per second.
-            frames: How many.
+            frames: How many, from the first one on; the camera stands where it would for all.
 
         Raises:
             RegkitError: If a file is missing or wrong, or the body cannot move so.
@@ -79,7 +79,7 @@ class Take(Model):
             _check_marker(marker, vertex, body.landmarks, len(body.mesh.vertices))
         moved = body.moved(motion_config.motion())
         skin = some_vertices(body.mesh, np.arange(0, len(body.mesh.vertices), _SPARSE))
-        surface = np.concatenate([skin.posed(moved(frame / fps)) for frame in range(frames)])
+        surface = np.concatenate([skin.posed(moved(frame / fps)) for frame in range(self.frames)])
         T_camera_ground = self.view.placed(sensor.camera, surface)
         return Scene(
             name=name,

@@ -7,7 +7,6 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag
 
-from regkit_plugins.synthesis.cameras import CameraName
 from regkit_plugins.synthesis.noise.model import DepthNoise, plain
 from regkit_plugins.synthesis.noise.parts import (
     AxialNoise,
@@ -16,7 +15,7 @@ from regkit_plugins.synthesis.noise.parts import (
     MissingPixels,
 )
 
-NoiseName = Literal["none"] | CameraName
+NoiseName = Literal["none", "sr4000", "kinect_v1", "kinect_v1_320x240", "realsense_d435", "sr305"]
 
 _NGUYEN = AxialNoise(constant=0.0012, quadratic=0.0019, nearest=0.4, oblique=0.0001)
 
