@@ -84,8 +84,7 @@ def run(
         raise typer.Exit(130) from None
     output.print(_table(outcome.measures))
     output.print(f"results: {folder}", highlight=False, soft_wrap=True)
-    page = folder / ("report.html" if figures else "report.md")
-    output.print(f"report: {page}", highlight=False, soft_wrap=True)
+    output.print(f"report: {folder / 'report.html'}", highlight=False, soft_wrap=True)
     if any(outcome.failures.values()):
         raise typer.Exit(1)
 

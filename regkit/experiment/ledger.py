@@ -128,10 +128,10 @@ class Ledger:
         summarise(self.results.folder, outcome.measures, outcome.failures)
         self._written = time.monotonic()
 
-    def report(self) -> None:
-        """Write the figures, and the report with its pictures."""
+    def report(self, *, figures: bool) -> None:
+        """Write the report, with its figures or without."""
         outcome = self.outcome
-        report(self.results.folder, outcome.measures, outcome.failures)
+        report(self.results.folder, outcome.measures, outcome.failures, figures=figures)
 
     def _task(self, sequence: str, method: str, *, opening: bool = False) -> Task:
         # Each worker reads the experiment anew: it shall not read a hundred methods for one.

@@ -27,7 +27,12 @@ def summarise(folder: Path, measures: Measures, failures: Failures) -> None:
 
 
 def report(
-    folder: Path, measures: Measures, failures: Failures, pairs: Iterable[tuple[str, str]] = ()
+    folder: Path,
+    measures: Measures,
+    failures: Failures,
+    pairs: Iterable[tuple[str, str]] = (),
+    *,
+    figures: bool = True,
 ) -> Path:
     """Write the report with its figures and tables, and ``metrics.json``.
 
@@ -36,6 +41,7 @@ def report(
         measures: Figures by method and sequence.
         failures: Why sequences failed, by method and sequence.
         pairs: Methods to be compared beside the best one with the others.
+        figures: Whether figures are drawn.
 
     Returns:
         The page.
@@ -53,7 +59,7 @@ def report(
         for method, by_sequence in measures.items()
     }
     run = replace(_run(folder, measures, failures), records=records, chosen=tuple(pairs))
-    write_report(run, folder)
+    write_report(run, folder, figures=figures)
     return folder / "report.html"
 
 

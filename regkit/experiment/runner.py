@@ -43,7 +43,7 @@ def run(
         progress: Who is told.
         only: Names of the methods to run, with all their variants; all of them if it is empty.
         workers: Who does the work; this process without them.
-        figures: Whether the report gets its figures; it has its tables in any case.
+        figures: Whether the report's figures are drawn; it has its tables in any case.
 
     Returns:
         All that the folder holds; methods of a sweep are called ``SETTING/METHOD``.
@@ -74,13 +74,12 @@ def run(
             outcome = _together(ledgers) if study.lists else ledgers[0].outcome
             if study.lists:
                 summarise(folder, outcome.measures, outcome.failures)
-        if figures:
-            progress.begin(REPORTING, None)
-            for ledger in ledgers:
-                ledger.report()
-            if study.lists:
-                report(folder, outcome.measures, outcome.failures)
-            progress.end(REPORTING, 0, None)
+        progress.begin(REPORTING, None)
+        for ledger in ledgers:
+            ledger.report(figures=figures)
+        if study.lists:
+            report(folder, outcome.measures, outcome.failures, figures=figures)
+        progress.end(REPORTING, 0, None)
     return outcome
 
 

@@ -65,15 +65,20 @@ def write_summary(run: Run, folder: Path) -> None:
     write_text(folder / "report.md", _text("report.md", run, folder, []))
 
 
-def write_report(run: Run, folder: Path) -> None:
+def write_report(run: Run, folder: Path, *, figures: bool = True) -> None:
     """Write everything: the page, its Markdown twin, figures, pictures and numbers.
+
+    Args:
+        run: What was found.
+        folder: Where to.
+        figures: Whether figures are drawn, which takes some seconds.
 
     Raises:
         DataError: If a file cannot be written.
     """
     write_json(folder / "metrics.json", metrics(run))
     write_tables(run, folder / "tables")
-    drawn = [Drawn(plot, plot.png(LIGHT), plot.png(DARK)) for plot in plots(run)]
+    drawn = [Drawn(plot, plot.png(LIGHT), plot.png(DARK)) for plot in plots(run) if figures]
     for one in drawn:
         one.plot.write(folder / "figures", one.light)
     for picture in _pictures(run, folder):
