@@ -173,7 +173,7 @@ class KernelLaws(Laws):
         )  # fmt: skip
         # Half a radian at most, so that rotations are about linear.
         step *= min(1.0, 0.5 / np.abs(step).max())
-        length = best_length(problem, x, step)
+        length = best_length(problem, x, np.asarray(step))
         require(
             length > 1.0 / TOO_FAR, bound.kernel, "has blocks that are too soft: the energy is "
             f"least after {length:.2g} of the Gauss-Newton step", look_at=bound.bind(),

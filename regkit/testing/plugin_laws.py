@@ -9,7 +9,7 @@ import pytest
 from pydantic import ValidationError
 
 from regkit.document import yaml_text
-from regkit.model import Model
+from regkit.plugin import Plugin
 from regkit.testing.cases import Case
 from regkit.testing.laws import Laws
 from regkit.testing.verdict import require, same
@@ -78,7 +78,7 @@ def _loaded(case: Case) -> Any:
     return case.slot.load(case.kind)
 
 
-def _made(case: Case) -> Model | Any:
+def _made(case: Case) -> Plugin:
     if case.plugin is None:
-        pytest.skip((case.broken and "it cannot be loaded") or f"needs {', '.join(case.missing)}")
+        pytest.skip(f"needs {', '.join(case.missing)}" if case.missing else "it cannot be loaded")
     return case.plugin

@@ -120,7 +120,7 @@ class TermLaws(Laws):
     ) -> None:
         """Bound twice it does the same, and writes to nothing it is given."""
         term, before = cast(Term, term_pair.plugin), copied(scene[0].placed)
-        answers = []
+        answers: list[tuple[object, ...]] = []
         for _ in range(2):
             effect = term.against(scene[0])
             if isinstance(effect, Shares):

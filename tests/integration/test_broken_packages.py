@@ -176,3 +176,41 @@ def test_broken_solver_is_none_of_those_that_keep_limits(distribution):
     distribution("[regkit.solvers]\nodd = no_such_solvers:Odd\n", "odd-things")
     assert "ipopt" in Solver.keeping_limits()
     assert "odd" not in Solver.keeping_limits()
+
+
+def test_committed_schemas_are_of_the_built_ins_alone(regkit, distribution, tmp_path):
+    """Whatever else is installed where they are checked."""
+    distribution("[regkit.trackers]\nstay = tracker_that_stays:Stay\n", "good")
+    (tmp_path / "good" / "tracker_that_stays.py").write_text(STAYING)
+    assert regkit("schema", tmp_path / "all").code == 0
+    assert '"stay"' in (tmp_path / "all" / "experiment.json").read_text()
+    assert regkit("schema", tmp_path / "all", "--check").code == 0
+    assert regkit("schema", tmp_path / "all", "--check", "--built-in").code == 1
+    assert regkit("schema", tmp_path / "own", "--built-in").code == 0
+    for file in sorted((ROOT / "schemas").glob("*.json")):
+        assert (tmp_path / "own" / file.name).read_text() == file.read_text()
+    assert regkit("schema", ROOT / "schemas", "--check").code == 0
+    assert regkit("schema", ROOT / "schemas", "--check", "--built-in").code == 0
+
+
+STAYING = '''
+from typing import Literal
+
+from regkit.interfaces import Follower, Registered, Tracker
+
+
+class Staying(Follower):
+    """Gives back the start."""
+
+    def step(self, observation, past):
+        return Registered.given(past[0].pose)
+
+
+class Stay(Tracker):
+    """Never moves."""
+
+    kind: Literal["stay"] = "stay"
+
+    def follow(self, registrar):
+        return Staying()
+'''
