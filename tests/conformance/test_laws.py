@@ -322,3 +322,11 @@ def test_wrong_gradient_of_an_installed_package_is_named(tmp_path):
     assert "plug-in 'odd' of regkit-oddquadric cannot be imported" in ended.stdout
     assert "test_plugin_can_be_loaded[terms.odd]" in ended.stdout
     assert "Error" not in ended.stdout.replace("ModuleNotFoundError", "")
+
+
+def test_shape_that_no_kernel_takes_is_told(tmp_path):
+    lonely = loaded(tmp_path, SHAPE, "] = Gaussians\n", "] = Primitives\n").Faulty
+    suite = conformance(lonely)
+    (case,) = suite.parameters["shape"]
+    with pytest.raises(pytest.fail.Exception, match="makes Primitives, which no installed kernel"):
+        suite().test_shape_has_a_kernel_that_compares_it(case.plugin)
