@@ -18,8 +18,9 @@ from regkit.errors import PluginError
 from regkit.interfaces import ShapeModel
 from regkit.plugin import run_plugin_file
 from regkit.testing import conformance
+from regkit.testing.bound import Bound
 from regkit.testing.cases import Case, Pair
-from regkit.testing.kernel_laws import Bound, KernelLaws
+from regkit.testing.kernel_laws import KernelLaws
 from regkit.testing.laws import Laws
 from regkit.testing.plugin_laws import PluginLaws
 from regkit.testing.samples import linkage
