@@ -71,7 +71,7 @@ def _tracked(
             EXPERIMENT.format(folder=folder, template=template, observer=observer, method=method)
         )
         experiment = Experiment.read(file, (*settings, f"dataset.sequences=[{sequence}]"))
-        measures = _measures(run(experiment, Path(temporary) / "out"))
+        measures = _measures(run(experiment, Path(temporary) / "out", figures=False))
     return f"{folder.name}/{sequence}", measures[sequence]
 
 
@@ -80,7 +80,7 @@ def tracked_utd(folder: Path, method: str) -> dict[str, Measure]:
     with TemporaryDirectory() as temporary:
         settings = (f"dataset.root={folder.absolute()}", f"methods={{method: {method}}}")
         experiment = Experiment.read(UTD, settings)
-        return _measures(run(experiment, Path(temporary) / "out"))
+        return _measures(run(experiment, Path(temporary) / "out", figures=False))
 
 
 def _measures(outcome: Outcome) -> dict[str, Measure]:

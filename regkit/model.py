@@ -6,14 +6,25 @@ import difflib
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError, model_validator
-from pydantic_core import InitErrorDetails, PydanticCustomError
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    GetCoreSchemaHandler,
+    ValidationError,
+    model_validator,
+)
+from pydantic_core import CoreSchema, InitErrorDetails, PydanticCustomError
+
+from regkit.strict_numbers import strict_numbers
 
 
 class Model(BaseModel):
     """A frozen record whose fields are documented by the docstrings below them.
 
-    A field that does not exist is an error which names the nearest one that does.
+    A field that does not exist is an error which names the nearest one that does. A number is a
+    number and a truth value one, not a text that reads like it: what JSON Schema accepts in an
+    editor and what is accepted here are the same.
     """
 
     model_config = ConfigDict(
@@ -23,6 +34,13 @@ class Model(BaseModel):
         allow_inf_nan=False,
         validate_default=True,
     )
+
+    @classmethod
+    def __get_pydantic_core_schema__(
+        cls, source: type[Any], handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        """The fields' schema, whose numbers are strict."""
+        return strict_numbers(handler(source), cls)
 
     @model_validator(mode="before")
     @classmethod
@@ -78,6 +96,10 @@ class Text(str):
         text = super().__new__(cls, value)
         text.folder = folder
         return text
+
+    def __getnewargs__(self) -> tuple[str, Path]:  # type: ignore[override]
+        """What a copy is made of."""
+        return str(self), self.folder
 
 
 def _from_its_folder(value: Any) -> Any:

@@ -16,14 +16,15 @@ from pathlib import Path
 from typing import Any, ClassVar, Self, TypeVar, cast
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
-from pydantic.errors import PydanticInvalidForJsonSchema, PydanticUndefinedAnnotation
+from pydantic.errors import PydanticUndefinedAnnotation
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from regkit.errors import PluginError, RegkitError
 from regkit.installed import Installed, installed
 from regkit.model import Model, did_you_mean
-from regkit.preset import changed, preset, presets_of
+from regkit.preset import changed, preset
+from regkit.slot_schema import slot_schema
 
 
 class Plugin(Model):
@@ -76,9 +77,11 @@ class Plugin(Model):
     ) -> CoreSchema:
         """A concrete plug-in is validated as a model, a slot by the plug-in that is named."""
         if "group" not in vars(cls):
-            return handler(source)
+            return super().__get_pydantic_core_schema__(source, handler)
         return core_schema.no_info_plain_validator_function(
-            cls._resolved, metadata={"pydantic_js_functions": [cls._slot_json_schema]}
+            cls._resolved,
+            ref=f"{cls.group}:0",
+            metadata={"pydantic_js_functions": [cls._slot_json_schema]},
         )
 
     @classmethod
@@ -89,7 +92,7 @@ class Plugin(Model):
             value = {"kind": value}
         if isinstance(value, dict) and isinstance(value.get("preset"), str):
             try:
-                value = changed(cls._preset(value["preset"]), value)
+                value = cls._changed(value["preset"], value)
             except RegkitError as error:
                 raise PydanticCustomError(
                     "plugin_error", "{error}", {"error": str(error)}
@@ -108,6 +111,17 @@ class Plugin(Model):
         return plugin.model_validate(value)
 
     @classmethod
+    def _changed(cls, name: str, changes: dict[str, Any]) -> dict[str, Any]:
+        """A preset with changes in it, whose kind stays."""
+        base = cls._preset(name)
+        if changes.get("kind", base["kind"]) != base["kind"]:
+            raise PluginError(
+                f"the preset '{name}' is of the kind '{base['kind']}', which cannot be changed in "
+                "it; leave 'kind' out"
+            )
+        return changed(base, changes)
+
+    @classmethod
     def _preset(cls, name: str) -> dict[str, Any]:
         """What a preset says, which is a whole configuration: its mistakes are told in its file."""
         document = preset(cls.group, name)
@@ -119,24 +133,7 @@ class Plugin(Model):
 
     @classmethod
     def _slot_json_schema(cls, _: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
-        kinds, options = [], []
-        for kind in cls.available():
-            try:
-                options.append(handler(cls.load(kind).__pydantic_core_schema__))
-            except (PluginError, PydanticInvalidForJsonSchema):
-                continue  # A broken plug-in must not harm those who never name it.
-            kinds.append(kind)
-        forms: list[JsonSchemaValue] = [
-            {"type": "string", "enum": kinds},
-            {"type": "object", "required": ["kind"], "oneOf": options},
-        ]
-        if presets_of(cls.group):
-            forms.append({
-                "type": "object",
-                "required": ["preset"],
-                "properties": {"preset": {"type": "string", "examples": [*presets_of(cls.group)]}},
-            })  # fmt: skip
-        return {"anyOf": forms}
+        return slot_schema(cls, handler)
 
 
 P = TypeVar("P", bound=Plugin)

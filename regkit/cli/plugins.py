@@ -16,6 +16,7 @@ from regkit.interfaces import SLOTS, Solver
 from regkit.model import did_you_mean
 from regkit.plugin import Plugin
 from regkit.preset import preset_file, presets_of
+from regkit.schema_line import MARK
 
 
 def plugins(
@@ -102,7 +103,8 @@ def _preset_summary(group: str, name: str) -> str:
         text = preset_file(group, name).read_text(encoding="utf-8")
     except (RegkitError, OSError) as error:
         return escape(f"broken: {error}")
-    return escape(text.partition("\n")[0].removeprefix("#").strip())
+    lines = [line for line in text.splitlines() if not line.startswith(MARK)]
+    return escape(lines[0].removeprefix("#").strip()) if lines else ""
 
 
 def _distribution(origin: Installed | type[Plugin]) -> str:

@@ -41,7 +41,7 @@ def _pair(text: str, methods: list[str]) -> tuple[str, str]:
     # The name of a sweep's variant has commas itself.
     splits = [(",".join(parts[:k]), ",".join(parts[k:])) for k in range(1, len(parts))]
     if not splits:
-        raise ConfigError("name two methods, as in A,B", place=place)
+        raise ConfigError("name two different methods, as in A,B", place=place)
     one, other = next((pair for pair in splits if {*pair} <= {*methods}), splits[0])
     for name in (one, other):
         if name not in methods:

@@ -46,6 +46,13 @@ def run(
             "see the same files.",
         ),
     ] = None,
+    figures: Annotated[
+        bool,
+        typer.Option(
+            "--figures/--no-figures",
+            help="Draw the report's figures in the end; `regkit report` draws them later.",
+        ),
+    ] = True,
 ) -> None:
     """Run an experiment: register the template to every sequence with every method.
 
@@ -65,7 +72,9 @@ def run(
             Interrupt(stopping) as interrupt,
             RunProgress(interrupt, frames=not workers.remote) as progress,
         ):
-            outcome = run_experiment(study, folder, progress, only=only or (), workers=workers)
+            outcome = run_experiment(
+                study, folder, progress, only=only or (), workers=workers, figures=figures
+            )
     except KeyboardInterrupt:
         errors.print(
             f"interrupted; what was finished is kept: repeat with --out {folder}",
@@ -75,7 +84,8 @@ def run(
         raise typer.Exit(130) from None
     output.print(_table(outcome.measures))
     output.print(f"results: {folder}", highlight=False, soft_wrap=True)
-    output.print(f"report: {folder / 'report.html'}", highlight=False, soft_wrap=True)
+    page = folder / ("report.html" if figures else "report.md")
+    output.print(f"report: {page}", highlight=False, soft_wrap=True)
     if any(outcome.failures.values()):
         raise typer.Exit(1)
 

@@ -10,6 +10,7 @@ from regkit.body.writing import template_text
 from regkit.document import Document
 from regkit.errors import ConfigError, RegkitError
 from regkit.files import write_text
+from regkit.schema_line import schema_line
 from regkit.skinned_mesh import SkinnedMesh
 
 
@@ -36,9 +37,14 @@ def write_template(
     opening: str,
     comments: Mapping[str, str] | None = None,
 ) -> None:
-    """Write a template, which ``opening`` introduces, and its skin; ``comments`` are on joints."""
+    """Write a template, which ``opening`` introduces, and its skin; ``comments`` are on joints.
+
+    If there is a schema of templates nearby, the file names it for editors.
+    """
     if skin is not None:
         mesh = out.with_name(f"{out.stem}_mesh.npz")
         skin.write(mesh)
         description = description.model_copy(update={"mesh": mesh})
-    write_text(out, template_text(description, opening, comments or {}))
+    line = schema_line(out, "template")
+    text = template_text(description, opening, comments or {})
+    write_text(out, text if line is None else f"{line}\n{text}")

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated
 
-from pydantic import AfterValidator, Field, ValidationInfo, field_validator
+from pydantic import AfterValidator, Field, ValidationInfo, WithJsonSchema, field_validator
 
 from regkit.document import Document
 from regkit.errors import ConfigError
@@ -16,9 +16,11 @@ from regkit.model import Model
 from regkit.skeleton import PoseDescription
 from regkit.start import given_start
 
+_FOLDER = r"^[A-Za-z0-9][A-Za-z0-9_.,=-]*$"
+
 
 def _fit_for_a_folder(name: str) -> str:
-    if not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9_.,=-]*", name):
+    if not re.fullmatch(_FOLDER, name):
         raise ValueError(
             f"'{name}' names a folder: use letters, digits, '-', '_' and '.', and begin with a "
             "letter or digit"
@@ -26,7 +28,11 @@ def _fit_for_a_folder(name: str) -> str:
     return name
 
 
-Name = Annotated[str, AfterValidator(_fit_for_a_folder)]
+Name = Annotated[
+    str,
+    AfterValidator(_fit_for_a_folder),
+    WithJsonSchema({"type": "string", "pattern": _FOLDER}),
+]
 
 
 class Experiment(Model):

@@ -29,6 +29,7 @@ def run(
     *,
     only: Iterable[str] = (),
     workers: Workers | None = None,
+    figures: bool = True,
 ) -> Outcome:
     """Run an experiment into its folder; what the folder holds already is not done again.
 
@@ -42,6 +43,7 @@ def run(
         progress: Who is told.
         only: Names of the methods to run, with all their variants; all of them if it is empty.
         workers: Who does the work; this process without them.
+        figures: Whether the report gets its figures; it has its tables in any case.
 
     Returns:
         All that the folder holds; methods of a sweep are called ``SETTING/METHOD``.
@@ -72,12 +74,13 @@ def run(
             outcome = _together(ledgers) if study.lists else ledgers[0].outcome
             if study.lists:
                 summarise(folder, outcome.measures, outcome.failures)
-        progress.begin(REPORTING, None)
-        for ledger in ledgers:
-            ledger.report()
-        if study.lists:
-            report(folder, outcome.measures, outcome.failures)
-        progress.end(REPORTING, 0, None)
+        if figures:
+            progress.begin(REPORTING, None)
+            for ledger in ledgers:
+                ledger.report()
+            if study.lists:
+                report(folder, outcome.measures, outcome.failures)
+            progress.end(REPORTING, 0, None)
     return outcome
 
 

@@ -11,7 +11,17 @@ from regkit.model import Model
 
 Vector = tuple[float, float, float]
 
-_LETTERS: dict[str, Vector] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+Letter = Literal["x", "y", "z", "-x", "-y", "-z"]
+"""A direction along an axis."""
+
+_LETTERS: dict[str, Vector] = {
+    "x": (1.0, 0.0, 0.0),
+    "y": (0.0, 1.0, 0.0),
+    "z": (0.0, 0.0, 1.0),
+    "-x": (-1.0, 0.0, 0.0),
+    "-y": (0.0, -1.0, 0.0),
+    "-z": (0.0, 0.0, -1.0),
+}
 
 
 LEAST_RATIO = 1e-3
@@ -19,9 +29,8 @@ LEAST_RATIO = 1e-3
 
 
 def _from_letter(value: Any) -> Any:
-    if isinstance(value, str) and value.lstrip("-") in _LETTERS:
-        sign = -1.0 if value.startswith("-") else 1.0
-        return tuple(sign * part for part in _LETTERS[value.lstrip("-")])
+    if isinstance(value, str) and value in _LETTERS:
+        return _LETTERS[value]
     if isinstance(value, str):
         raise ValueError(f"an axis is x, y, z, -x, -y, -z or three numbers; it is {value!r}")
     return value
@@ -50,7 +59,11 @@ def _not_zero(value: float) -> float:
     return value
 
 
-Axis = Annotated[Vector, BeforeValidator(_from_letter), AfterValidator(_of_unit_length)]
+Axis = Annotated[
+    Vector,
+    BeforeValidator(_from_letter, json_schema_input_type=Letter | Vector),
+    AfterValidator(_of_unit_length),
+]
 """A direction: three numbers of any length, or one of x, y, z, -x, -y, -z."""
 
 Range = Annotated[tuple[float, float], AfterValidator(_in_order)]

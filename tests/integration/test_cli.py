@@ -132,7 +132,7 @@ def test_schema_check_fails_on_a_changed_copy(regkit, tmp_path, name):
 def test_schema_check_fails_where_there_is_none(regkit, tmp_path):
     ended = regkit("schema", tmp_path, "--check")
     assert ended.code == 1
-    assert len(ended.err.splitlines()) == 3
+    assert len(ended.err.splitlines()) == 5
     assert not list(tmp_path.iterdir())
 
 

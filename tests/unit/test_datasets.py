@@ -471,7 +471,7 @@ def mat(name: str, **arrays) -> Callable[[Path], None]:
         (cut(DEPTH, 0.0), f"ROOT/{DEPTH}: not a .mat file with 'd_depth'"),
         (write(DEPTH, "hello"), f"ROOT/{DEPTH}: not a .mat file with 'd_depth'"),
         (write(DEPTH, b"MATLAB 7.3 MAT-file".ljust(124) + b"\x00\x02IM" + bytes(200)),
-         f"ROOT/{DEPTH}: not a .mat file with 'd_depth'"),
+         f"ROOT/{DEPTH}: not an HDF5 file, or damaged"),
         (mat(SKELETON, skel=np.ones((20, 3, 2))), f"ROOT/{SKELETON}: not a .mat file with "
          "'d_skel'"),
         (mat(SKELETON, d_skel=np.ones((15, 3, 2))), f"ROOT/{SKELETON}: d_skel has the shape "

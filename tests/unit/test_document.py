@@ -54,8 +54,7 @@ def test_valid_experiment_is_read(file):
          "methods.gsog.solver.max_iteration: no such field (there are: gradient_tolerance, kind, "
          "max_iterations, memory, value_tolerance); did you mean 'max_iterations'?"),
         ("kind: lbfgs", "kind: lbfgs, max_iterations: many", "FILE:11: "
-         "methods.gsog.solver.max_iterations: input should be a valid integer, unable to parse "
-         "string as an integer; it is 'many'"),
+         "methods.gsog.solver.max_iterations: input should be a valid integer; it is 'many'"),
         ("kind: lbfgs", "kind: lbfgs, max_iterations: 0", "FILE:11: "
          "methods.gsog.solver.max_iterations: input should be greater than or equal to 1; it is 0"),
         ("height: 1.7", "height: .nan", "FILE:5: template.height: input should be a finite number; "

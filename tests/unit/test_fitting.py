@@ -89,7 +89,8 @@ def test_human_text_reads_back_as_the_same_template(tmp_path: Path) -> None:
     body = Document.read(FOLDER / "human.yaml").validated(BodyDescription)
     path = tmp_path / "again.yaml"
     path.write_text(human_text(body))
-    assert path.read_text() == (FOLDER / "human.yaml").read_text()
+    shipped = (FOLDER / "human.yaml").read_text()
+    assert path.read_text() == shipped.partition("\n")[2]  # Without the line for editors.
     again = Document.read(path).validated(BodyDescription)
     assert again.mesh == tmp_path / "human_mesh.npz"
     assert again.model_copy(update={"mesh": body.mesh}) == body

@@ -163,7 +163,9 @@ def _over(defaults: Mapping[str, Any], take: Mapping[str, Any]) -> dict[str, Any
             if isinstance(own[field], dict) and not _SOURCES.isdisjoint(own[field]):
                 # Only one of them can say where it comes from.
                 common[field] = {k: v for k, v in common[field].items() if k not in _SOURCES}
-    return changed(common, own)
+    # A preset's name has no place in a take, and is kept here only to be refused.
+    preset = {"preset": own["preset"]} if "preset" in own else {}
+    return {**changed(common, own), **preset}
 
 
 def _seen(scene: Scene, seed: int) -> DepthSequence:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import Field
@@ -17,6 +16,8 @@ from regkit.errors import DataError
 from regkit.interfaces import Dataset, Sequence
 from regkit.model import InputPath
 from regkit.observation import Frame, Truth
+from regkit_plugins.datasets.matlab import array_shape, read_array, read_frames
+from regkit_plugins.datasets.subjects import subject_of
 
 CAMERA = Camera(width=320, height=240, fx=285.63, fy=285.63, cx=159.0, cy=120.0)
 """The Kinect's depth camera at half resolution, for images that are turned round as below."""
@@ -62,11 +63,12 @@ class UtdMhad(Dataset):
         return [self._sequence(path, names[path]) for path in wanted or files]
 
     def _sequence(self, path: Path, name: str) -> UtdSequence:
-        length = _read(path, "d_depth").shape[2]
+        length = array_shape(path, "d_depth")[2]
         return UtdSequence(
             name=name,
             fps=30.0,
             length=min(length, self.frames or length),
+            subject=subject_of(name, r"^a\d+_(s\d+)_t\d+$"),
             depth_file=path,
             skeleton_file=self.root / "Skeleton" / f"{name}_skeleton.mat",
             skeleton_lead=self.skeleton_lead,
@@ -90,9 +92,9 @@ class UtdSequence(Sequence):
 
     def frames(self) -> Iterator[Frame]:
         """The depth images, back-projected."""
-        images = _read(self.depth_file, "d_depth")
-        for index in range(self.length):
-            depth = images[:, ::-1, index] / 1000.0
+        images = read_frames(self.depth_file, "d_depth")
+        for index, image in zip(range(self.length), images, strict=False):
+            depth = image[:, ::-1] / 1000.0
             place = f"{self.depth_file}: frame {index}"
             try:
                 yield Frame(CAMERA.back_projected(depth), CAMERA, depth, place=place)
@@ -106,7 +108,7 @@ class UtdSequence(Sequence):
         """
         if not self.skeleton_file.exists():
             return None
-        joints = np.moveaxis(_read(self.skeleton_file, "d_skel"), 2, 0)
+        joints = np.moveaxis(read_array(self.skeleton_file, "d_skel"), 2, 0)
         if joints.shape[1:] != (len(JOINTS), 3) or len(joints) < self.length:
             raise DataError(
                 f"d_skel has the shape {joints.shape}, frames first; it must be "
@@ -130,20 +132,3 @@ def _by_numbers(path: Path) -> list[int]:
     """Sort a9 before a19."""
     digits = "".join(letter if letter.isdigit() else " " for letter in path.stem)
     return [int(number) for number in digits.split()]
-
-
-def _read(path: Path, name: str) -> Any:
-    from scipy.io import loadmat
-    from scipy.io.matlab import MatReadError
-
-    broken = (OSError, ValueError, KeyError, TypeError, NotImplementedError, zlib.error)
-    try:
-        values = loadmat(path, variable_names=[name])[name].astype(np.float64)
-    except (*broken, MatReadError) as error:
-        raise DataError(f"not a .mat file with '{name}': {error}", place=str(path)) from None
-    if values.ndim != 3:
-        raise DataError(
-            f"{name} has the shape {values.shape}; it must have three axes, the frames last",
-            place=str(path),
-        )
-    return values

@@ -9,6 +9,7 @@ from pathlib import Path
 from regkit.body import BodyDescription
 from regkit.files import write_text
 from regkit.fitting.skin import decimated, on_segments
+from regkit.schema_line import schema_line
 from regkit.skinned_mesh import SkinnedMesh
 from regkit_plugins.fitting.hand import left_hand, right_hand
 from regkit_plugins.fitting.hand_layout import hand_layout
@@ -39,7 +40,9 @@ class FittedTemplate:
         """Write the YAML file, and the mesh beside it; their paths."""
         mesh = path.with_name(f"{path.stem}_mesh.npz")
         self.mesh.write(mesh)
-        write_text(path, self.text(self.description.model_copy(update={"mesh": mesh})))
+        line = schema_line(path, "template")
+        text = self.text(self.description.model_copy(update={"mesh": mesh}))
+        write_text(path, text if line is None else f"{line}\n{text}")
         return path, mesh
 
 

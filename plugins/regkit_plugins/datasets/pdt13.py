@@ -1,0 +1,152 @@
+"""PDT-13: Kinect depth of people who were marked, in MATLAB's files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field
+
+from regkit.camera import Camera
+from regkit.errors import DataError
+from regkit.interfaces import Dataset, Sequence
+from regkit.model import InputPath, Model
+from regkit.observation import Frame, Truth
+from regkit_plugins.datasets.axes import Axes, in_camera
+from regkit_plugins.datasets.matlab import array_shape, read_array, read_frames
+from regkit_plugins.datasets.subjects import SubjectPattern, subject_of
+
+Positive = Annotated[float, Field(gt=0.0)]
+
+
+class Intrinsics(Model):
+    """A pinhole camera; without other numbers, the nominal one of a Kinect."""
+
+    focal_px: Positive = 571.4
+    """Focal length [px]."""
+    centre_px: tuple[float, float] = (319.5, 239.5)
+    """Principal point [px]: column and row, from the centre of the first."""
+
+
+class Pdt13(Dataset):
+    """PDT-13 (Helten, Baak, Bharaj, Müller, Seidel and Theobalt, 3DV 2013).
+
+    The data set's page (https://gvvperfcapeva.mpi-inf.mpg.de/public/PersonalizedDepthTracker) says
+    that people called M1 to M3 and F1 to F3 were seen by a Kinect, and the paper that a system with
+    markers saw them too. How the files of the tracking part are arranged could *not* be found out
+    from public sources. MATLAB's files are *assumed*, for each sequence one with the depth images
+    (rows, columns, T) and one with the reference positions (J, 3, T). Their names, arrays,
+    units and directions can all be set, and what is held in another form can be
+    brought into this one, or into the folder format (``depth``). The images are taken as they are:
+    cut the background away with the observer's ``crop``.
+    """
+
+    kind: Literal["pdt13"] = "pdt13"
+
+    root: InputPath
+    """The folder that holds the files."""
+    depth_suffix: str = "_depth.mat"
+    """How the depth images' files end; what precedes it names the sequence."""
+    depth_array: str = "depth"
+    """The array of the depth images in them."""
+    depth_scale: Positive = 1000.0
+    """Depth image units per metre."""
+    intrinsics: Intrinsics = Intrinsics()
+    """Of the depth camera."""
+    mirrored: bool = False
+    """Whether the images are stored as in a mirror, and must be turned round."""
+    joint_suffix: str = "_joints.mat"
+    """How the reference positions' files end."""
+    joint_array: str = "joints"
+    """The array of the reference positions in them."""
+    joint_names: tuple[str, ...] | None = None
+    """Names of the reference positions in their order; ``joint_0``, ``joint_1``, ... without it."""
+    joint_scale: Positive = 1000.0
+    """Units of the reference positions per metre."""
+    joint_axes: Axes = ("x", "y", "z")
+    """The axes of the reference positions that point right, down and forward from the camera."""
+    subjects: SubjectPattern | None = "([MF][1-3])"
+    """A regular expression whose one group finds the subject in a sequence's name."""
+    fps: Positive = 30.0
+    """Frames per second."""
+
+    def found(self) -> list[Sequence]:
+        """A sequence for each file of depth images."""
+        files = {
+            path.name.removesuffix(self.depth_suffix): path
+            for path in sorted(self.root.glob(f"*{self.depth_suffix}"))
+        }
+        if not files:
+            raise DataError(
+                f"no sequence here: no file ends with '{self.depth_suffix}' (dataset.depth_suffix)",
+                place=str(self.root),
+            )
+        wanted = [name for name in files if self.wanted(name)]
+        # If none is, all are told, so that a misspelt name can be set right.
+        return [self._sequence(name, files[name]) for name in wanted or files]
+
+    def _sequence(self, name: str, path: Path) -> Sequence:
+        height, width, length = array_shape(path, self.depth_array)
+        focal, (cx, cy) = self.intrinsics.focal_px, self.intrinsics.centre_px
+        return Pdt13Sequence(
+            name=name,
+            fps=self.fps,
+            length=min(length, self.frames or length),
+            subject=subject_of(name, self.subjects),
+            layout=self,
+            depth_file=path,
+            joint_file=self.root / f"{name}{self.joint_suffix}",
+            camera=Camera(width, height, focal, focal, cx, cy),
+        )
+
+
+@dataclass(frozen=True)
+class Pdt13Sequence(Sequence):
+    """One sequence.
+
+    Attributes:
+        layout: What the files are like.
+        depth_file: Depth images (H, W, T).
+        joint_file: Reference positions (J, 3, T), if it is there.
+        camera: Of the images as they are stored.
+    """
+
+    layout: Pdt13
+    depth_file: Path
+    joint_file: Path
+    camera: Camera
+
+    def frames(self) -> Iterator[Frame]:
+        """The depth images, back-projected."""
+        camera = self.camera
+        if self.layout.mirrored:
+            cx = camera.width - 1.0 - camera.cx
+            camera = Camera(camera.width, camera.height, camera.fx, camera.fy, cx, camera.cy)
+        images = read_frames(self.depth_file, self.layout.depth_array)
+        for index, image in zip(range(self.length), images, strict=False):
+            depth = image / self.layout.depth_scale
+            depth = np.where(np.isfinite(depth), depth, 0.0)
+            if self.layout.mirrored:
+                depth = depth[:, ::-1]
+            place = f"{self.depth_file}: frame {index}"
+            yield Frame(camera.back_projected(depth), camera, depth, place=place)
+
+    def truth(self) -> Truth | None:
+        """The reference positions; one that is not finite, or zero throughout, was not seen."""
+        if not self.joint_file.exists():
+            return None
+        stored = np.moveaxis(read_array(self.joint_file, self.layout.joint_array), 2, 0)
+        names = self.layout.joint_names or tuple(f"joint_{j}" for j in range(stored.shape[1]))
+        if stored.shape[1:] != (len(names), 3) or len(stored) < self.length:
+            raise DataError(
+                f"{self.layout.joint_array} has the shape {(*stored.shape[1:], len(stored))}; it "
+                f"must be ({len(names)}, 3, {self.length}): positions, axes, frames",
+                place=str(self.joint_file),
+            )
+        stored = stored[: self.length]
+        unseen = ~np.isfinite(stored).all(axis=2) | (stored == 0.0).all(axis=2)
+        positions = in_camera(stored / self.layout.joint_scale, self.layout.joint_axes)
+        return Truth(names, np.where(unseen[..., None], np.nan, positions))

@@ -1,0 +1,28 @@
+"""Who is seen in a sequence, as its name tells."""
+
+from __future__ import annotations
+
+import re
+from typing import Annotated
+
+from pydantic import AfterValidator
+
+
+def _of_one_group(pattern: str) -> str:
+    try:
+        groups = re.compile(pattern).groups
+    except re.error as error:
+        raise ValueError(f"not a regular expression: {error}") from None
+    if groups != 1:
+        raise ValueError(f"it must have one group, which is the subject's name; it has {groups}")
+    return pattern
+
+
+SubjectPattern = Annotated[str, AfterValidator(_of_one_group)]
+"""A regular expression whose only group is the subject's name within a sequence's."""
+
+
+def subject_of(name: str, pattern: SubjectPattern | None) -> str | None:
+    """Who is seen in the sequence ``name``; None if the pattern is not found in it."""
+    found = re.search(pattern, name) if pattern else None
+    return found[1] if found else None

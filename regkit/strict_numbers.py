@@ -1,0 +1,49 @@
+"""Numbers of models that are numbers, as in JSON Schema."""
+
+from __future__ import annotations
+
+from typing import Any, cast
+
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+
+_OPAQUE = ("cls", "default", "default_factory", "metadata", "serialization", "expected")
+"""Parts of a schema that hold no schema of a value."""
+
+
+def strict_numbers(schema: CoreSchema, model: type) -> CoreSchema:
+    """The schema of ``model``, whose numbers and truth values are taken from nothing else.
+
+    pydantic's own strict mode would also refuse lists where a tuple is meant, which YAML cannot
+    write, and 3.0 where a whole number is, which JSON Schema accepts.
+    """
+    return cast(CoreSchema, _strict(schema, model))
+
+
+def _strict(part: Any, model: type) -> Any:
+    if isinstance(part, list):
+        return [_strict(item, model) for item in part]
+    if isinstance(part, tuple):
+        return tuple(_strict(item, model) for item in part)
+    if not isinstance(part, dict):
+        return part
+    kind = part.get("type")
+    if kind == "model" and part.get("cls") is not model:
+        return part  # It saw to its own numbers.
+    if kind in ("int", "float"):
+        check = _whole_number if kind == "int" else _number
+        return core_schema.no_info_before_validator_function(check, cast(CoreSchema, part))
+    if kind == "bool":
+        return {**part, "strict": True}
+    return {key: value if key in _OPAQUE else _strict(value, model) for key, value in part.items()}
+
+
+def _number(value: Any) -> Any:
+    if isinstance(value, (str, bool)):
+        raise PydanticCustomError("number_type", "Input should be a valid number")
+    return value
+
+
+def _whole_number(value: Any) -> Any:
+    if isinstance(value, (str, bool)):
+        raise PydanticCustomError("number_type", "Input should be a valid integer")
+    return value
