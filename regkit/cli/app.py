@@ -12,6 +12,7 @@ from regkit.cli.doctor import doctor
 from regkit.cli.export import export
 from regkit.cli.fit import fit
 from regkit.cli.import_ import import_
+from regkit.cli.new import new
 from regkit.cli.plugins import plugins
 from regkit.cli.register import register
 from regkit.cli.report import report
@@ -27,7 +28,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 COMMANDS = (
-    run, report, export, register, calibrate, fit, import_, validate, plugins, schema, doctor
+    run, report, export, register, calibrate, fit, import_, validate, plugins, new, schema, doctor
 )  # fmt: skip
 for command in COMMANDS:
     # A word of Python's own has an underscore behind it.

@@ -18,6 +18,7 @@ from regkit.cache import cache_folder
 from regkit.cli.console import output
 from regkit.errors import RegkitError
 from regkit.interfaces import SLOTS
+from regkit.preset import preset, presets_of
 
 
 def doctor() -> None:
@@ -70,6 +71,11 @@ def _plugins() -> tuple[str, str, str]:
             total += 1
             try:
                 slot.load(kind)
+            except RegkitError as error:
+                broken.append(str(error))
+        for name in presets_of(slot.group):
+            try:
+                preset(slot.group, name)
             except RegkitError as error:
                 broken.append(str(error))
     if broken:

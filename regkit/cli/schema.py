@@ -36,32 +36,42 @@ def schema(
 ) -> None:
     """Write the JSON Schemas of experiments and their parts, for editors."""
     run_plugin_files(plugin)
+    if built_in:
+        with only_from(OWN):
+            texts = _texts()
+    else:
+        _tell_broken()
+        texts = _texts()
+    if check:
+        _check(folder, texts)
+        return
+    for name, text in texts.items():
+        file = folder / f"{name}.json"
+        write_text(file, text)
+        output.print(f"written: {file}", highlight=False, soft_wrap=True)
+    line = f"{MARK}{(folder / 'experiment.json').as_posix()}"
+    output.print(
+        f"for an editor, begin an experiment with this line, the path as seen from it: {line}",
+        markup=False,
+        highlight=False,
+        soft_wrap=True,
+    )
+
+
+def _check(folder: Path, texts: dict[str, str]) -> None:
+    """End with the exit code 1 if a file is neither as given nor that of the built-ins alone."""
+    files = {name: folder / f"{name}.json" for name in texts}
+    found = {
+        name: file.read_text(encoding="utf-8") if file.exists() else ""
+        for name, file in files.items()
+    }
+    if found == texts:
+        return
     with only_from(OWN):
         own = _texts()
-    whole = own if built_in else _texts()
-    if not built_in:
-        _tell_broken()
-    stale = False
-    for name, text in whole.items():
-        file = folder / f"{name}.json"
-        if check:
-            known = file.read_text(encoding="utf-8") if file.exists() else ""
-            if known not in (text, own[name]):
-                stale = True
-                errors.print(
-                    f"{file} is not up to date; run: regkit schema {folder}", soft_wrap=True
-                )
-        else:
-            write_text(file, text)
-            output.print(f"written: {file}", highlight=False, soft_wrap=True)
-    if not check:
-        line = f"{MARK}{(folder / 'experiment.json').as_posix()}"
-        output.print(
-            f"for an editor, begin an experiment with this line, the path as seen from it: {line}",
-            markup=False,
-            highlight=False,
-            soft_wrap=True,
-        )
+    stale = [files[name] for name, text in found.items() if text not in (texts[name], own[name])]
+    for file in stale:
+        errors.print(f"{file} is not up to date; run: regkit schema {folder}", soft_wrap=True)
     if stale:
         raise typer.Exit(1)
 

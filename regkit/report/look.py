@@ -11,7 +11,7 @@ import numpy as np
 from regkit.arrays import Array
 from regkit.body import Body
 from regkit.interfaces import Registrar
-from regkit.primitives import Gaussians, Primitives, TaperedCapsules
+from regkit.primitives import Gaussians, Primitives, TaperedCapsules, Volumes
 from regkit.skeleton import Placement
 from regkit.tracking import TrackedFrame
 
@@ -27,13 +27,15 @@ class Form:
     """K placed primitives, as they are drawn.
 
     Attributes:
-        kind: ``gaussians``, ``capsules`` or ``points``; of the last only the centres are known.
+        kind: ``gaussians``, ``capsules``, ``solids`` or ``points``; of the last only the centres
+            are known.
         centres: (K, 3) [m].
         axes: R_world_primitive, (K, 3, 3).
         scales: Standard deviations along the axes, (K, 3) [m].
         weights: (K,).
         halves: Of capsules, half the distance of the ends on the second axis, (K,) [m].
         radii: Of capsules, at the ends, (K, 2) [m].
+        surfaces: Of other solids, points all over each in its own axes, (K, P, 3) [m].
     """
 
     kind: str
@@ -43,6 +45,7 @@ class Form:
     weights: Array
     halves: Array
     radii: Array
+    surfaces: Array
 
     @classmethod
     def of(cls, primitives: Primitives, placement: Placement) -> Self:
@@ -50,11 +53,14 @@ class Form:
         placed = primitives.place(placement.transforms)
         count = len(primitives)
         kind, halves, radii = "points", np.zeros(0), np.zeros((0, 2))
+        surfaces = np.zeros((0, 0, 3))
         every = 1
         if isinstance(primitives, TaperedCapsules) and count <= MANY:
             kind, halves, radii = "capsules", primitives.halves, primitives.radii
         elif isinstance(primitives, Gaussians) and count <= MANY:
             kind = "gaussians"
+        elif isinstance(primitives, Volumes) and count <= MANY:
+            kind, surfaces = "solids", primitives.surface_points()
         else:
             every = -(-count // MOST_POINTS)
         return cls(
@@ -65,6 +71,7 @@ class Form:
             weights=primitives.weights[: count if every == 1 else 0],
             halves=halves,
             radii=radii,
+            surfaces=surfaces,
         )
 
     def covariances(self) -> Array:
@@ -138,7 +145,7 @@ class Look:
         """
         many = {name: np.asarray(array, dtype=float) for name, array in named.items()
                 if array.dtype == np.float32}  # fmt: skip
-        form = ("centres", "axes", "scales", "weights", "halves", "radii")
+        form = ("centres", "axes", "scales", "weights", "halves", "radii", "surfaces")
         own = ("points", "bones", "markers", "reference")
         return cls(
             frame=int(named["frame"]),

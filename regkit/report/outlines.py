@@ -17,7 +17,7 @@ def outlines(form: Form, view: tuple[int, int]) -> Iterator[Array]:
     """What a view shows of primitives, each a closed line (2, P) [m]; nothing of points.
 
     Args:
-        form: Gaussians, of which the 2-sigma ellipsoids are seen, or capsules.
+        form: Gaussians, of which the 2-sigma ellipsoids are seen, capsules, or other solids.
         view: The axes of the camera's frame to the right and down.
     """
     if form.kind == "gaussians":
@@ -30,6 +30,13 @@ def outlines(form: Form, view: tuple[int, int]) -> Iterator[Array]:
         ends = np.stack([form.centres - ways, form.centres + ways], axis=1)[:, :, [*view]]
         for pair, radii in zip(ends, form.radii, strict=True):
             circles = pair[:, :, None] + radii[:, None, None] * _CIRCLE
-            points = circles.transpose(0, 2, 1).reshape(-1, 2)
-            around = ConvexHull(points).vertices
-            yield points[[*around, around[0]]].T
+            yield _hull(circles.transpose(0, 2, 1).reshape(-1, 2))
+    elif form.kind == "solids":
+        surfaces = form.centres[:, None] + form.surfaces @ np.swapaxes(form.axes, 1, 2)
+        yield from map(_hull, surfaces[:, :, [*view]])
+
+
+def _hull(points: Array) -> Array:
+    """The closed line (2, P) around points (N, 2)."""
+    around = ConvexHull(points).vertices
+    return np.asarray(points[[*around, around[0]]].T)

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from regkit.metrics import JointErrors, Measure
+from regkit.primitives import SPHERE
 from regkit.report import Record, Run
 from regkit.report.look import Form, Look
 
@@ -29,6 +30,7 @@ def form(kind: str, random: np.random.Generator) -> Form:
         weights=np.ones(count),
         halves=np.full(count if capsules else 0, 0.1),
         radii=np.full((count if capsules else 0, 2), 0.05),
+        surfaces=np.tile(0.07 * SPHERE, (count if kind == "solids" else 0, 1, 1)),
     )
 
 

@@ -34,7 +34,7 @@ MODULES = {
     "class_creation": HEAD.replace('"odd"\n    makes', '"odd"\n    loud: "odd" + 1 = 2\n    makes'),
     "unknown_type": HEAD.replace('"odd"\n    makes', '"odd"\n    loud: "Loudness" = 2\n    makes'),
     "no_kind": HEAD.replace('    kind: Literal["odd"] = "odd"\n', ""),
-    "other_kind": HEAD.replace('"odd"', '"even"'),
+    "other_kind": HEAD.replace('"odd"', '"ev" "en"'),
     "no_makes": HEAD.replace("    makes: ClassVar[type[Primitives]] = Gaussians\n", ""),
     "abstract": HEAD.replace("def attach", "def attached"),
     "syntax": "class Odd(\n",
@@ -56,56 +56,50 @@ EXPECTED = {
 }
 
 
-@pytest.fixture(params=EXPECTED)
-def broken(request, distribution, tmp_path) -> str:
-    """Install the distribution ``odd-things``, broken in one way; what it is told as."""
-    name = request.param
-    target = {
-        "function": f"odd_{name}:odd",
-        "other_slot": "regkit_plugins.solvers.lbfgs:LBFGS",
-        "absent": "regkit.errors:Thing",
-    }.get(name, f"odd_{name}:Odd")
-    distribution(f"[regkit.shapes]\nodd = {target}\n", "odd-things")
-    # Modules of one name would be imported once for all tests.
-    (tmp_path / "odd-things" / f"odd_{name}.py").write_text(MODULES.get(name, ""))
-    return f"plug-in 'odd' of odd-things {EXPECTED[name]}"
+@pytest.fixture
+def broken(distribution, tmp_path) -> dict[str, str]:
+    """Install the distribution ``odd-things``, all of whose plug-ins are broken; what is told."""
+    targets = {name: f"odd_{name}:{'odd' if name == 'function' else 'Odd'}" for name in EXPECTED}
+    targets["other_slot"] = "regkit_plugins.solvers.lbfgs:LBFGS"
+    targets["absent"] = "regkit.errors:Thing"
+    lines = [f"{name} = {target}" for name, target in targets.items()]
+    distribution("\n".join(["[regkit.shapes]", *lines]), "odd-things")
+    for name, text in MODULES.items():
+        text = text.replace('"odd"', f'"{name}"')
+        (tmp_path / "odd-things" / f"odd_{name}.py").write_text(text)
+    return {name: f"plug-in '{name}' of odd-things {told}" for name, told in EXPECTED.items()}
 
 
-def test_broken_plugin_fails_only_when_it_is_named(regkit, files, broken):
+def test_broken_plugins_fail_only_when_they_are_named(regkit, files, broken):
     ended = regkit("run", files.experiment, "--out", files.out, *QUICK)
     assert ended.code == 0, ended.err
     assert files.metrics()["gsog"]["mean"]["frames"] == 1
-    ended = regkit(
-        "run", files.experiment, "--out", files.out, "--set", "methods.gsog.shape=odd", *QUICK
-    )
-    assert ended.code == 1
-    assert ended.err.startswith("error: --set methods.gsog.shape")
-    assert broken in ended.err
-    assert "Traceback" not in ended.err
+    text = files.experiment.read_text()
+    for name, told in broken.items():
+        files.experiment.write_text(text.replace("shape: gsog", f"shape: {name}"))
+        ended = regkit("run", files.experiment, "--out", files.out, *QUICK)
+        assert ended.code == 1
+        assert ended.err.startswith(f"error: {files.experiment}:7: methods.gsog.shape: {told}")
+        assert "Traceback" not in ended.err
 
 
-def test_broken_plugin_is_told_by_every_command(regkit, broken, monkeypatch, tmp_path):
+def test_broken_plugins_are_told_by_every_command(regkit, broken, monkeypatch, tmp_path):
     monkeypatch.setenv("COLUMNS", "400")
-    listed = regkit("plugins")
-    assert listed.code == 0
-    (row,) = (line for line in listed.out.splitlines() if " odd " in line)
-    assert f"broken: {broken}" in row
-    assert "odd-things 1.0" in row
-    assert " gsog " in listed.out
-
-    health = regkit("doctor")
-    assert health.code == 1
-    assert broken in health.out
-    assert "reinstall or uninstall" in health.out
-
+    listed, health = regkit("plugins"), regkit("doctor")
     written = regkit("schema", tmp_path / "schemas")
-    assert written.code == 0
-    assert f"left out: {broken}" in written.err
+    assert (listed.code, health.code, written.code) == (0, 1, 0)
     schema = (tmp_path / "schemas" / "experiment.json").read_text()
-    assert '"odd"' not in schema
-    assert all(
-        f'"{kind}"' in schema for slot in SLOTS for kind in slot.available() if kind != "odd"
-    )
+    for name, told in broken.items():
+        (row,) = (line for line in listed.out.splitlines() if f" {name} " in line)
+        assert f"broken: {told}" in row
+        assert "odd-things 1.0" in row
+        assert told in health.out
+        assert f"left out: {told}" in written.err
+        assert f'"{name}"' not in schema
+    assert "reinstall or uninstall" in health.out
+    for slot in SLOTS:
+        for kind in slot.available():
+            assert kind in broken or (f" {kind} " in listed.out and f'"{kind}"' in schema)
     assert regkit("schema", ROOT / "schemas", "--check").code == 0
 
 
@@ -167,6 +161,7 @@ def test_broken_preset_is_told(regkit, distribution, files):
     table = regkit("plugins")
     assert table.code == 0
     assert "broken: preset 'odd' of odd-things" in " ".join(table.out.split())
+    assert "preset 'odd' of odd-things cannot be imported" in regkit("doctor").out
     ended = regkit("run", files.experiment, "--set", "methods.gsog={preset: odd}", *QUICK)
     assert ended.code == 1
     assert "preset 'odd' of odd-things cannot be imported: ModuleNotFoundError" in ended.err
@@ -176,3 +171,41 @@ def test_broken_solver_is_none_of_those_that_keep_limits(distribution):
     distribution("[regkit.solvers]\nodd = no_such_solvers:Odd\n", "odd-things")
     assert "ipopt" in Solver.keeping_limits()
     assert "odd" not in Solver.keeping_limits()
+
+
+def test_committed_schemas_are_of_the_built_ins_alone(regkit, distribution, tmp_path):
+    """Whatever else is installed where they are checked."""
+    distribution("[regkit.trackers]\nstay = tracker_that_stays:Stay\n", "good")
+    (tmp_path / "good" / "tracker_that_stays.py").write_text(STAYING)
+    assert regkit("schema", tmp_path / "all").code == 0
+    assert '"stay"' in (tmp_path / "all" / "experiment.json").read_text()
+    assert regkit("schema", tmp_path / "all", "--check").code == 0
+    assert regkit("schema", tmp_path / "all", "--check", "--built-in").code == 1
+    assert regkit("schema", tmp_path / "own", "--built-in").code == 0
+    for file in sorted((ROOT / "schemas").glob("*.json")):
+        assert (tmp_path / "own" / file.name).read_text() == file.read_text()
+    assert regkit("schema", ROOT / "schemas", "--check").code == 0
+    assert regkit("schema", ROOT / "schemas", "--check", "--built-in").code == 0
+
+
+STAYING = '''
+from typing import Literal
+
+from regkit.interfaces import Follower, Registered, Tracker
+
+
+class Staying(Follower):
+    """Gives back the start."""
+
+    def step(self, observation, past):
+        return Registered.given(past[0].pose)
+
+
+class Stay(Tracker):
+    """Never moves."""
+
+    kind: Literal["stay"] = "stay"
+
+    def follow(self, registrar):
+        return Staying()
+'''

@@ -171,7 +171,7 @@ def test_large_run_stays_a_page_that_can_be_read(tmp_path):
 
 
 @pytest.mark.parametrize("compared", [True, False])
-@pytest.mark.parametrize("kind", ["gaussians", "capsules", "points"])
+@pytest.mark.parametrize("kind", ["gaussians", "capsules", "solids", "points"])
 def test_record_is_read_as_it_was_written(random, kind, compared, tmp_path):
     made = record(random, 0.03, kind=kind, compared=compared)
     np.savez_compressed(tmp_path / "record.npz", **made.arrays())
@@ -215,6 +215,15 @@ def test_outline_of_a_capsule_is_as_far_from_its_axis_as_its_radius(random):
         beside = np.abs(line[0] - centre[0]).max()
         along = np.abs(line[1] - centre[1]).max()
         assert (beside, along) == pytest.approx((0.05, 0.1 + 0.05), rel=1e-3)
+
+
+def test_outline_of_a_solid_is_the_hull_of_its_surface(random):
+    made = form("solids", random)
+    lines = list(outlines(made, (2, 1)))
+    assert len(lines) == len(made.centres)
+    for line, centre in zip(lines, made.centres, strict=True):
+        reached = np.abs(line - centre[[2, 1], None]).max(axis=1)
+        np.testing.assert_allclose(reached, 0.07, rtol=0.01)
 
 
 def test_colours_tell_shape_models_and_shades_their_methods():

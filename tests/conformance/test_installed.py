@@ -1,0 +1,60 @@
+"""Every plug-in that is installed keeps the laws of its group: the built-ins, and all others."""
+
+from itertools import product
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from public_layouts import SMALL, write_itop, write_pdt13, write_records
+
+from regkit.testing import conformance
+from regkit.testing.samples import LINKAGE
+from regkit_plugins.datasets.record import Record
+
+DATA = Path(__file__).parents[2] / "docs" / "examples" / "data"
+
+RECORD = Record(width=SMALL.width, height=SMALL.height)
+HELD = TemporaryDirectory(prefix="regkit-layouts-")
+PUBLIC = Path(HELD.name)
+"""Small files in the layouts of published data sets, until the tests end."""
+for folder in ("records", "itop", "pdt13"):
+    (PUBLIC / folder).mkdir()
+write_records(PUBLIC / "records" / "seq_b_3.bin", RECORD)
+for view, split in product(("side", "top"), ("train", "test")):
+    write_itop(PUBLIC / "itop", view, split)
+write_pdt13(PUBLIC / "pdt13")
+
+LOSSES = ("squares", "huber", "tukey", "geman_mcclure")
+RIGID = {"shape": "cloud_gsog", "kernel": "local_likelihood", "solver": "gauss_newton"}
+
+TestInstalled = conformance(
+    examples={
+        "datasets.depth": {"root": str(DATA / "human_walk")},
+        "datasets.clouds": {"root": str(DATA / "mannequin")},
+        "datasets.utd_mhad": {"root": str(Path(__file__).parent / "data" / "utd_mhad")},
+        "datasets.synthetic": {
+            "defaults": {"motion": {"kind": "clip", "name": "walk"}, "frames": 2},
+            "takes": {"near": {}, "far": {"view": {"distance": 3.5}}},
+        },
+        "datasets.eval": {"root": str(PUBLIC / "records"), "record": RECORD.model_dump()},
+        "datasets.smmc10": {"root": str(PUBLIC / "records"), "record": RECORD.model_dump()},
+        "datasets.itop": {"root": str(PUBLIC / "itop")},
+        "datasets.pdt13": {"root": str(PUBLIC / "pdt13")},
+        "templates.file": {"path": str(LINKAGE)},
+        "templates.cloud": {"path": str(DATA / "mannequin" / "model.npz")},
+        "kernels.likelihood": [{}, {"outliers": 0.2}],
+        "kernels.point_to_point": [{}, {"robust": {"loss": "huber"}}, {"way_back": 0.5}],
+        "kernels.point_to_plane": [
+            {},
+            {"point_share": 0.0, "robust": {"loss": "squares", "scale": 0.1}},
+            {"angle_deg": 80.0, "way_back": 0.2, "noise": None},
+        ],
+        "kernels.sphere_distance": [{}, *({"robust": {"loss": loss}} for loss in LOSSES)],
+        "methods.direct": [
+            {"shape": "gsog", "kernel": "likelihood", "solver": "gauss_newton"},
+            {"shape": "sog", "kernel": "correlation", "solver": "lbfgs"},
+            {"shape": "sphere", "kernel": "sphere_distance", "solver": "ipopt"},
+            {"shape": "mesh", "kernel": "point_to_plane", "solver": "gauss_newton"},
+        ],
+        "methods.coarse_to_fine": RIGID,
+    }
+)
