@@ -9,7 +9,7 @@ bin := .venv/bin
 help: ## Show this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
-$(ready): pyproject.toml .ci/requirements.lock .ci/setup
+$(ready): pyproject.toml .ci/requirements.lock .ci/setup tests/third_party/regkit-superquadric/pyproject.toml
 	@.ci/setup $(PYTHON)
 	@touch $@
 

@@ -60,7 +60,7 @@ def run(
     """
     from regkit.experiment import Study
     from regkit.experiment import run as run_experiment
-    from regkit.experiment.choice import chosen_workers
+    from regkit.experiment.workers.choice import chosen_workers
 
     run_plugin_files(plugin)
     workers = chosen_workers(jobs, cluster)

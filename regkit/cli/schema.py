@@ -91,7 +91,7 @@ def _tell_broken() -> None:
 def schemas() -> dict[str, dict[str, Any]]:
     """Each schema by the name of its file."""
     from regkit.body import BodyDescription
-    from regkit.experiment.sweep import SweptExperiment
+    from regkit.experiment.sweeps.sweep import SweptExperiment
     from regkit.interfaces import Dataset, Method
     from regkit.skeleton import SkeletonDescription
 

@@ -5,6 +5,6 @@ from regkit.experiment.ledger import Outcome
 from regkit.experiment.progress import Progress, Silent
 from regkit.experiment.reporting import found, report
 from regkit.experiment.runner import run
-from regkit.experiment.study import Study
+from regkit.experiment.sweeps.study import Study
 
 __all__ = ["Experiment", "Outcome", "Progress", "Silent", "Study", "found", "report", "run"]

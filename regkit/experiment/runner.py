@@ -9,13 +9,13 @@ from regkit.errors import ConfigError
 from regkit.experiment.experiment import Experiment
 from regkit.experiment.hold import held
 from regkit.experiment.ledger import Ledger, Outcome
-from regkit.experiment.packed import check_shared
 from regkit.experiment.progress import Progress, Silent
 from regkit.experiment.reporting import report, summarise
 from regkit.experiment.results import Results
-from regkit.experiment.study import Study
-from regkit.experiment.workers import ThisProcess, Workers
-from regkit.experiment.working import work
+from regkit.experiment.sweeps.study import Study
+from regkit.experiment.workers.packed import check_shared
+from regkit.experiment.workers.team import ThisProcess, Workers
+from regkit.experiment.workers.working import work
 from regkit.model import did_you_mean
 
 REPORTING = "writing the report"

@@ -11,7 +11,7 @@ from small_experiment import QUICK, Stepping, add_method, figures_but_times, sma
 from regkit.errors import DataError, DependencyError
 from regkit.experiment import Experiment, cluster, run
 from regkit.experiment.hold import Hold, held
-from regkit.experiment.packed import check_worker
+from regkit.experiment.workers.packed import check_worker
 from regkit.interfaces import Tracker
 from regkit.plugin import register
 

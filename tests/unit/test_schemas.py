@@ -20,7 +20,7 @@ from regkit.body import BodyDescription
 from regkit.cli.schema import schemas
 from regkit.cli.template_file import write_template
 from regkit.document import Document
-from regkit.experiment.sweep import SweptExperiment
+from regkit.experiment.sweeps.sweep import SweptExperiment
 from regkit.interfaces import Dataset, Method, Problem, Solution, Solver
 from regkit.plugin import register
 from regkit.schema_line import MARK, schema_line

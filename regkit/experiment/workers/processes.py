@@ -16,10 +16,10 @@ from typing import Any
 
 from regkit.errors import RegkitError
 from regkit.experiment.hold import Hold
-from regkit.experiment.packed import Packed, performed
 from regkit.experiment.progress import Progress
 from regkit.experiment.task import Result, Task
-from regkit.experiment.workers import TRIES, Team, Workers
+from regkit.experiment.workers.packed import Packed, performed
+from regkit.experiment.workers.team import TRIES, Team, Workers
 from regkit.optional import library
 
 PATIENCE = 0.2

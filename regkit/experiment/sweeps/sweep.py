@@ -13,7 +13,7 @@ from pydantic import ConfigDict, Field
 from regkit.document import Document
 from regkit.errors import ConfigError
 from regkit.experiment.experiment import Experiment
-from regkit.experiment.labels import variants
+from regkit.experiment.sweeps.labels import variants
 from regkit.model import Model, did_you_mean
 
 MOST = 1000

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from regkit.errors import ConfigError
-from regkit.experiment.workers import ThisProcess, Workers
+from regkit.experiment.workers.team import ThisProcess, Workers
 
 
 def chosen_workers(jobs: int, cluster: str | None) -> Workers:
@@ -20,7 +20,7 @@ def chosen_workers(jobs: int, cluster: str | None) -> Workers:
     if cluster is None:
         if jobs == 1:
             return ThisProcess()
-        from regkit.experiment.processes import Processes
+        from regkit.experiment.workers.processes import Processes
 
         return Processes(jobs)
     place = f"--cluster {cluster}"
@@ -33,6 +33,6 @@ def chosen_workers(jobs: int, cluster: str | None) -> Workers:
             "dask:tcp://10.0.0.1:8786",
             place=place,
         )
-    from regkit.experiment.cluster import DaskCluster
+    from regkit.experiment.workers.cluster import DaskCluster
 
     return DaskCluster(address)

@@ -10,7 +10,7 @@ from typing import Any
 from regkit.document import Document
 from regkit.errors import ConfigError
 from regkit.experiment.experiment import Experiment
-from regkit.experiment.sweep import combinations
+from regkit.experiment.sweeps.sweep import combinations
 
 TOLD = 5
 """So many mistakes are told of a sweep, in which one mistake can have many copies."""

@@ -1,0 +1,1 @@
+"""Sweeps: lists of values in the YAML, of which many experiments are made."""

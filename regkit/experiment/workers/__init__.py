@@ -1,0 +1,1 @@
+"""Who does an experiment's tasks: this process, others of this machine, or a Dask cluster."""
