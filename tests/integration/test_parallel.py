@@ -9,8 +9,9 @@ import pytest
 from small_experiment import QUICK, Stepping, add_method, figures_but_times, small
 
 from regkit.errors import DataError, DependencyError
-from regkit.experiment import Experiment, cluster, run
+from regkit.experiment import Experiment, run
 from regkit.experiment.hold import Hold, held
+from regkit.experiment.workers import cluster
 from regkit.experiment.workers.packed import check_worker
 from regkit.interfaces import Tracker
 from regkit.plugin import register
