@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import json
 import traceback
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 from regkit.body import Body
 from regkit.document import yaml_text
@@ -87,15 +85,7 @@ class Results:
     def write(self, method: str, sequence: str, track: Track, body: Body, measure: Measure) -> None:
         """Write a finished sequence; its figures come last, and with them it counts as finished."""
         folder = self.sequence_folder(method, sequence)
-        arrays: dict[str, Any] = {f.name: getattr(track, f.name) for f in fields(track)}
-        skeleton = body.skeleton
-        links = list(skeleton.segment_links)
-        names = {
-            "marker_names": body.markers.names,
-            "ball_names": [skeleton.names[links.index(link)] for link in skeleton.ball_links],
-        }
-        arrays |= {name: np.array(values, dtype=np.str_) for name, values in names.items()}
-        write_arrays(folder / "poses.npz", arrays | {"size": np.array(body.size)})
+        write_arrays(folder / "poses.npz", track.named_arrays(body))
         (folder / "error.txt").unlink(missing_ok=True)
         write_json(folder / "measure.json", measure.to_dict())
 

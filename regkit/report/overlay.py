@@ -20,6 +20,7 @@ from regkit.tracking import Track, TrackedFrame
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 MANY = 300
 """More outlines than this would only hide each other."""
@@ -39,7 +40,20 @@ def draw_overlay(
     registrar: Registrar,
     truth: Truth | None,
 ) -> None:
-    """Draw the first, the worst and the last frame from the front and from the side.
+    """Draw the ``overlay`` to a file."""
+    with replacing(path) as temporary:
+        figure = overlay(title, frames, track, registrar, truth)
+        figure.savefig(temporary, dpi=110, metadata={"Software": None})
+
+
+def overlay(
+    title: str,
+    frames: Sequence[TrackedFrame],
+    track: Track,
+    registrar: Registrar,
+    truth: Truth | None,
+) -> Figure:
+    """The first, the worst and the last frame from the front and from the side.
 
     Gaussians are drawn as the outlines of their 2-sigma ellipsoids, capsules and spheres as their
     own, what is a point or one of very many as dots, reference joints as crosses.
@@ -64,8 +78,7 @@ def draw_overlay(
             grid[row, column].set_title(f"frame {index} ({name}), {view}", fontsize=9)
     handles, labels = grid[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=len(labels), fontsize=8)
-    with replacing(path) as temporary:
-        figure.savefig(temporary, dpi=110, metadata={"Software": None})
+    return figure
 
 
 def _bones(body: Body, placement: Placement) -> Iterator[tuple[Array, Array]]:
