@@ -33,12 +33,13 @@ myst_heading_anchors = 4
 myst_links_external_new_tab = False
 
 autodoc_member_order = "bysource"
-autodoc_default_options = {"members": True, "show-inheritance": False}
+autodoc_default_options = {"members": True}
 autodoc_typehints = "signature"
 autodoc_type_aliases = {
     name: name
     for name in (
         "Array",
+        "ArrayLike",
         "Indices",
         "Choice",
         "Cloud",
@@ -62,7 +63,7 @@ nitpick_ignore_regex = [
     ),
     (r"py:.*", r"(pydantic|pydantic_core|rich|ruamel|scipy|types|typing)\..*"),
     # Names that stand for a type, for which there is nothing to link to.
-    (r"py:class", r"TypeAliasForwardRef|Choice|Cloud|Frames|Intrinsics|Measured|Reference"),
+    (r"py:class", r"TypeAliasForwardRef|ArrayLike|Choice|Cloud|Frames|Intrinsics|Measured|Reference"),
     (r"py:class", r"Figure|Field|(dict|tuple)\[str"),
     # What a YAML file holds is told by tables of fields, not here.
     (r"py:class", r"(regkit\.(body|skeleton)\..*\.)?\w+Description"),
