@@ -24,7 +24,7 @@ lint: $(ready)
 	@$(bin)/ruff format --check .
 	@$(bin)/mypy
 	@$(bin)/lint-imports --no-cache
-	@$(bin)/regkit schema --check
+	@$(bin)/regkit schema --check --built-in
 	@$(bin)/regkit validate docs/examples/*.yaml plugins/regkit_plugins/templates/*.yaml
 
 docs: $(ready) ## Build the documentation in docs/_build
@@ -42,7 +42,7 @@ templates: $(ready) ## Fit the templates to the meshes again
 	@$(bin)/python -m regkit_plugins.fitting plugins/regkit_plugins/templates
 
 schemas: $(ready) ## Write the JSON Schemas again
-	@$(bin)/regkit schema
+	@$(bin)/regkit schema --built-in
 
 lock: $(ready) ## Resolve the dependencies again
 	@$(bin)/uv pip compile pyproject.toml --extra dev --universal --python-version 3.11 \

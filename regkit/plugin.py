@@ -11,15 +11,16 @@ from __future__ import annotations
 import importlib.util
 import inspect
 import sys
-from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
-from typing import Any, ClassVar, Self, TypeVar
+from typing import Any, ClassVar, Self, TypeVar, cast
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic.errors import PydanticInvalidForJsonSchema, PydanticUndefinedAnnotation
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from regkit.errors import PluginError, RegkitError
+from regkit.installed import Installed, installed
 from regkit.model import Model, did_you_mean
 from regkit.preset import changed, preset, presets_of
 
@@ -37,21 +38,9 @@ class Plugin(Model):
     """Name of the plug-in, equal to its entry-point name."""
 
     @classmethod
-    def available(cls) -> dict[str, EntryPoint | type[Self]]:
-        """All plug-ins of this group by name, none of them imported.
-
-        Raises:
-            PluginError: If two distributions declare the same name.
-        """
-        found: dict[str, EntryPoint | type[Self]] = {}
-        for point in entry_points(group=cls.group):
-            other = found.get(point.name)
-            if isinstance(other, EntryPoint) and other.value != point.value:
-                raise PluginError(
-                    f"two plug-ins in {cls.group} are called {point.name!r}: {other.value} and "
-                    f"{point.value}; uninstall one of their distributions"
-                )
-            found[point.name] = point
+    def available(cls) -> dict[str, Installed | type[Self]]:
+        """All plug-ins of this group by name, none of them imported."""
+        found: dict[str, Installed | type[Self]] = {**installed(cls.group)}
         return dict(sorted((found | _REGISTERED.get(cls.group, {})).items()))
 
     @classmethod
@@ -59,33 +48,26 @@ class Plugin(Model):
         """Import the plug-in called ``kind``.
 
         Raises:
-            PluginError: If there is none, it cannot be imported, or it is not what it claims to be.
+            PluginError: If there is none, it cannot be imported, it is not what it claims to be, or
+                two distributions bring one of that name.
         """
         available = cls.available()
-        plugin = available.get(kind)
-        if plugin is None:
+        found = available.get(kind)
+        if found is None:
             raise PluginError(
                 f"no plug-in '{kind}' in {cls.group} (installed: {', '.join(available)})"
                 + did_you_mean(kind, list(available))
             )
-        if isinstance(plugin, EntryPoint):
-            origin = plugin.dist.name if plugin.dist else plugin.value
-            try:
-                plugin = plugin.load()
-            except Exception as error:
-                raise PluginError(
-                    f"plug-in '{kind}' of {origin} cannot be imported: "
-                    f"{type(error).__name__}: {error}"
-                ) from error
-        if not (inspect.isclass(plugin) and issubclass(plugin, cls)) or inspect.isabstract(plugin):
+        if not isinstance(found, Installed):
+            return found
+        plugin = found.load("plug-in")
+        try:
+            _check(plugin, cls, kind)
+        except PluginError as error:
             raise PluginError(
-                f"'{kind}' in {cls.group} is not a concrete {cls.__name__}: {plugin!r}"
-            )
-        if _kind_of(plugin) != kind:
-            raise PluginError(
-                f"plug-in '{kind}': {plugin.__qualname__}.kind must default to its entry-point name"
-            )
-        return plugin
+                f"plug-in '{kind}' of {found.distributions[0]} {error.message}"
+            ) from None
+        return cast(type[Self], plugin)
 
     @classmethod
     def __get_pydantic_core_schema__(
@@ -140,7 +122,7 @@ class Plugin(Model):
         for kind in cls.available():
             try:
                 options.append(handler(cls.load(kind).__pydantic_core_schema__))
-            except PluginError:
+            except (PluginError, PydanticInvalidForJsonSchema):
                 continue  # A broken plug-in must not harm those who never name it.
             kinds.append(kind)
         forms: list[JsonSchemaValue] = [
@@ -161,22 +143,48 @@ _REGISTERED: dict[str, dict[str, type[Any]]] = {}
 
 
 def register(plugin: type[P]) -> type[P]:
-    """Make a plug-in class available in this process: in notebooks, tests, ``--plugin`` files."""
-    _REGISTERED.setdefault(plugin.group, {})[_kind_of(plugin)] = plugin
+    """Make a plug-in class available in this process: in notebooks, tests, ``--plugin`` files.
+
+    Raises:
+        PluginError: If it does not declare what a plug-in must.
+    """
+    kind = plugin.model_fields["kind"].default
+    try:
+        _check(plugin, Plugin, kind)
+    except PluginError as error:
+        raise PluginError(f"{plugin.__qualname__} {error.message}") from None
+    _REGISTERED.setdefault(plugin.group, {})[kind] = plugin
     return plugin
 
 
-def _kind_of(plugin: type[Plugin]) -> str:
-    """The name of a plug-in, once it is known to declare all that its slot asks for."""
+def _check(plugin: object, slot: type[Plugin], kind: str) -> None:
+    """Refuse what is no complete plug-in of a slot; the message continues its name."""
+    if not (inspect.isclass(plugin) and issubclass(plugin, slot)):
+        raise PluginError(f"is not a concrete {slot.__name__}: {plugin!r}")
+    missing = ", ".join(sorted(getattr(plugin, "__abstractmethods__", ())))
+    if missing:
+        raise PluginError(
+            f"is not a concrete {slot.__name__}: {plugin.__qualname__} does not define {missing}"
+        )
     for name in plugin.declared:
         if not any(name in vars(base) for base in plugin.__mro__):
-            raise PluginError(f"{plugin.__qualname__} must declare the class variable '{name}'")
-    kind = plugin.model_fields["kind"].default
-    if not isinstance(kind, str):
+            raise PluginError(f"must declare the class variable '{name}' in {plugin.__qualname__}")
+    own = plugin.model_fields["kind"].default
+    if not isinstance(own, str):
         raise PluginError(
-            f'{plugin.__qualname__} must declare its name: kind: Literal["name"] = "name"'
+            f'must declare its name in {plugin.__qualname__}: kind: Literal["name"] = "name"'
         )
-    return kind
+    if own != kind:
+        raise PluginError(
+            f"calls itself '{own}': {plugin.__qualname__}.kind must default to its entry-point name"
+        )
+    try:
+        plugin.model_rebuild()
+    except PydanticUndefinedAnnotation as error:
+        raise PluginError(
+            f"has a field of an unknown type in {plugin.__qualname__}: name '{error.name}' is not "
+            "defined"
+        ) from None
 
 
 def run_plugin_file(path: Path) -> None:

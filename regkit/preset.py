@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
 from typing import Any
 
 from regkit.document import Document
 from regkit.errors import PluginError
+from regkit.installed import Installed, installed
 from regkit.model import Text, did_you_mean
 
 
-def presets_of(group: str) -> dict[str, EntryPoint]:
+def presets_of(group: str) -> dict[str, Installed]:
     """The presets of a group of plug-ins by name: entry points to the paths of YAML files."""
-    return {point.name: point for point in entry_points(group=f"{group}.presets")}
+    return installed(f"{group}.presets")
 
 
 def preset_file(group: str, name: str) -> Path:
@@ -25,18 +25,18 @@ def preset_file(group: str, name: str) -> Path:
         name: Of an installed preset, or a path that ends with ``.yaml``.
 
     Raises:
-        PluginError: If there is none of that name.
+        PluginError: If there is none of that name, or it is broken.
     """
     if name.endswith((".yaml", ".yml")):
         folder = name.folder if isinstance(name, Text) else Path.cwd()
         return folder / Path(name).expanduser()
-    installed = presets_of(group)
-    if name not in installed:
+    presets = presets_of(group)
+    if name not in presets:
         raise PluginError(
-            f"no preset '{name}' (installed: {', '.join(installed)}; or name a .yaml file)"
-            + did_you_mean(name, list(installed))
+            f"no preset '{name}' (installed: {', '.join(presets)}; or name a .yaml file)"
+            + did_you_mean(name, list(presets))
         )
-    return Path(installed[name].load())
+    return Path(presets[name].load("preset"))
 
 
 def preset(group: str, name: str) -> Document:

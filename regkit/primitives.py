@@ -15,6 +15,17 @@ import numpy as np
 from regkit.arrays import Array, Indices
 
 
+def _sphere() -> Array:
+    """Unit vectors in all directions, (P, 3), along 24 meridians."""
+    polar, around = np.mgrid[0 : np.pi : 13j, 0 : 2.0 * np.pi : 25j][:, :, :-1].reshape(2, -1)
+    flat = np.sin(polar)
+    return np.column_stack([flat * np.cos(around), np.cos(polar), flat * np.sin(around)])
+
+
+SPHERE = _sphere()
+"""Directions in which surfaces are sampled for pictures."""
+
+
 @dataclass(frozen=True)
 class Primitives:
     """K primitives in the frames of their segments; a subclass gives the scales their meaning.
@@ -52,6 +63,14 @@ class Primitives:
 @dataclass(frozen=True)
 class Volumes(Primitives):
     """Primitives that fill a part of space, which terms take as the ellipsoids of two scales."""
+
+    def surface_points(self) -> Array:
+        """Points all over the surface of each, in its own axes about its centre, (K, P, 3) [m].
+
+        Pictures show the outline of their hull. Here it is that of the ellipsoid of two scales; a
+        subclass whose surface is another one overrides it.
+        """
+        return np.asarray(2.0 * self.scales[:, None, :] * SPHERE)
 
 
 @dataclass(frozen=True)
@@ -91,6 +110,13 @@ class TaperedCapsules(Volumes):
         """How steeply the radius falls along the axis, (K,): sines of the cones' half angles."""
         lengths = np.where(self.halves > 0.0, 2.0 * self.halves, 1.0)
         return np.asarray((self.radii[:, 0] - self.radii[:, 1]) / lengths)
+
+    def surface_points(self) -> Array:
+        """Points of the two spheres."""
+        ways = self.halves[:, None] * np.array([-1.0, 1.0])
+        points = self.radii[:, :, None, None] * SPHERE
+        points[..., 1] += ways[:, :, None]
+        return points.reshape(len(self), -1, 3)
 
     def scaled(self, factor: float) -> Self:
         """The same capsules on a skeleton whose lengths are multiplied by ``factor``."""

@@ -7,59 +7,20 @@ import pytest
 
 from regkit.body import Body, BodyDescription
 from regkit.document import Document
+from regkit.testing.samples import LINKAGE
 
 ROOT = Path(__file__).parent.parent
 REFERENCE_DATA = ROOT.parent / "shared" / "data"
 
-LINKAGE = """
-title: A linkage with every type of joint.
-size: {name: length, value: 1.0, range: [0.5, 2.0]}
-segments:
-  base:
-    joint: {type: free}
-    capsules: [{start: [0, 0, 0], end: [0, 0.3, 0], radius: [0.1, 0.08]}]
-    markers: {origin: [0, 0, 0]}
-  arm:
-    parent: base
-    offset: [0.1, 0.3, 0]
-    joint: {type: ball, swing_deg: [60, 90], twist_deg: [-45, 45]}
-    capsules: [{start: [0, 0, 0], end: [0, 0.25, 0.1], radius: [0.06, 0.03]}]
-  forearm:
-    parent: arm
-    offset: [0, 0.25, 0.1]
-    rotation_deg: [20, 0, 30]
-    joint: {type: hinge, axis: [1, 1, 0], limits_deg: [-10, 140]}
-    capsules: [{start: [0, 0, 0], end: [0, 0.2, 0], radius: 0.03}]
-  wrist:
-    parent: forearm
-    offset: [0, 0.2, 0]
-    joint: {type: universal, axes: [x, z], limits_deg: [[-60, 60], [-20, 20]]}
-    capsules: [{start: [0, 0, 0], end: [0, 0.1, 0.02], radius: [0.03, 0.02]}]
-    markers: {tip: [0, 0.1, 0.02]}
-  plate:
-    parent: wrist
-    offset: [0, 0.1, 0]
-    joint: {type: fixed}
-    capsules: [{start: [-0.05, 0, 0], end: [0.05, 0, 0], radius: 0.02}]
-  leg:
-    parent: base
-    offset: [-0.1, 0, 0]
-    joint: {type: ball}
-    capsules: [{start: [0, 0, 0], end: [0, -0.3, 0.02], radius: [0.05, 0.04]}]
-    markers: {foot: [0, -0.3, 0.02]}
-"""
-
 
 @pytest.fixture(scope="session")
 def linkage_text() -> str:
-    return LINKAGE
+    return LINKAGE.read_text()
 
 
 @pytest.fixture(scope="session")
-def linkage(tmp_path_factory: pytest.TempPathFactory) -> Body:
-    path = tmp_path_factory.mktemp("linkage") / "linkage.yaml"
-    path.write_text(LINKAGE)
-    return Document.read(path).validated(BodyDescription).body("linkage", 1.2)
+def linkage() -> Body:
+    return Document.read(LINKAGE).validated(BodyDescription).body("linkage", 1.2)
 
 
 @pytest.fixture

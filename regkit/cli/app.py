@@ -10,6 +10,7 @@ from regkit.cli.calibrate import calibrate
 from regkit.cli.console import print_error
 from regkit.cli.doctor import doctor
 from regkit.cli.fit import fit
+from regkit.cli.new import new
 from regkit.cli.plugins import plugins
 from regkit.cli.register import register
 from regkit.cli.run import run
@@ -23,7 +24,7 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
-for command in (run, register, calibrate, fit, validate, plugins, schema, doctor):
+for command in (run, register, calibrate, fit, validate, plugins, new, schema, doctor):
     app.command()(command)
 
 

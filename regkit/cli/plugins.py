@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import inspect
-from importlib.metadata import EntryPoint
 from typing import Annotated
 
 import typer
@@ -11,7 +10,8 @@ from rich.markup import escape
 from rich.table import Table
 
 from regkit.cli.console import PluginFiles, output, run_plugin_files
-from regkit.errors import PluginError
+from regkit.errors import PluginError, RegkitError
+from regkit.installed import Installed
 from regkit.interfaces import SLOTS, Solver
 from regkit.model import did_you_mean
 from regkit.plugin import Plugin
@@ -90,18 +90,20 @@ def _print_fields(kind: str) -> None:
 
 def _summary(slot: type[Plugin], kind: str) -> str:
     try:
-        return (slot.load(kind).__doc__ or "").strip().splitlines()[0]
+        documentation = inspect.cleandoc(slot.load(kind).__doc__ or "")
     except PluginError as error:
         return f"broken: {error}"
+    return documentation.splitlines()[0] if documentation else "(its class has no docstring)"
 
 
 def _preset_summary(group: str, name: str) -> str:
     """The first line of the comment at the top of a preset's file."""
-    first = preset_file(group, name).read_text(encoding="utf-8").splitlines()[0]
-    return escape(first.removeprefix("#").strip())
+    try:
+        text = preset_file(group, name).read_text(encoding="utf-8")
+    except (RegkitError, OSError) as error:
+        return escape(f"broken: {error}")
+    return escape(text.partition("\n")[0].removeprefix("#").strip())
 
 
-def _distribution(origin: EntryPoint | type[Plugin]) -> str:
-    if isinstance(origin, EntryPoint):
-        return f"{origin.dist.name} {origin.dist.version}" if origin.dist else origin.value
-    return origin.__module__
+def _distribution(origin: Installed | type[Plugin]) -> str:
+    return origin.versions if isinstance(origin, Installed) else origin.__module__

@@ -111,6 +111,11 @@ def _outlines(
             points = circles.transpose(0, 2, 1).reshape(-1, 2)
             around = ConvexHull(points).vertices
             yield points[[*around, around[0]]].T
+    elif isinstance(primitives, Volumes):
+        surfaces = primitives.surface_points() @ np.swapaxes(placed.axes, 1, 2)
+        for points in (placed.centres[:, None] + surfaces)[:, :, [*view]]:
+            around = ConvexHull(points).vertices
+            yield points[[*around, around[0]]].T
 
 
 def _draw(

@@ -1,5 +1,6 @@
 """The command line as a fixture."""
 
+import importlib
 import sys
 from typing import NamedTuple
 
@@ -41,3 +42,18 @@ def regkit(monkeypatch, capsys):
 @pytest.fixture
 def files(tmp_path) -> Files:
     return small(tmp_path)
+
+
+@pytest.fixture
+def distribution(tmp_path, monkeypatch):
+    """Install a throw-away distribution with such entry points for the length of a test."""
+
+    def install(entry_points: str, name: str = "broken") -> None:
+        folder = tmp_path / name / f"{name}-1.0.dist-info"
+        folder.mkdir(parents=True)
+        (folder / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.0\n")
+        (folder / "entry_points.txt").write_text(entry_points)
+        monkeypatch.syspath_prepend(str(folder.parent))
+        importlib.invalidate_caches()
+
+    return install

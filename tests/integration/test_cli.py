@@ -1,6 +1,5 @@
 """The commands beside ``run``: what they print, and how they end."""
 
-import importlib
 import json
 import shutil
 import subprocess
@@ -9,8 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from regkit.errors import PluginError
-from regkit.interfaces import SLOTS, ShapeModel, Solver
+from regkit.interfaces import SLOTS, Solver
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = sorted((ROOT / "docs" / "examples").glob("*.yaml"))
@@ -230,73 +228,6 @@ methods:
   only: {kind: direct, shape: gsog, kernel: correlation, solver: lbfgs}
 """
 
-BROKEN = """\
-[regkit.shapes]
-shattered = no_such_module_of_regkit:Thing
-absent = regkit.errors:Thing
-number = regkit.cli.doctor:sys
-misnamed = regkit_plugins.shapes.sog:SumOfGaussians
-solver = regkit_plugins.solvers.lbfgs:LBFGS
-"""
-
-
-@pytest.fixture
-def distribution(tmp_path, monkeypatch):
-    """Install a throw-away distribution with such entry points for the length of a test."""
-
-    def install(entry_points: str, name: str = "broken") -> None:
-        folder = tmp_path / name / f"{name}-1.0.dist-info"
-        folder.mkdir(parents=True)
-        (folder / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.0\n")
-        (folder / "entry_points.txt").write_text(entry_points)
-        monkeypatch.syspath_prepend(str(folder.parent))
-        importlib.invalidate_caches()
-
-    return install
-
-
-@pytest.mark.parametrize(
-    ("kind", "expected"),
-    [
-        ("shattered", "plug-in 'shattered' of broken cannot be imported: ModuleNotFoundError: No "
-         "module named 'no_such_module_of_regkit'"),
-        ("absent", "plug-in 'absent' of broken cannot be imported: AttributeError"),
-        ("number", "'number' in regkit.shapes is not a concrete ShapeModel: <module 'sys'"),
-        ("solver", "'solver' in regkit.shapes is not a concrete ShapeModel: <class"),
-        ("misnamed", "plug-in 'misnamed': SumOfGaussians.kind must default to its "
-         "entry-point name"),
-    ],
-)  # fmt: skip
-def test_broken_plugin_fails_only_when_it_is_named(regkit, distribution, tmp_path, kind, expected):
-    distribution(BROKEN)
-    file = tmp_path / "experiment.yaml"
-    file.write_text(EXPERIMENT)
-    assert regkit("validate", file).code == 0
-    file.write_text(EXPERIMENT.replace("shape: gsog", f"shape: {kind}"))
-    ended = regkit("validate", file)
-    assert ended.code == 1
-    assert ended.err.startswith(f"error: {file}:6: methods.only.shape: {expected}")
-    with pytest.raises(PluginError):
-        ShapeModel.load(kind)
-
-
-def test_broken_plugin_is_listed_as_such(regkit, distribution):
-    distribution(BROKEN)
-    ended = regkit("plugins")
-    assert ended.code == 0
-    (row,) = (line for line in ended.out.splitlines() if "shattered" in line)
-    assert "broken: plug-in" in row
-    assert "broken 1.0" in row
-    assert " gsog " in ended.out
-
-
-def test_broken_plugin_is_found_by_the_doctor(regkit, distribution):
-    distribution(BROKEN)
-    ended = regkit("doctor")
-    assert ended.code == 1
-    assert "plug-in 'shattered' of broken" in ended.out
-    assert "reinstall or uninstall" in ended.out
-
 
 def test_plugin_of_another_distribution_is_found(regkit, distribution, tmp_path):
     module = tmp_path / "good"
@@ -308,17 +239,6 @@ def test_plugin_of_another_distribution_is_found(regkit, distribution, tmp_path)
     (row,) = (line for line in regkit("plugins").out.splitlines() if " stay " in line)
     assert "Never moves." in row
     assert "good 1.0" in row
-
-
-def test_name_that_two_distributions_claim_is_refused(regkit, distribution, tmp_path):
-    """Neither silently replaces the other."""
-    distribution("[regkit.shapes]\ngsog = elsewhere:Thing\n", "rival")
-    file = tmp_path / "experiment.yaml"
-    file.write_text(EXPERIMENT)
-    ended = regkit("validate", file)
-    assert ended.code == 1
-    assert "two plug-ins in regkit.shapes are called 'gsog'" in ended.err
-    assert "uninstall one of their distributions" in ended.err
 
 
 def test_examples_folder_can_be_copied_away(regkit, tmp_path):

@@ -1,0 +1,34 @@
+"""``regkit new``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from regkit.cli.console import output
+
+
+def new(
+    what: Annotated[
+        str, typer.Argument(help="What to begin: shape, kernel, solver, dataset or template.")
+    ],
+    name: Annotated[str, typer.Argument(help="Its name in YAML, such as my_shape.")],
+    out: Annotated[Path, typer.Option(help="Where the package's folder is written.")] = Path(),
+) -> None:
+    """Begin a package with a plug-in of your own, which passes conformance as it is written."""
+    from regkit.scaffold import Scaffold
+
+    scaffold = Scaffold.checked(what, name)
+    folder = scaffold.write(out)
+    recorded = " --set dataset.root=FOLDER" if what == "template" else ""
+    lines = [
+        f"written: {folder}",
+        f"the {what} is in {folder / 'src' / scaffold.module / f'{what}.py'}; next:",
+        f'  cd {folder} && pip install -e ".[testing]"',
+        "  pytest",
+        f"  regkit run example.yaml{recorded}",
+    ]
+    for line in lines:
+        output.print(line, markup=False, highlight=False, soft_wrap=True)

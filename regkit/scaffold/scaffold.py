@@ -1,0 +1,137 @@
+"""What a new package holds, and where it is written."""
+
+from __future__ import annotations
+
+import keyword
+import re
+import shutil
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Self
+
+import jinja2
+
+from regkit.errors import ConfigError, DataError
+from regkit.installed import Installed
+from regkit.interfaces import Dataset, Kernel, ShapeModel, Solver, Template
+from regkit.plugin import Plugin
+
+FOLDER = Path(__file__).parent
+SUFFIX = ".jinja"
+KINDS: dict[str, type[Plugin]] = {
+    "shape": ShapeModel,
+    "kernel": Kernel,
+    "solver": Solver,
+    "dataset": Dataset,
+    "template": Template,
+}
+"""What can be begun, by the name that it has on the command line."""
+
+
+@dataclass(frozen=True)
+class Scaffold:
+    """A package with one plug-in, rendered from the files beside this one.
+
+    Attributes:
+        what: One of ``KINDS``.
+        name: The plug-in's name in YAML.
+    """
+
+    what: str
+    name: str
+
+    @classmethod
+    def checked(cls, what: str, name: str) -> Self:
+        """A package for a new name.
+
+        Raises:
+            ConfigError: If there is no such group, or the name cannot be taken.
+        """
+        if what not in KINDS:
+            raise ConfigError(
+                f"there is no scaffold of a {what!r}; there are: {', '.join(KINDS)}", place="WHAT"
+            )
+        if not re.fullmatch(r"[a-z][a-z0-9]*(_[a-z0-9]+)*", name) or keyword.iskeyword(name):
+            raise ConfigError(
+                f"'{name}' cannot be a plug-in's name: use lower-case letters, digits and single "
+                "underscores, begin with a letter, and take no word of Python's own",
+                place="NAME",
+            )
+        taken = KINDS[what].available().get(name)
+        if taken is not None:
+            by = taken.versions if isinstance(taken, Installed) else taken.__module__
+            raise ConfigError(
+                f"there is a {what} '{name}' already, of {by}; take another name", place="NAME"
+            )
+        return cls(what, name)
+
+    @property
+    def distribution(self) -> str:
+        """What is installed, and the name of the folder."""
+        return f"regkit-{self.name.replace('_', '-')}"
+
+    @property
+    def module(self) -> str:
+        """What is imported."""
+        return f"regkit_{self.name}"
+
+    def write(self, out: Path) -> Path:
+        """Write the package into a new folder in ``out``.
+
+        Returns:
+            The folder.
+
+        Raises:
+            DataError: If the folder is there already, or cannot be written.
+        """
+        folder = out / self.distribution
+        if folder.exists():
+            raise DataError("this is there already; it is not written to", place=str(folder))
+        temporary = out / f".{self.distribution}.tmp"
+        try:
+            for file, text in self._files():
+                path = temporary / file
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(text, encoding="utf-8")
+            temporary.rename(folder)
+        except OSError as error:
+            raise DataError(
+                f"cannot be written: {error.strerror or error}", place=str(folder)
+            ) from None
+        finally:
+            shutil.rmtree(temporary, ignore_errors=True)
+        return folder
+
+    def _files(self) -> Iterator[tuple[Path, str]]:
+        """The files of the package, with what they hold."""
+        environment = jinja2.Environment(
+            loader=jinja2.FileSystemLoader(FOLDER),
+            undefined=jinja2.StrictUndefined,
+            keep_trailing_newline=True,
+            trim_blocks=True,
+            autoescape=False,
+        )
+        values = {
+            "what": self.what,
+            "name": self.name,
+            "group": KINDS[self.what].group,
+            "distribution": self.distribution,
+            "module": self.module,
+            "class_name": "".join(map(str.capitalize, self.name.split("_"))) + self.what.title(),
+            "sequence": _sample_sequence(),
+        }
+        for folder in ("package", self.what):
+            for path in sorted((FOLDER / folder).rglob("*")):
+                if not path.is_file():
+                    continue
+                template = environment.get_template(path.relative_to(FOLDER).as_posix())
+                place = path.relative_to(FOLDER / folder).as_posix().removesuffix(SUFFIX)
+                place = place.replace("MODULE", self.module).replace("NAME", self.name)
+                yield Path(place), template.render(values)
+
+
+def _sample_sequence() -> str:
+    """A recording that examples can use: the sample beside a checkout, else one to be named."""
+    sample = FOLDER.parents[1] / "docs" / "examples" / "data" / "human_walk"
+    return str(sample) if sample.is_dir() else "path/to/a/recording"

@@ -1,0 +1,18 @@
+"""The laws of plug-ins as tests: a third party's whole conformance test is two lines.
+
+    from regkit.testing import conformance
+
+    TestConformance = conformance("my-distribution")
+
+pytest then collects one test for each law and plug-in, such as
+``TestConformance::test_shape_covers_every_segment[superquadric]``. See
+:func:`regkit.testing.conformance.conformance` for plug-ins that need an example of their options.
+"""
+
+from regkit.optional import library
+
+library("pytest", install="pip install 'regkit[testing]'")
+
+from regkit.testing.conformance import Conformance, conformance  # noqa: E402
+
+__all__ = ["Conformance", "conformance"]

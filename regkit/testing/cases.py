@@ -1,0 +1,161 @@
+"""The cases that the laws are tried on: installed plug-ins with their options."""
+
+from __future__ import annotations
+
+import typing
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+from pydantic import ValidationError
+
+from regkit.errors import PluginError
+from regkit.installed import Installed, same_distribution
+from regkit.interfaces import SLOTS, Kernel, ShapeModel, Term
+from regkit.plugin import Plugin
+
+Options = Mapping[str, Any]
+"""A plug-in's fields, as they stand in YAML, without its kind."""
+Examples = Mapping[str, Options | Sequence[Options]]
+"""Options by kind, or by ``group.kind`` where two groups have one of that name."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """A plug-in with options, or the reason why there is none.
+
+    Attributes:
+        slot: Its group.
+        kind: Its name.
+        name: How it is told apart from others, as the identifier of a test.
+        own: Whether it is of those that the tests are for, and not only their partner.
+        plugin: The plug-in, if it could be made.
+        missing: The required fields that no example gives.
+        broken: Why it cannot be loaded.
+    """
+
+    slot: type[Plugin]
+    kind: str
+    name: str
+    own: bool
+    plugin: Plugin | None = None
+    missing: tuple[str, ...] = ()
+    broken: str = ""
+
+
+@dataclass(frozen=True)
+class Pair:
+    """A kernel or a term with a shape whose primitives it accepts.
+
+    Attributes:
+        plugin: The kernel or the term.
+        shape: The shape.
+        name: The identifier of a test.
+    """
+
+    plugin: Plugin
+    shape: ShapeModel
+    name: str
+
+
+def cases(subjects: Sequence[str | type[Plugin]], examples: Examples) -> list[Case]:
+    """All installed plug-ins as cases.
+
+    Args:
+        subjects: Names of distributions and classes of plug-ins that are the tests' own; all are
+            without any.
+        examples: Options for those that need some, or that should be tried with several.
+
+    Raises:
+        PluginError: If a distribution brings no plug-in, or an example does not fit.
+    """
+    found = []
+    for slot in SLOTS:
+        for kind, origin in slot.available().items():
+            own = not subjects or any(_is_of(origin, subject) for subject in subjects)
+            found += list(_cases_of(slot, kind, own, examples))
+    brought = {
+        name for slot in SLOTS for origin in slot.available().values() for name in _names(origin)
+    }
+    for subject in subjects:
+        if isinstance(subject, str) and not any(same_distribution(subject, n) for n in brought):
+            raise PluginError(
+                f"no installed distribution '{subject}' brings a plug-in (there are: "
+                f"{', '.join(sorted(brought))}); install it: pip install -e ."
+            )
+        if not isinstance(subject, str) and not any(
+            subject is origin for slot in SLOTS for origin in slot.available().values()
+        ):
+            raise PluginError(f"{subject.__qualname__} is not registered: decorate it, @register")
+    return found
+
+
+def pairs(found: Sequence[Case], slot: type[Kernel] | type[Term]) -> list[Pair]:
+    """Kernels or terms with all shapes whose primitives they accept, of which one is an own."""
+    return [
+        Pair(one.plugin, two.plugin, f"{one.name}-{two.name}")
+        for one in found
+        if isinstance(one.plugin, slot)
+        for two in found
+        if isinstance(two.plugin, ShapeModel)
+        and (one.own or two.own)
+        and issubclass(two.plugin.makes, one.plugin.accepts)
+    ]
+
+
+def _is_of(origin: Installed | type[Plugin], subject: str | type[Plugin]) -> bool:
+    if isinstance(subject, str):
+        return any(same_distribution(subject, name) for name in _names(origin))
+    return origin is subject
+
+
+def _names(origin: Installed | type[Plugin]) -> tuple[str, ...]:
+    return origin.distributions if isinstance(origin, Installed) else ()
+
+
+def _cases_of(slot: type[Plugin], kind: str, own: bool, examples: Examples) -> Iterator[Case]:
+    try:
+        plugin = slot.load(kind)
+    except PluginError as error:
+        yield Case(slot, kind, kind, own, broken=str(error))
+        return
+    group = slot.group.removeprefix("regkit.")
+    given = examples.get(f"{group}.{kind}", examples.get(kind))
+    tried: list[Options] = [given] if isinstance(given, Mapping) else list(given or [{}])
+    for options in tried:
+        name = kind if len(tried) == 1 else "-".join([kind, *_leaves(options)])
+        try:
+            yield Case(slot, kind, name, own, plugin.model_validate(options))
+        except ValidationError as error:
+            missing = [str(each["loc"][0]) for each in error.errors() if each["type"] == "missing"]
+            if given is None and missing:
+                yield Case(slot, kind, name, own, missing=tuple(missing))
+                return
+            raise PluginError(f"the example of {group}.{kind} does not fit: {error}") from None
+        for change in _other_choices(plugin, options):
+            field, value = next(iter(change.items()))
+            try:
+                changed = plugin.model_validate({**options, **change})
+            except ValidationError:
+                continue  # The choice needs others, which an example can make.
+            yield Case(slot, kind, f"{name}-{field}={value}", own, changed)
+
+
+def _other_choices(plugin: type[Plugin], options: Options) -> Iterator[dict[str, Any]]:
+    """For each field with a few named values, those that are not taken anyway."""
+    for name, field in plugin.model_fields.items():
+        if name == "kind" or typing.get_origin(field.annotation) is not Literal:
+            continue
+        for value in typing.get_args(field.annotation):
+            if value != options.get(name, field.default):
+                yield {name: value}
+
+
+def _leaves(options: Any) -> list[str]:
+    """The values in options, as parts of a test's identifier."""
+    if isinstance(options, Mapping):
+        return [leaf for value in options.values() for leaf in _leaves(value)]
+    if isinstance(options, list | tuple):
+        return [leaf for value in options for leaf in _leaves(value)]
+    return [Path(str(options)).name]

@@ -1,0 +1,77 @@
+"""The public conformance suite: a class of tests for the plug-ins of a distribution."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from regkit.interfaces import Kernel, Term
+from regkit.plugin import Plugin
+from regkit.testing.cases import Case, Examples, Pair, cases, pairs
+from regkit.testing.dataset_laws import DatasetLaws
+from regkit.testing.kernel_laws import KernelLaws
+from regkit.testing.laws import Laws
+from regkit.testing.method_laws import MethodLaws
+from regkit.testing.observer_laws import ObserverLaws
+from regkit.testing.plugin_laws import PluginLaws
+from regkit.testing.shape_laws import ShapeLaws
+from regkit.testing.solver_laws import SolverLaws
+from regkit.testing.template_laws import TemplateLaws
+from regkit.testing.term_laws import TermLaws
+from regkit.testing.tracker_laws import TrackerLaws
+
+LAWS: Mapping[str, type[Laws]] = {
+    "plugin": PluginLaws,
+    "dataset": DatasetLaws,
+    "template": TemplateLaws,
+    "observer": ObserverLaws,
+    "shape": ShapeLaws,
+    "pair": KernelLaws,
+    "term_pair": TermLaws,
+    "solver": SolverLaws,
+    "tracker": TrackerLaws,
+    "method": MethodLaws,
+}
+"""The laws by the argument of their tests."""
+
+
+class Conformance(Laws):
+    """Base of the classes that ``conformance`` makes."""
+
+
+def conformance(
+    *subjects: str | type[Plugin], examples: Examples | None = None
+) -> type[Conformance]:
+    """The laws of plug-ins as a class of tests, to be bound to a name that begins with ``Test``.
+
+    Each plug-in is tried with its defaults, and once with every other value of each field that has
+    a few named ones. Kernels and terms are tried with every shape whose primitives they accept, and
+    shapes with every kernel and term. A plug-in with required fields is skipped, with the reason,
+    unless there is an example. A test class may be derived from this one to add laws of one's own,
+    or to override the fixtures ``body`` and ``rigid_body``, what shapes and methods are tried on.
+
+    Args:
+        subjects: Names of distributions, or classes decorated with ``@register``; without any, all
+            that is installed is tried.
+        examples: Options of plug-ins, as in YAML, by kind (or ``group.kind``): one mapping, or a
+            list of them. ``{"my_dataset": {"root": "tests/data"}}``.
+
+    Raises:
+        PluginError: If nothing of that name is installed, or an example does not fit.
+    """
+    found = cases(subjects, examples or {})
+    parameters: dict[str, list[Case | Pair]] = {
+        "plugin": [case for case in found if case.own],
+        "pair": [*pairs(found, Kernel)],
+        "term_pair": [*pairs(found, Term)],
+    }
+    for case in found:
+        argument = case.slot.group.removeprefix("regkit.").removesuffix("s")
+        if case.own and not case.broken:
+            parameters.setdefault(argument, []).append(case)
+    bases = [laws for argument, laws in LAWS.items() if parameters.get(argument)]
+    content: dict[str, Any] = {
+        "parameters": parameters,
+        "__doc__": f"The laws of the plug-ins of {', '.join(map(str, subjects)) or 'all'}.",
+    }
+    return type("Conformance", (Conformance, *bases), content)

@@ -1,0 +1,278 @@
+"""Laws of kernels, with every shape whose primitives they compare."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import cast
+
+import numpy as np
+import pytest
+
+from regkit.arrays import Array
+from regkit.body import Body
+from regkit.coordinates import TangentCoordinates
+from regkit.interfaces import Kernel, Similarity
+from regkit.observation import Observation
+from regkit.primitives import Placed, Primitives
+from regkit.problem import RegistrationProblem
+from regkit.rigid import rigid
+from regkit.skeleton import Pose
+from regkit.testing.cases import Pair
+from regkit.testing.differences import Slopes, best_length
+from regkit.testing.laws import Laws
+from regkit.testing.samples import data_of, moved_data, moved_pose, posed, surface_data
+from regkit.testing.shape_laws import attached
+from regkit.testing.verdict import copied, require, same
+
+THIRD_OF_A_TURN = rigid(np.eye(3)[[1, 2, 0]], np.array([0.3, -1.0, 0.7]))
+"""About the diagonal: boxes along the axes, as outliers may fill, become such boxes again."""
+HALF_A_TURN = rigid(np.diag([-1.0, -1.0, 1.0]), np.zeros(3))
+"""About the camera's axis, which is all that may be done to what a camera sees."""
+FAR_AWAY = np.array([0.0, 0.0, 5.0])
+TOO_FAR = 32.0
+"""A Gauss-Newton step that should be so many times longer or shorter has wrong blocks."""
+
+
+@dataclass(frozen=True)
+class Bound:
+    """A kernel bound to data about a posed body.
+
+    Attributes:
+        pair: The kernel and the shape.
+        body: The body.
+        start: Its pose.
+        primitives: What the shape made of it.
+        data: The data.
+    """
+
+    pair: Pair
+    body: Body
+    start: Pose
+    primitives: Primitives
+    data: Observation
+
+    @classmethod
+    def near(cls, pair: Pair, body: Body, random: np.random.Generator) -> Bound:
+        """With noisy, uneven data before a camera."""
+        start = posed(body, random)
+        data = data_of(body, start, random)
+        return cls(pair, body, start, attached(pair.shape, body), data)
+
+    @property
+    def kernel(self) -> Kernel:
+        """The kernel."""
+        return cast(Kernel, self.pair.plugin)
+
+    def placed(self, pose: Pose | None = None) -> Placed[Primitives]:
+        """The primitives in a pose; without one, at the start."""
+        return self.primitives.place(self.body.place(pose or self.start).transforms)
+
+    def similarity(self, blur: float = 0.0) -> Similarity:
+        """The kernel against the data."""
+        return self.kernel.against(self.data, self.placed(), blur=blur)
+
+    def problem(self, blur: float = 0.0) -> RegistrationProblem:
+        """The energy on the degrees of freedom."""
+        chart = TangentCoordinates(self.body.skeleton, self.start)
+        return RegistrationProblem(chart, self.primitives, [self.similarity(blur)])
+
+    def near_start(self, random: np.random.Generator, by: float = 0.05) -> Array:
+        """A point about the start, where nothing is special."""
+        return np.asarray(by * random.normal(size=self.body.skeleton.freedoms))
+
+    def moved(self, motion: Array) -> Bound:
+        """The same after a rigid motion of the body and the data."""
+        return replace(
+            self, start=moved_pose(self.start, motion), data=moved_data(self.data, motion)
+        )
+
+    def bind(self) -> object:
+        """Where the author of the kernel should look."""
+        return type(self.similarity()).__call__
+
+
+class KernelLaws(Laws):
+    """Laws of kernels."""
+
+    @pytest.fixture
+    def bound(self, pair: Pair, body: Body, random: np.random.Generator) -> Bound:
+        """A kernel and a shape with data."""
+        return Bound.near(pair, body, random)
+
+    @pytest.mark.parametrize("blur", [0.0, 0.02])
+    def test_kernel_gradient_is_the_derivative_of_its_energy(
+        self, bound: Bound, random: np.random.Generator, blur: float
+    ) -> None:
+        """Forces and torques, on the joints of a body, by central differences."""
+        slopes = Slopes.of(bound.problem(blur), bound.near_start(random))
+        require(
+            slopes.largest > 0.0, bound.kernel,
+            "has an energy that no motion of the body changes, with shape "
+            f"'{bound.pair.shape.kind}'",
+            look_at=bound.bind(),
+        )  # fmt: skip
+        require(slopes.agree(), bound.kernel, slopes.told(bound.body), look_at=bound.bind())
+
+    def test_kernel_response_has_its_shapes_and_does_not_depend_on_the_curvature(
+        self, bound: Bound
+    ) -> None:
+        """(K, 6) wrenches and, if asked for, (K, 6, 6) blocks beside the same energy."""
+        placed, similarity = bound.placed(), bound.similarity()
+        plain, curved = similarity(placed), similarity(placed, curvature=True)
+        count, at = len(placed), bound.bind()
+        require(
+            plain.wrenches.shape == (count, 6) and np.isfinite(plain.wrenches).all()
+            and np.isfinite(plain.energy), bound.kernel,
+            f"answers with wrenches of the shape {plain.wrenches.shape}, or not finite; they must "
+            f"be {(count, 6)}: a force and a torque for each primitive", look_at=at,
+        )  # fmt: skip
+        require(
+            plain.stiffness is None, bound.kernel,
+            "answers with blocks that were not asked for; leave them out without curvature",
+            look_at=at,
+        )  # fmt: skip
+        require(
+            curved.energy == plain.energy and np.array_equal(curved.wrenches, plain.wrenches),
+            bound.kernel, "answers with another energy or other wrenches when asked for curvature",
+            look_at=at,
+        )  # fmt: skip
+
+    def test_kernel_blocks_are_symmetric_and_semidefinite(self, bound: Bound) -> None:
+        """A Gauss-Newton block is J^T W J of some residuals."""
+        blocks = bound.similarity()(bound.placed(), curvature=True).stiffness
+        if blocks is None:
+            pytest.skip("it has no Gauss-Newton blocks")
+        at, size = bound.bind(), np.abs(blocks).max()
+        require(
+            blocks.shape == (len(bound.primitives), 6, 6) and np.isfinite(blocks).all(),
+            bound.kernel, f"has blocks of the shape {blocks.shape}, or not finite", look_at=at,
+        )  # fmt: skip
+        uneven = np.abs(blocks - np.swapaxes(blocks, 1, 2)).max() / size
+        require(
+            uneven < 1e-9, bound.kernel, f"has blocks that are not symmetric, by {uneven:.2g} of "
+            "the largest entry", look_at=at,
+        )  # fmt: skip
+        least = np.linalg.eigvalsh(blocks).min() / size
+        require(
+            least > -1e-9, bound.kernel, f"has a block with the eigenvalue {least:.2g} of the "
+            "largest entry; clip the weights of residuals at zero", look_at=at,
+        )  # fmt: skip
+
+    def test_kernel_blocks_fit_its_forces(self, bound: Bound, random: np.random.Generator) -> None:
+        """A force acts only where there is stiffness, and the step has about the right length."""
+        x, problem = bound.near_start(random), bound.problem()
+        equations = problem.normal_equations(x)
+        if equations is None:
+            pytest.skip("it has no Gauss-Newton blocks")
+        _, gradient, matrix = equations
+        step, *_ = np.linalg.lstsq(matrix, -gradient, rcond=1e-10)
+        left = np.linalg.norm(matrix @ step + gradient) / np.linalg.norm(gradient)
+        require(
+            left < 1e-3, bound.kernel, f"has blocks without stiffness where it has forces: "
+            f"{100 * left:.2g} % of the gradient cannot be stepped along", look_at=bound.bind(),
+        )  # fmt: skip
+        # Half a radian at most, so that rotations are about linear.
+        step *= min(1.0, 0.5 / np.abs(step).max())
+        length = best_length(problem, x, np.asarray(step))
+        require(
+            length > 1.0 / TOO_FAR, bound.kernel, "has blocks that are too soft: the energy is "
+            f"least after {length:.2g} of the Gauss-Newton step", look_at=bound.bind(),
+        )  # fmt: skip
+        require(
+            length < TOO_FAR, bound.kernel, "has blocks that are too stiff: the energy is least "
+            f"after {length:.3g} Gauss-Newton steps", look_at=bound.bind(),
+        )  # fmt: skip
+
+    @pytest.mark.parametrize("camera", [False, True], ids=["blind", "seen"])
+    def test_kernel_is_left_alone_by_a_common_motion(self, bound: Bound, camera: bool) -> None:
+        """Body and data moved together: the same energy, and forces that turn with them.
+
+        With a camera they turn about its axis alone.
+        """
+        motion = HALF_A_TURN if camera else THIRD_OF_A_TURN
+        data = replace(bound.data, depth=None, camera=bound.data.camera if camera else None)
+        bound = replace(bound, data=data)
+        there = bound.moved(motion)
+        first, second = bound.similarity()(bound.placed()), there.similarity()(there.placed())
+        by = abs(second.energy - first.energy) / max(abs(first.energy), 1e-9)
+        require(
+            by < 1e-6, bound.kernel, f"has an energy that changes by {by:.2g} of itself when body "
+            "and data are moved together; it may depend on their relative places alone",
+            look_at=bound.bind(),
+        )  # fmt: skip
+        turn = motion[:3, :3]
+        turned = np.concatenate(
+            [first.wrenches[:, :3] @ turn.T, first.wrenches[:, 3:] @ turn.T], axis=1
+        )
+        by = np.abs(second.wrenches - turned).max() / max(np.abs(turned).max(), 1e-300)
+        require(
+            by < 1e-5, bound.kernel, f"has wrenches that do not turn with body and data, by "
+            f"{by:.2g} of the largest; they must be given in the world's axes, about the "
+            "primitives' centres", look_at=bound.bind(),
+        )  # fmt: skip
+
+    def test_kernel_prefers_the_body_where_the_data_are(
+        self, pair: Pair, body: Body, random: np.random.Generator
+    ) -> None:
+        """The energy is lower in the pose of the data than 0.1 m beside it, to all sides."""
+        start = posed(body, random)
+        bound = Bound(pair, body, start, attached(pair.shape, body), surface_data(body, start))
+        similarity = bound.similarity(0.01)
+        here = similarity(bound.placed()).energy
+        aside = [
+            similarity(bound.placed(moved_pose(start, rigid(np.eye(3), 0.1 * way)))).energy
+            for way in (*np.eye(3), *-np.eye(3))
+        ]
+        require(
+            here < min(aside), bound.kernel, "prefers a body 0.1 m beside its data: the energy is "
+            f"{min(aside):.6g} there and {here:.6g} where they are; registration makes it small",
+            look_at=bound.bind(),
+        )  # fmt: skip
+
+    def test_kernel_explains_what_is_near_and_nothing_far_away(
+        self, pair: Pair, body: Body, random: np.random.Generator
+    ) -> None:
+        """From 0 to 1 for each point, more on the surface than 5 m behind it."""
+        start = posed(body, random)
+        near = surface_data(body, start)
+        points = np.concatenate([near.points, near.points[:5] + FAR_AWAY])
+        data = Observation(
+            points,
+            np.ones(len(points)),
+            np.full(len(points), 1e-4),
+            normals=None if near.normals is None else np.resize(near.normals, points.shape),
+        )
+        bound = Bound(pair, body, start, attached(pair.shape, body), data)
+        similarity = bound.similarity()
+        explained = similarity.explained(bound.placed())
+        if explained is None:
+            pytest.skip("it does not tell what it explains")
+        at = type(similarity).explained
+        require(
+            explained.shape == (len(points),) and (explained >= 0.0).all()
+            and (explained <= 1.0 + 1e-9).all(), bound.kernel,
+            f"explains points by {np.min(explained):.2g} to {np.max(explained):.2g}, in the shape "
+            f"{explained.shape}; it must be 0 to 1, {(len(points),)}", look_at=at,
+        )  # fmt: skip
+        far, share = explained[-5:].max(), explained[:-5].mean()
+        require(
+            far < 0.1 and far < share, bound.kernel, f"explains points 5 m away by {far:.2g}, and "
+            f"those on the body's surface by {share:.2g}", look_at=at,
+        )  # fmt: skip
+
+    def test_kernel_is_deterministic_and_changes_nothing(self, bound: Bound) -> None:
+        """Bound twice it answers the same, to the last bit, and writes to nothing it is given."""
+        placed = bound.placed()
+        before = copied((bound.data.points, bound.data.weights, bound.data.variances, placed))
+        answers = [
+            bound.kernel.against(bound.data, placed)(placed, curvature=True) for _ in range(2)
+        ]
+        require(
+            same(*answers), bound.kernel, "answers something else when it is asked again",
+            look_at=bound.bind(),
+        )  # fmt: skip
+        after = (bound.data.points, bound.data.weights, bound.data.variances, placed)
+        require(
+            same(before, after), bound.kernel, "changes the data or the primitives that it is "
+            "given; copy arrays before writing to them", look_at=bound.bind(),
+        )  # fmt: skip

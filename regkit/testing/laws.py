@@ -1,0 +1,56 @@
+"""Laws: tests that are parametrised by the plug-ins that a conformance suite is for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import ClassVar
+
+import numpy as np
+import pytest
+
+from regkit.body import Body
+from regkit.testing.cases import Case, Pair
+from regkit.testing.samples import linkage, lump
+
+
+class Laws:
+    """Tests that take a plug-in, or a pair of them, as their argument."""
+
+    parameters: ClassVar[Mapping[str, Sequence[Case | Pair]]] = {}
+    """The cases by the name of the argument."""
+
+    def pytest_generate_tests(self, metafunc: pytest.Metafunc) -> None:
+        """Give each test the cases of its argument."""
+        for argument, cases in self.parameters.items():
+            if argument in metafunc.fixturenames:
+                metafunc.parametrize(argument, [_parameter(argument, each) for each in cases])
+
+    @pytest.fixture
+    def body(self) -> Body:
+        """What is registered: a linkage with every type of joint, capsules and a skin."""
+        return linkage()
+
+    @pytest.fixture
+    def rigid_body(self) -> Body:
+        """What methods without joints register: a closed surface without symmetry."""
+        return lump()
+
+    @pytest.fixture
+    def random(self) -> np.random.Generator:
+        """The same numbers in every test."""
+        return np.random.default_rng(7)
+
+
+def _parameter(argument: str, case: Case | Pair) -> object:
+    if isinstance(case, Pair):
+        return pytest.param(case, id=case.name)
+    if argument == "plugin":
+        return pytest.param(case, id=f"{case.slot.group.removeprefix('regkit.')}.{case.name}")
+    if case.missing:
+        group = case.slot.group.removeprefix("regkit.")
+        reason = (
+            f"needs {', '.join(case.missing)}: give conformance() an example, "
+            f'examples={{"{group}.{case.kind}": {{...}}}}'
+        )
+        return pytest.param(None, id=case.name, marks=pytest.mark.skip(reason=reason))
+    return pytest.param(case.plugin, id=case.name)

@@ -1,0 +1,84 @@
+"""What holds for every plug-in: it can be loaded, is documented, frozen, and survives YAML."""
+
+from __future__ import annotations
+
+import inspect
+from typing import Any
+
+import pytest
+from pydantic import ValidationError
+
+from regkit.document import yaml_text
+from regkit.plugin import Plugin
+from regkit.testing.cases import Case
+from regkit.testing.laws import Laws
+from regkit.testing.verdict import require, same
+
+
+class PluginLaws(Laws):
+    """Laws of all plug-ins."""
+
+    def test_plugin_can_be_loaded(self, plugin: Case) -> None:
+        """Its entry point leads to a complete plug-in of its group."""
+        if plugin.broken:
+            pytest.fail(plugin.broken, pytrace=False)
+
+    def test_plugin_is_documented(self, plugin: Case) -> None:
+        """The class and each of its fields have a docstring: they are the help and the schema."""
+        found = _loaded(plugin)
+        require(
+            bool(inspect.cleandoc(found.__doc__ or "")), found.model_construct(),
+            "has no docstring, which `regkit plugins` shows and editors complete", look_at=found,
+        )  # fmt: skip
+        silent = [
+            name
+            for name, field in found.model_fields.items()
+            if name != "kind" and not (field.description or "").strip()
+        ]
+        require(
+            not silent, found.model_construct(),
+            f"has fields without a docstring below them: {', '.join(silent)}", look_at=found,
+        )  # fmt: skip
+
+    def test_plugin_is_frozen(self, plugin: Case) -> None:
+        """No field can be set: what depends on the data is an argument, never a state."""
+        made = _made(plugin)
+        frozen = True
+        try:
+            made.kind = made.kind
+            frozen = False
+        except ValidationError:
+            pass
+        require(
+            frozen, made, "can be changed after it is made; leave model_config frozen",
+            look_at=type(made),
+        )  # fmt: skip
+
+    def test_plugin_round_trips_through_yaml(self, plugin: Case) -> None:
+        """What ``model_dump`` writes is read back as the same plug-in."""
+        made = _made(plugin)
+        written: dict[str, Any] = made.model_dump(mode="json")
+        text = yaml_text(written)
+        again = type(made).model_validate(_read(text))
+        require(
+            same(again.model_dump(), made.model_dump()), made,
+            f"is not read back as it is written; YAML: {text!r}", look_at=type(made),
+        )  # fmt: skip
+
+
+def _read(text: str) -> Any:
+    from ruamel.yaml import YAML
+
+    return YAML(typ="safe", pure=True).load(text)
+
+
+def _loaded(case: Case) -> Any:
+    if case.broken:
+        pytest.skip("it cannot be loaded")
+    return case.slot.load(case.kind)
+
+
+def _made(case: Case) -> Plugin:
+    if case.plugin is None:
+        pytest.skip(f"needs {', '.join(case.missing)}" if case.missing else "it cannot be loaded")
+    return case.plugin

@@ -1,0 +1,123 @@
+"""Laws of shape models."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from regkit.body import Body
+from regkit.errors import RegkitError
+from regkit.interfaces import ShapeModel
+from regkit.primitives import Primitives
+from regkit.rigid import rigid
+from regkit.rotation import vector_to_matrix
+from regkit.testing.laws import Laws
+from regkit.testing.samples import posed
+from regkit.testing.verdict import copied, require, same
+
+
+def attached(shape: ShapeModel, body: Body) -> Primitives:
+    """The primitives of a body; a shape model that refuses it fails the test."""
+    try:
+        return shape.attach(body)
+    except RegkitError as error:
+        require(
+            False, shape,
+            f"refuses the sample body ({error}); override the fixture `body` with another",
+            look_at=type(shape).attach,
+        )  # fmt: skip
+        raise
+
+
+class ShapeLaws(Laws):
+    """Laws of shape models."""
+
+    def test_shape_makes_what_it_says(self, shape: ShapeModel, body: Body) -> None:
+        """``attach`` gives primitives of the type ``makes``, with arrays of the right shapes."""
+        primitives, make = attached(shape, body), type(shape).attach
+        require(
+            isinstance(primitives, shape.makes), shape,
+            f"declares makes = {shape.makes.__name__}, but makes {type(primitives).__name__}",
+            look_at=make,
+        )  # fmt: skip
+        count = len(primitives)
+        for name, expected in {
+            "segments": (count,), "centres": (count, 3), "axes": (count, 3, 3),
+            "scales": (count, 3), "weights": (count,),
+        }.items():  # fmt: skip
+            values = np.asarray(getattr(primitives, name))
+            require(
+                values.shape == expected and np.isfinite(values).all(), shape,
+                f"makes {name} of the shape {values.shape}, or not finite; they must be finite, "
+                f"{expected}", look_at=make,
+            )  # fmt: skip
+        off = np.abs(primitives.axes @ np.swapaxes(primitives.axes, 1, 2) - np.eye(3)).max()
+        require(
+            off < 1e-6 and (np.linalg.det(primitives.axes) > 0.0).all(), shape,
+            f"makes axes that are no rotations, by {off:.2g}; their columns must be unit vectors "
+            "at right angles, right-handed", look_at=make,
+        )  # fmt: skip
+        require(
+            (primitives.weights > 0.0).all() and (primitives.scales >= 0.0).all(), shape,
+            "makes weights that are not positive, or negative scales", look_at=make,
+        )  # fmt: skip
+
+    def test_shape_covers_every_segment(self, shape: ShapeModel, body: Body) -> None:
+        """A segment that has a surface is carried by a primitive, or nothing pulls at it."""
+        primitives, names = attached(shape, body), body.skeleton.names
+        fleshy = np.unique(body.capsules.segments)
+        bare = [names[segment] for segment in np.setdiff1d(fleshy, primitives.segments)]
+        require(
+            not bare, shape, f"leaves segments without a primitive: {', '.join(bare)}",
+            look_at=type(shape).attach,
+        )  # fmt: skip
+
+    def test_shape_moves_with_the_body(
+        self, shape: ShapeModel, body: Body, random: np.random.Generator
+    ) -> None:
+        """``place(G T) == G place(T)`` for a rigid motion G and the transforms T of a pose."""
+        primitives = attached(shape, body)
+        transforms = body.place(posed(body, random)).transforms
+        motion = rigid(vector_to_matrix(random.normal(size=3)), random.normal(size=3))
+        before, after = primitives.place(transforms), primitives.place(motion @ transforms)
+        turned = before.centres @ motion[:3, :3].T + motion[:3, 3]
+        by = np.abs(after.centres - turned).max()
+        place = type(primitives).place
+        require(
+            by < 1e-9, shape, f"does not move with the body: place(G T) differs from G place(T) by "
+            f"{by:.2g} m in the centres", look_at=place,
+        )  # fmt: skip
+        by = np.abs(after.axes - motion[:3, :3] @ before.axes).max()
+        require(
+            by < 1e-9, shape, f"does not turn with the body: place(G T) differs from G place(T) by "
+            f"{by:.2g} in the axes", look_at=place,
+        )  # fmt: skip
+
+    def test_shape_is_deterministic_and_leaves_the_body_alone(
+        self, shape: ShapeModel, body: Body
+    ) -> None:
+        """Attached twice it makes the same, to the last bit, and writes to nothing."""
+        before = copied(body.capsules), copied(body.surface), copied(dict(body.gaussians))
+        first, second = attached(shape, body), attached(shape, body)
+        make = type(shape).attach
+        require(
+            same(first, second), shape, "makes something else when it is attached again",
+            look_at=make,
+        )  # fmt: skip
+        require(
+            same(before, (body.capsules, body.surface, dict(body.gaussians))), shape,
+            "changes the body to which it is attached; copy the arrays before writing to them",
+            look_at=make,
+        )  # fmt: skip
+
+    def test_shape_stays_in_its_place_when_scaled(self, shape: ShapeModel, body: Body) -> None:
+        """``scaled`` multiplies all lengths: placed on a larger skeleton, so are the centres."""
+        primitives = attached(shape, body)
+        transforms = body.place(body.skeleton.rest()).transforms.copy()
+        before = primitives.place(transforms).centres
+        transforms[:, :3, 3] *= 1.5
+        after = primitives.scaled(1.5).place(transforms).centres
+        by = np.abs(after - 1.5 * before).max()
+        require(
+            by < 1e-9, shape, f"has primitives whose scaled() leaves centres behind, by {by:.2g} m",
+            look_at=type(primitives).scaled,
+        )  # fmt: skip

@@ -1,0 +1,125 @@
+"""Laws of templates."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from regkit.body import Body
+from regkit.interfaces import Template
+from regkit.rigid import rigid
+from regkit.testing.laws import Laws
+from regkit.testing.verdict import require, same
+
+
+class TemplateLaws(Laws):
+    """Laws of templates."""
+
+    @pytest.fixture
+    def grown(self, template: Template) -> Body:
+        """The body at its smallest size."""
+        return template.body(template.candidate_sizes()[0])
+
+    def test_template_gives_a_body_of_each_size(self, template: Template) -> None:
+        """Of those that it would try, in their order, each with the size that was asked for."""
+        sizes, at = template.candidate_sizes(), type(template).body
+        require(
+            len(sizes) > 0 and all(size > 0.0 for size in sizes) and list(sizes) == sorted(sizes),
+            template, f"would try the sizes {sizes}; they must be positive and grow",
+            look_at=type(template).candidate_sizes,
+        )  # fmt: skip
+        for size in (sizes[0], sizes[-1]):
+            body = template.body(size)
+            require(
+                body.size == size, template, f"gives a body of the size {body.size} for {size}",
+                look_at=at,
+            )  # fmt: skip
+            lengths = [body.capsules.ends, body.capsules.radii, body.markers.points]
+            require(
+                all(np.isfinite(each).all() for each in lengths)
+                and bool((body.capsules.radii > 0.0).all()), template,
+                "gives a body with lengths that are not finite, or radii that are not positive",
+                look_at=at,
+            )  # fmt: skip
+
+    def test_template_has_something_to_register(self, template: Template, grown: Body) -> None:
+        """Capsules, Gaussians or a surface; each on a segment that there is."""
+        flesh = [grown.capsules.segments, *(g.segments for g in grown.gaussians.values())]
+        flesh += [] if grown.surface is None else [grown.surface.segments.ravel()]
+        at = type(template).body
+        require(
+            sum(map(len, flesh)) > 0, template, "has neither capsules nor Gaussians nor a surface",
+            look_at=at,
+        )  # fmt: skip
+        carried = np.concatenate([*flesh, grown.markers.segments])
+        require(
+            carried.min() >= 0 and carried.max() < len(grown.skeleton.names), template,
+            f"has flesh on segment {carried.max()} of {len(grown.skeleton.names)}", look_at=at,
+        )  # fmt: skip
+
+    def test_template_stances_are_within_the_limits(self, template: Template, grown: Body) -> None:
+        """The rest pose is the first of them."""
+        at = type(template).description
+        require(
+            bool(grown.stances) and grown.stances[0].name == "rest", template,
+            "has no rest pose as its first stance", look_at=at,
+        )  # fmt: skip
+        for stance in grown.stances:
+            by = float(np.degrees(grown.skeleton.limits.violation(stance.pose).max(initial=0.0)))
+            require(
+                by < 1e-6, template, f"has a stance '{stance.name}' {by:.3g} degrees beyond a "
+                "joint limit", look_at=at,
+            )  # fmt: skip
+
+    def test_template_size_scales_all_lengths(self, template: Template) -> None:
+        """Joints, capsules, markers and surfaces grow together."""
+        sizes = template.candidate_sizes()
+        if len(sizes) == 1:
+            pytest.skip("it has one size")
+        small, large = template.body(sizes[0]), template.body(sizes[-1])
+        factor, at = sizes[-1] / sizes[0], type(template).body
+        for index, stance in enumerate(small.stances):
+            first, second = (
+                _lengths(body, body.stances[index].pose.root) for body in (small, large)
+            )
+            by = max(
+                float(np.abs(factor * a - b).max(initial=0.0))
+                for a, b in zip(first, second, strict=True)
+            )
+            require(
+                by < 1e-9, template, f"does not grow evenly: in the stance '{stance.name}' a place "
+                f"is off by {by:.2g} m", look_at=at,
+            )  # fmt: skip
+
+    def test_template_markers_have_names_of_their_own(
+        self, template: Template, grown: Body
+    ) -> None:
+        """As the columns of every table have."""
+        names = grown.markers.names
+        twice = sorted({name for name in names if names.count(name) > 1})
+        require(
+            not twice, template, f"has markers of the same name: {', '.join(twice)}",
+            look_at=type(template).description,
+        )  # fmt: skip
+
+    def test_template_is_deterministic(self, template: Template) -> None:
+        """Twice the same body."""
+        size = template.candidate_sizes()[0]
+        first, second = template.body(size), template.body(size)
+        require(
+            same((first.capsules, first.markers), (second.capsules, second.markers))
+            and same(first.surface, second.surface), template,
+            "gives another body when it is asked again", look_at=type(template).body,
+        )  # fmt: skip
+
+
+def _lengths(body: Body, root: np.ndarray) -> list[np.ndarray]:
+    """Places that grow with a body, in its rest pose about the origin."""
+    turned = rigid(root[:3, :3], np.zeros(3))
+    transforms = body.place(body.skeleton.rest(turned)).transforms
+    capsules = body.capsules.place(transforms)
+    surface = [] if body.surface is None else [body.surface.place(transforms)]
+    return [
+        transforms[:, :3, 3], capsules.ends, capsules.radii, body.markers.place(transforms),
+        *surface, *(own.place(transforms).centres for own in body.gaussians.values()),
+    ]  # fmt: skip

@@ -1,0 +1,153 @@
+"""Laws of terms, with every shape at whose primitives they can look."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any, cast
+
+import numpy as np
+import pytest
+
+from regkit.body import Body
+from regkit.coordinates import TangentCoordinates
+from regkit.errors import RegkitError
+from regkit.interfaces import JointEnergy, Response, Scene, Shares, Similarity, Term
+from regkit.interfaces.term import Effect
+from regkit.primitives import Placed, Primitives
+from regkit.problem import RegistrationProblem
+from regkit.testing.cases import Pair
+from regkit.testing.differences import Slopes
+from regkit.testing.laws import Laws
+from regkit.testing.samples import data_of, posed
+from regkit.testing.shape_laws import attached
+from regkit.testing.verdict import copied, require, same
+
+
+class Nothing(Similarity):
+    """An energy of zero, so that a term of the joints stands alone."""
+
+    def __call__(self, placed: Placed[Any], *, curvature: bool = False) -> Response:
+        """No energy, no force."""
+        count = len(placed)
+        return Response(0.0, np.zeros((count, 6)), np.zeros((count, 6, 6)) if curvature else None)
+
+
+class TermLaws(Laws):
+    """Laws of terms."""
+
+    @pytest.fixture
+    def scene(
+        self, term_pair: Pair, body: Body, random: np.random.Generator
+    ) -> tuple[Scene, Primitives]:
+        """A posed body before a camera, whose parts meet, and some joints beyond their limits."""
+        term = cast(Term, term_pair.plugin)
+        try:
+            term.check(body)
+        except RegkitError as error:
+            pytest.skip(f"it cannot be used with the sample body: {error}")
+        start = posed(body, random)
+        bones = body.skeleton
+        joints = np.arange(bones.freedoms) >= (6 if bones.free else 0)
+        start = bones.retract(start, 0.9 * joints * random.normal(size=bones.freedoms))
+        primitives = attached(term_pair.shape, body)
+        primitives = replace(primitives, scales=2.0 * primitives.scales)
+        placed = primitives.place(body.place(start).transforms)
+        return Scene(body, data_of(body, start, random), start, placed), primitives
+
+    def test_term_gradient_is_the_derivative_of_its_energy(
+        self, term_pair: Pair, scene: tuple[Scene, Primitives], random: np.random.Generator
+    ) -> None:
+        """By central differences on the joints of a body."""
+        effect = _effect(term_pair, scene)
+        problem = _problem(effect, scene)
+        x = 0.03 * random.normal(size=len(problem.start))
+        slopes = Slopes.of(problem, x)
+        require(
+            slopes.agree() or slopes.largest < 1e-9, term_pair.plugin,
+            slopes.told(scene[0].body), look_at=type(effect).__call__,
+        )  # fmt: skip
+
+    def test_term_curvature_is_symmetric_and_semidefinite(
+        self, term_pair: Pair, scene: tuple[Scene, Primitives], random: np.random.Generator
+    ) -> None:
+        """Beside the same energy and gradient."""
+        effect = _effect(term_pair, scene)
+        problem = _problem(effect, scene)
+        x = 0.03 * random.normal(size=len(problem.start))
+        equations = problem.normal_equations(x)
+        if equations is None:
+            pytest.skip("it has no curvature")
+        value, gradient = problem.value_and_gradient(x)
+        again, slope, matrix = equations
+        size = max(float(np.abs(matrix).max()), 1e-9)
+        at = type(effect).__call__
+        require(
+            again == value and np.allclose(slope, gradient, rtol=1e-9, atol=1e-12 * size),
+            term_pair.plugin, "answers another energy or gradient when asked for curvature",
+            look_at=at,
+        )  # fmt: skip
+        uneven = np.abs(matrix - matrix.T).max() / size
+        least = np.linalg.eigvalsh(0.5 * (matrix + matrix.T)).min() / size
+        require(
+            uneven < 1e-9 and least > -1e-9, term_pair.plugin, "has a curvature that is uneven by "
+            f"{uneven:.2g} and has the eigenvalue {least:.2g}, in parts of its largest entry; it "
+            "must be symmetric and positive semi-definite", look_at=at,
+        )  # fmt: skip
+
+    def test_term_weighs_from_nothing_to_all_or_is_a_finite_energy(
+        self, term_pair: Pair, scene: tuple[Scene, Primitives]
+    ) -> None:
+        """One factor from 0 to 1 for each primitive, or a number."""
+        term = cast(Term, term_pair.plugin)
+        effect = term.against(scene[0])
+        if not isinstance(effect, Shares):
+            problem = _problem(effect, scene)
+            energy, _ = problem.value_and_gradient(problem.start)
+            require(
+                np.isfinite(energy), term, f"has the energy {energy} in an ordinary pose",
+                look_at=type(effect).__call__,
+            )  # fmt: skip
+            return
+        factors = effect.factors
+        require(
+            factors.shape == (len(scene[1]),) and ((factors >= 0.0) & (factors <= 1.0)).all(),
+            term, f"gives shares from {factors.min():.2g} to {factors.max():.2g} in the shape "
+            f"{factors.shape}; they must be 0 to 1, {(len(scene[1]),)}", look_at=type(term).against,
+        )  # fmt: skip
+
+    def test_term_is_deterministic_and_changes_nothing(
+        self, term_pair: Pair, scene: tuple[Scene, Primitives]
+    ) -> None:
+        """Bound twice it does the same, and writes to nothing it is given."""
+        term, before = cast(Term, term_pair.plugin), copied(scene[0].placed)
+        answers: list[tuple[object, ...]] = []
+        for _ in range(2):
+            effect = term.against(scene[0])
+            if isinstance(effect, Shares):
+                answers.append((effect.factors,))
+            else:
+                problem = _problem(effect, scene)
+                answers.append(problem.value_and_gradient(problem.start))
+        require(
+            same(*answers), term, "does something else when it is bound again",
+            look_at=type(term).against,
+        )  # fmt: skip
+        require(
+            same(before, scene[0].placed), term, "changes the primitives that it looks at; copy "
+            "arrays before writing to them", look_at=type(term).against,
+        )  # fmt: skip
+
+
+def _effect(pair: Pair, scene: tuple[Scene, Primitives]) -> Similarity | JointEnergy:
+    effect = cast(Term, pair.plugin).against(scene[0])
+    if isinstance(effect, Shares):
+        pytest.skip("it weighs primitives and has no energy")
+    return effect
+
+
+def _problem(effect: Effect, scene: tuple[Scene, Primitives]) -> RegistrationProblem:
+    chart = TangentCoordinates(scene[0].body.skeleton, scene[0].expected)
+    if isinstance(effect, JointEnergy):
+        return RegistrationProblem(chart, scene[1], [Nothing()], [effect])
+    assert isinstance(effect, Similarity)
+    return RegistrationProblem(chart, scene[1], [effect])

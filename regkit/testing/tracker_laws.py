@@ -1,0 +1,130 @@
+"""Laws of trackers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+import pytest
+
+from regkit.body import Body
+from regkit.interfaces import Fit, Registered, Registrar, Tracker
+from regkit.observation import Observation
+from regkit.primitives import Primitives
+from regkit.skeleton import Pose
+from regkit.testing.laws import Laws
+from regkit.testing.samples import posed, surface_data
+from regkit.testing.verdict import copied, require, same
+
+
+@dataclass
+class Known(Registrar):
+    """A registrar that finds the truth, wherever it sets out, and notes from where that was.
+
+    Attributes:
+        body: The body.
+        primitives: One for each segment.
+        truth: What it finds.
+        asked: The poses from which it set out.
+    """
+
+    body: Body
+    primitives: Primitives
+    truth: Pose
+    asked: list[Pose] = field(default_factory=list)
+
+    def register(
+        self,
+        observation: Observation,
+        expected: Pose,
+        *others: Pose,
+        blurs: Sequence[float] | None = None,
+        after: Registered | None = None,
+    ) -> Registered:
+        """The truth."""
+        self.asked += [expected, *others]
+        return _seen(self.truth)
+
+    def fit(self, observation: Observation, pose: Pose) -> Fit:
+        """All is explained in the truth, and little elsewhere."""
+        share = 0.95 if pose is self.truth else 0.2
+        return Fit(-share, np.full(len(observation.points), share))
+
+
+def _seen(pose: Pose) -> Registered:
+    return Registered(pose, -1.0, 0.95, True, 3, 4, "found")
+
+
+class TrackerLaws(Laws):
+    """Laws of trackers."""
+
+    @pytest.mark.parametrize("frames", [0, 1, 4])
+    def test_tracker_takes_the_pose_that_explains_the_frame(
+        self, tracker: Tracker, body: Body, random: np.random.Generator, frames: int
+    ) -> None:
+        """With a registrar that finds the truth, from the first frame on."""
+        registrar, past = _scene(body, random, frames)
+        data = surface_data(body, registrar.truth)
+        follower = tracker.follow(registrar)
+        at = type(follower).step
+        found = follower.step(data, past)
+        require(
+            bool(registrar.asked), tracker, "gives a pose without having registered the frame",
+            look_at=at,
+        )  # fmt: skip
+        require(
+            same(found.pose, registrar.truth), tracker,
+            "gives another pose than the one that was found and explains the frame", look_at=at,
+        )  # fmt: skip
+
+    def test_tracker_sets_out_within_the_joint_limits(
+        self, tracker: Tracker, body: Body, random: np.random.Generator
+    ) -> None:
+        """Bounds are limits only where the start is within them."""
+        registrar, past = _scene(body, random, 4)
+        follower = tracker.follow(registrar)
+        follower.step(surface_data(body, registrar.truth), past)
+        by = max(body.skeleton.limits.violation(pose).max(initial=0.0) for pose in registrar.asked)
+        require(
+            by < 1e-6, tracker, f"sets out from a pose beyond a joint limit, by "
+            f"{np.degrees(by):.2g} degrees; use skeleton.limits.projected()",
+            look_at=type(follower).step,
+        )  # fmt: skip
+
+    def test_tracker_holds_no_state(
+        self, tracker: Tracker, body: Body, random: np.random.Generator
+    ) -> None:
+        """The past is an argument: asked twice it does the same, and the past stays as it was."""
+        registrar, past = _scene(body, random, 3)
+        data = surface_data(body, registrar.truth)
+        follower, before = tracker.follow(registrar), copied(past)
+        at = type(follower).step
+        first = follower.step(data, past)
+        asked, registrar.asked = registrar.asked, []
+        second = follower.step(data, past)
+        require(
+            same(first, second) and same(asked, registrar.asked), tracker,
+            "does something else when it is asked again; what it knows must come from the past",
+            look_at=at,
+        )  # fmt: skip
+        require(same(before, past), tracker, "changes the past that it is given", look_at=at)
+
+
+def _scene(body: Body, random: np.random.Generator, frames: int) -> tuple[Known, list[Registered]]:
+    """A registrar, and a past of so many frames after the start, of a body that moves evenly."""
+    segments = len(body.skeleton.names)
+    primitives = Primitives(
+        segments=np.arange(segments),
+        centres=np.zeros((segments, 3)),
+        axes=np.tile(np.eye(3), (segments, 1, 1)),
+        scales=np.full((segments, 3), 0.05),
+        weights=np.ones(segments),
+    )
+    bones, pose = body.skeleton, posed(body, random)
+    step = 0.1 * random.normal(size=bones.freedoms)
+    poses = [pose]
+    for _ in range(frames + 1):
+        poses.append(bones.limits.projected(bones.retract(poses[-1], step)))
+    past = [Registered.given(poses[0]), *map(_seen, poses[1:-1])]
+    return Known(body, primitives, poses[-1]), past

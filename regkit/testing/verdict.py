@@ -1,0 +1,64 @@
+"""What a broken law says to the author of a plug-in: by how much, and where to look."""
+
+from __future__ import annotations
+
+import copy
+import inspect
+from collections.abc import Mapping
+from dataclasses import fields, is_dataclass
+from typing import Any
+
+import numpy as np
+import pytest
+
+from regkit.plugin import Plugin
+
+
+def require(kept: bool | np.bool_, plugin: Plugin, broken: str, *, look_at: object) -> None:
+    """Fail the test unless a law is kept.
+
+    Args:
+        kept: Whether it is.
+        plugin: Whose law it is.
+        broken: What is wrong and by how much, to follow the plug-in's name.
+        look_at: The class or method in which it is to be mended.
+    """
+    if not kept:
+        group = plugin.group.removeprefix("regkit.").removesuffix("s")
+        pytest.fail(
+            f"{group} '{plugin.kind}' {broken}; look at {whereabouts(look_at)}", pytrace=False
+        )
+
+
+def whereabouts(what: object) -> str:
+    """Name, file and line of a class or a method."""
+    found = inspect.unwrap(getattr(what, "__func__", what))  # type: ignore[arg-type]
+    name = f"{getattr(found, '__module__', '')}.{getattr(found, '__qualname__', found)}"
+    try:
+        file = inspect.getsourcefile(found)
+        line = inspect.getsourcelines(found)[1]
+    except (OSError, TypeError):
+        return name
+    return f"{name} ({file}:{line})"
+
+
+def copied(value: Any) -> Any:
+    """A deep copy, with which ``same`` can tell later whether the value was changed."""
+    return copy.deepcopy(value)
+
+
+def same(first: Any, second: Any) -> bool:
+    """Whether two values are equal to the last bit, through dataclasses, arrays and sequences."""
+    if isinstance(first, np.ndarray):
+        return isinstance(second, np.ndarray) and np.array_equal(first, second, equal_nan=True)
+    if is_dataclass(first) and not isinstance(first, type):
+        return type(first) is type(second) and all(
+            same(getattr(first, each.name), getattr(second, each.name)) for each in fields(first)
+        )
+    if isinstance(first, Mapping):
+        return first.keys() == second.keys() and all(same(first[k], second[k]) for k in first)
+    if isinstance(first, list | tuple):
+        return len(first) == len(second) and all(map(same, first, second))
+    if isinstance(first, float):
+        return bool(first == second or (first != first and second != second))
+    return bool(first == second)

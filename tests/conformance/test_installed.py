@@ -1,0 +1,27 @@
+"""Every plug-in that is installed keeps the laws of its group: the built-ins, and all others."""
+
+from pathlib import Path
+
+from regkit.testing import conformance
+from regkit.testing.samples import LINKAGE
+
+DATA = Path(__file__).parents[2] / "docs" / "examples" / "data"
+
+RIGID = {"shape": "cloud_gsog", "kernel": "local_likelihood", "solver": "gauss_newton"}
+
+TestInstalled = conformance(
+    examples={
+        "datasets.depth": {"root": str(DATA / "human_walk")},
+        "datasets.clouds": {"root": str(DATA / "mannequin")},
+        "datasets.utd_mhad": {"root": str(Path(__file__).parent / "data" / "utd_mhad")},
+        "templates.file": {"path": str(LINKAGE)},
+        "templates.cloud": {"path": str(DATA / "mannequin" / "model.npz")},
+        "methods.direct": [
+            {"shape": "gsog", "kernel": "likelihood", "solver": "gauss_newton"},
+            {"shape": "sog", "kernel": "correlation", "solver": "lbfgs"},
+            {"shape": "sphere", "kernel": "sphere_distance", "solver": "ipopt"},
+            {"shape": "mesh", "kernel": "point_to_plane", "solver": "gauss_newton"},
+        ],
+        "methods.coarse_to_fine": RIGID,
+    }
+)

@@ -1,0 +1,147 @@
+"""Superquadrics for regkit: a shape model, its primitives, and a kernel that compares them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar, Literal
+
+import numpy as np
+from pydantic import Field
+from scipy.special import gamma
+
+from regkit.arrays import Array, Indices
+from regkit.body import Body
+from regkit.errors import ConfigError
+from regkit.interfaces import Kernel, Response, ShapeModel, Similarity
+from regkit.observation import Observation
+from regkit.primitives import SPHERE, Placed, Primitives, Volumes
+from regkit.rotation import between
+
+
+@dataclass(frozen=True)
+class Superellipsoids(Volumes):
+    """Solids about their second axis: the points whose gauge is at most one.
+
+    With the semi-axes a = 2 scales the gauge is ``((x_1^2 / a_1^2 + x_3^2 / a_3^2)^(q / 2) +
+    |x_2 / a_2|^q)^(1 / q)``: Barr, Superquadrics and angle-preserving transformations, 1981.
+
+    Attributes:
+        exponents: q of each, (K,): 2 for an ellipsoid; the larger, the more a cylinder.
+    """
+
+    exponents: Array
+
+    def surface_points(self) -> Array:
+        """Where the rays in all directions leave each solid, (K, P, 3) [m]."""
+        gauges, _ = gauge(SPHERE[None], self.scales[:, None], self.exponents[:, None])
+        return np.asarray(SPHERE / gauges[..., None])
+
+
+def gauge(points: Array, scales: Array, exponents: Array) -> tuple[Array, Array]:
+    """The gauge (...) of points (..., 3) in the solids' own axes, and its gradient (..., 3)."""
+    ratios = points / (2.0 * scales)
+    across = np.maximum(np.hypot(ratios[..., 0], ratios[..., 2]), 1e-12)
+    along = np.abs(ratios[..., 1])
+    largest = np.maximum(across, along)
+    powers = (across / largest) ** exponents + (along / largest) ** exponents
+    value = largest * powers ** (1.0 / exponents)
+    slopes = ratios / across[..., None] * ((across / value) ** (exponents - 1.0))[..., None]
+    slopes[..., 1] = np.sign(ratios[..., 1]) * (along / value) ** (exponents - 1.0)
+    return value, slopes / (2.0 * scales)
+
+
+class Superquadric(ShapeModel):
+    """A superellipsoid for each capsule of the template, of the same length and volume."""
+
+    kind: Literal["superquadric"] = "superquadric"
+    makes: ClassVar[type[Primitives]] = Superellipsoids
+
+    girth: Annotated[float, Field(gt=0.0)] = 1.0
+    """Radius as a part of the capsule's mean radius."""
+
+    def attach(self, body: Body) -> Superellipsoids:
+        """One superellipsoid about each capsule's axis."""
+        capsules = body.capsules
+        if not len(capsules):
+            raise ConfigError(f"shape '{self.kind}' needs capsules; '{body.name}' has none")
+        ways = capsules.ends[:, 1] - capsules.ends[:, 0]
+        lengths, radii = np.linalg.norm(ways, axis=1), capsules.radii.mean(axis=1)
+        reach = 0.5 * lengths + radii
+        # The part that a solid fills of the cylinder around it grows with its exponent.
+        exponents = np.linspace(2.0, 20.0, 500)
+        parts = gamma(1 + 2 / exponents) * gamma(1 + 1 / exponents) / gamma(1 + 3 / exponents)
+        filled = (0.5 * lengths + 2.0 / 3.0 * radii) / reach
+        return Superellipsoids(
+            segments=capsules.segments,
+            centres=capsules.ends.mean(axis=1),
+            axes=np.array([_turned_to(way) for way in ways]),
+            scales=0.5 * np.column_stack([self.girth * radii, reach, self.girth * radii]),
+            weights=np.ones(len(radii)),
+            exponents=np.interp(filled, parts, exponents),
+        )
+
+
+def _turned_to(way: Array) -> Array:
+    """Axes (3, 3) of which the second has the direction of ``way`` (3,), if it has one."""
+    return between(np.array([0.0, 1.0, 0.0]), way) if way.any() else np.eye(3)
+
+
+class RadialDistance(Kernel):
+    """Distance of each point to the nearest superellipsoid, along the ray from its centre.
+
+    The energy is the mean of ``log(1 + (r / s)^2) / 2`` with the distance r and the width s.
+    """
+
+    kind: Literal["radial_distance"] = "radial_distance"
+    accepts: ClassVar[type[Primitives]] = Superellipsoids
+
+    width: Annotated[float, Field(gt=0.0)] = 0.03
+    """Distance beyond which a point counts for less and less [m]."""
+
+    def against(
+        self, observation: Observation, start: Placed[Any], *, blur: float = 0.0
+    ) -> RadialDistances:
+        """Bind the kernel to a frame's data."""
+        return RadialDistances(observation, self.width**2 + blur**2)
+
+
+class RadialDistances(Similarity):
+    """``r = |x| (1 - 1 / g)`` for the gauge g of a point's place x in a solid's axes.
+
+    Source: Gross, Boult, Error of fit measures for recovering parametric solids, ICCV 1988.
+    """
+
+    def __init__(self, observation: Observation, square: float) -> None:
+        self._points, self._square = observation.points, square
+        self._weights = observation.weights / observation.weights.sum()
+
+    def explained(self, placed: Placed[Superellipsoids]) -> Array:
+        """By how much the loss lets each point count, (N,)."""
+        return np.asarray(self._square / (self._square + self._residuals(placed)[1] ** 2))
+
+    def __call__(self, placed: Placed[Superellipsoids], *, curvature: bool = False) -> Response:
+        """The energy, the exact wrenches and the Gauss-Newton blocks, sum w J^T J."""
+        owners, residuals, rows = self._residuals(placed)
+        energy = 0.5 * float(self._weights @ np.log1p(residuals**2 / self._square))
+        pulls = self._weights / (self._square + residuals**2)
+        wrenches, blocks = np.zeros((len(placed), 6)), np.zeros((len(placed), 6, 6))
+        np.add.at(wrenches, owners, (pulls * residuals)[:, None] * rows)
+        if curvature:
+            np.add.at(blocks, owners, pulls[:, None, None] * rows[:, :, None] * rows[:, None, :])
+        return Response(energy, wrenches, blocks if curvature else None)
+
+    def _residuals(self, placed: Placed[Superellipsoids]) -> tuple[Indices, Array, Array]:
+        """Each point's solid (N,), distance (N,) [m], and its derivative (N, 6) to motions."""
+        solids, each = placed.primitives, np.arange(len(self._points))
+        offsets = self._points[:, None] - placed.centres
+        local = np.einsum("kji,nkj->nki", placed.axes, offsets)
+        gauges, slopes = gauge(local, solids.scales, solids.exponents)
+        lengths = np.linalg.norm(local, axis=2)
+        distances = lengths * (1.0 - 1.0 / gauges)
+        owners = distances.argmin(axis=1)
+        length, value = lengths[each, owners, None], gauges[each, owners, None]
+        ways = local[each, owners] / length * (1.0 - 1.0 / value)
+        ways += length / value**2 * slopes[each, owners]
+        normals = np.einsum("nij,nj->ni", placed.axes[owners], ways)
+        turns = np.cross(offsets[each, owners], normals)
+        return owners, distances[each, owners], -np.concatenate([normals, turns], axis=1)
