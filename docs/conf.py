@@ -63,7 +63,10 @@ nitpick_ignore_regex = [
     ),
     (r"py:.*", r"(pydantic|pydantic_core|rich|ruamel|scipy|types|typing)\..*"),
     # Names that stand for a type, for which there is nothing to link to.
-    (r"py:class", r"TypeAliasForwardRef|ArrayLike|Choice|Cloud|Frames|Intrinsics|Measured|Reference"),
+    (
+        r"py:class",
+        r"TypeAliasForwardRef|ArrayLike|Choice|Cloud|Frames|Intrinsics|Measured|Reference",
+    ),
     (r"py:class", r"Figure|Field|(dict|tuple)\[str"),
     # What a YAML file holds is told by tables of fields, not here.
     (r"py:class", r"(regkit\.(body|skeleton)\..*\.)?\w+Description"),

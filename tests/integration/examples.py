@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
 import shlex
+import subprocess
+import sys
 import tomllib
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -40,13 +43,17 @@ class Runner:
         page: The page.
         folder: Where they are run; what one writes, the next ones find.
         command: The command line.
+        make_importable: What puts a folder first where this process looks for modules.
         names: What its Python blocks have defined.
+        importable: Folders of packages that its commands have installed.
     """
 
     page: Page
     folder: Path
     command: Callable[..., Any]
+    make_importable: Callable[[Path], None]
     names: dict[str, Any] = field(default_factory=lambda: {"__name__": "__main__"})
+    importable: list[Path] = field(default_factory=list)
 
     def prepare(self) -> None:
         """Link the project's files, and what stands for a reader's own."""
@@ -60,7 +67,7 @@ class Runner:
     def run(self, block: Block) -> None:
         """Run a block, or check it, by its language."""
         if "file" in block.markers:
-            file = self.folder / block.markers["file"]
+            file = Path(block.markers["file"]).absolute()
             file.parent.mkdir(parents=True, exist_ok=True)
             file.write_text(block.text, encoding="utf-8")
         if "from" in block.markers:
@@ -87,6 +94,12 @@ class Runner:
         match words:
             case []:
                 return
+            case ["cd", folder]:
+                os.chdir(folder)
+            case ["pip", "install", *_]:
+                self._install()
+            case ["pytest"]:
+                self._run_python("-m", "pytest", "-q", "-p", "no:dash", "-p", "no:cacheprovider")
             case ["make", target]:
                 assert f"\n{target}: " in (ROOT / "Makefile").read_text(), command
             case ["python", script, *_] if script.startswith("benchmarks/"):
@@ -101,6 +114,30 @@ class Runner:
                     assert " ".join(output.split()) in " ".join(ended.err.split()), told
             case _:
                 raise AssertionError(f"{block.place}: cannot be run here, say why: {command}")
+
+    def _install(self) -> None:
+        """Install the package here for this process and those that it starts.
+
+        As in an editable installation its code is imported from where it is written.
+        """
+        installed = self.folder / "installed"
+        self._run_python(
+            "-m", "pip", "install", "--quiet", "--no-deps", "--no-build-isolation",
+            "--disable-pip-version-check", "--target", str(installed), ".",
+        )  # fmt: skip
+        self.importable += [Path("src").absolute(), installed]
+        for path in reversed(self.importable):
+            self.make_importable(path)
+
+    def _run_python(self, *arguments: str) -> None:
+        """Run Python as a reader would, in a process of its own."""
+        paths = os.pathsep.join(map(str, self.importable))
+        ended = subprocess.run(
+            [sys.executable, *arguments],
+            env={**os.environ, "PYTHONPATH": paths, "PYTHONDONTWRITEBYTECODE": "1"},
+            capture_output=True, text=True, check=False,
+        )  # fmt: skip
+        assert ended.returncode == 0, ended.stdout + ended.stderr
 
     def _check_yaml(self, block: Block) -> None:
         data = YAML(typ="safe", pure=True).load(block.text)

@@ -19,7 +19,7 @@ LEFT_OUT = {block.place: block for page in PAGES.values() for block in page.bloc
 @pytest.mark.parametrize("name", [name for name, page in PAGES.items() if page.blocks])
 def test_blocks_of_page_run(name, tmp_path, monkeypatch, regkit):
     monkeypatch.chdir(tmp_path)
-    runner = Runner(PAGES[name], tmp_path, regkit)
+    runner = Runner(PAGES[name], tmp_path, regkit, monkeypatch.syspath_prepend)
     runner.prepare()
     for block in PAGES[name].blocks:
         if block.reason is None:
