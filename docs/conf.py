@@ -33,7 +33,11 @@ myst_heading_anchors = 4
 myst_links_external_new_tab = False
 
 autodoc_member_order = "bysource"
-autodoc_default_options = {"members": True}
+autodoc_default_options = {
+    "members": True,
+    "no-value": True,
+    "exclude-members": "model_config",
+}
 autodoc_typehints = "signature"
 autodoc_type_aliases = {
     name: name

@@ -1,6 +1,7 @@
-"""Docstrings of attributes are prose, which Napoleon leaves as it is.
+"""What autodoc shows of this project's code.
 
-It would take what stands before a colon for a type.
+Docstrings of attributes are prose, in which Napoleon would take what stands before a colon for a
+type. A configuration model is made from YAML; its fields are listed, and its call is left out.
 """
 
 from __future__ import annotations
@@ -8,6 +9,8 @@ from __future__ import annotations
 from typing import Any
 
 from sphinx.application import Sphinx
+
+from regkit.model import Model
 
 PROSE = ("attribute", "data", "property")
 
@@ -29,9 +32,16 @@ class _Kept:
             lines[:] = self._lines
 
 
+def _no_call(
+    app: Sphinx, what: str, name: str, obj: Any, options: Any, signature: str, returned: str
+) -> tuple[str, str] | None:
+    return ("", "") if isinstance(obj, type) and issubclass(obj, Model) else None
+
+
 def setup(app: Sphinx) -> dict[str, bool]:
-    """Stand before and after Napoleon, whose priority is 500."""
+    """The priority of Napoleon is 500."""
     kept = _Kept()
     app.connect("autodoc-process-docstring", kept.keep, priority=400)
     app.connect("autodoc-process-docstring", kept.restore, priority=600)
+    app.connect("autodoc-process-signature", _no_call)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import re
 import types
 from collections.abc import Iterator
 from pathlib import Path
@@ -80,7 +81,10 @@ def _words(annotation: Any) -> str:
             return f"`{annotation.__name__}`"
         page = annotation.group.removeprefix("regkit.")
         return f"[{page.removesuffix('s')}](/reference/plugins/{page}.md)"
-    return _NAMES.get(annotation, getattr(annotation, "__name__", str(annotation)))
+    if annotation in _NAMES:
+        return _NAMES[annotation]
+    name = getattr(annotation, "__name__", str(annotation)).removesuffix("Description")
+    return re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name).lower()
 
 
 def _constraints(part: Any) -> list[Any]:

@@ -23,9 +23,6 @@ def plugins_text(group: str) -> str:
 def _parts(slot: type[Plugin]) -> Iterator[str]:
     yield _prose(slot.__doc__)
     yield f"The interface is {{py:class}}`regkit.interfaces.{slot.__name__}`."
-    shared = [name for name in slot.model_fields if name != "kind"]
-    if shared:
-        yield f"All of them have {_listed(shared)}."
     for kind, origin in slot.available().items():
         plugin = slot.load(kind)
         yield f"## {kind}"
@@ -51,11 +48,6 @@ def _presets(slot: type[Plugin]) -> Iterator[str]:
         yield f"## preset {name}"
         text = preset_file(slot.group, name).read_text(encoding="utf-8")
         yield f"```yaml\n{text}```"
-
-
-def _listed(names: list[str]) -> str:
-    quoted = [f"`{name}`" for name in names]
-    return quoted[0] if len(quoted) == 1 else ", ".join(quoted[:-1]) + f" and {quoted[-1]}"
 
 
 def _prose(docstring: str | None) -> str:
