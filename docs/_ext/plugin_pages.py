@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Iterator
-from importlib.metadata import EntryPoint
 
 from field_tables import field_table, models_in
 
+from regkit.installed import OWN, only_from
 from regkit.interfaces import SLOTS
 from regkit.model import Model
 from regkit.plugin import Plugin
@@ -15,22 +15,23 @@ from regkit.preset import preset_file, presets_of
 
 
 def plugins_text(group: str) -> str:
-    """Markdown with a section for each plug-in of a group, and for each of its presets."""
+    """Markdown with a section for each plug-in of a group, and for each of its presets.
+
+    What other distributions bring to the machine that builds the pages is left out.
+    """
     (slot,) = (slot for slot in SLOTS if slot.group == group)
-    return "\n\n".join(_parts(slot))
+    with only_from(OWN):
+        return "\n\n".join(_parts(slot))
 
 
 def _parts(slot: type[Plugin]) -> Iterator[str]:
     yield _prose(slot.__doc__)
     yield f"The interface is {{py:class}}`regkit.interfaces.{slot.__name__}`."
-    for kind, origin in slot.available().items():
+    for kind in slot.available():
         plugin = slot.load(kind)
         yield f"## {kind}"
         yield _prose(plugin.__doc__)
-        where = f"`{plugin.__module__}.{plugin.__qualname__}`"
-        if isinstance(origin, EntryPoint) and origin.dist and origin.dist.name != "regkit":
-            where += f", of {origin.dist.name} {origin.dist.version}"
-        yield where
+        yield f"`{plugin.__module__}.{plugin.__qualname__}`"
         yield field_table(plugin, skipped=("kind",))
         for model in models_in(plugin):
             yield from _nested(kind, model)

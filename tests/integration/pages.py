@@ -4,11 +4,14 @@ A comment before a block says what is special about it:
 
     <!-- example: not run: REASON -->          it is not run, and the tests say why
     <!-- example: with --set a.b=VALUE -->     added to each ``regkit run`` of the block
-    <!-- example: fails -->                    its commands end with the error that is shown
+    <!-- example: fails -->                    its commands end with the error that is shown,
+                                               where ... stands for anything
     <!-- example: file NAME -->                the block is written there before what follows
-    <!-- example: part of experiment -->       YAML that is a part of such a document
+    <!-- example: part of hand -->             YAML that is a segment of the hand; or of `bones`
     <!-- example: from FILE -->                an excerpt of a file that is run by itself
     <!-- example: let NAME be FILE -->         stands alone: NAME is a link to a file or folder
+
+YAML needs none of these if it is a template, an experiment, or some fields of an experiment.
 """
 
 from __future__ import annotations
