@@ -100,8 +100,19 @@ def pairs(found: Sequence[Case], slot: type[Kernel] | type[Term]) -> list[Pair]:
         for two in found
         if isinstance(two.plugin, ShapeModel)
         and (one.own or two.own)
-        and issubclass(two.plugin.makes, one.plugin.accepts)
+        and accepts(one.plugin, two.plugin)
     ]
+
+
+def accepts(plugin: Kernel | Term, shape: ShapeModel) -> bool:
+    """Whether a kernel or a term takes a shape's primitives."""
+    if isinstance(plugin, Term):
+        return issubclass(shape.makes, plugin.accepts)
+    try:
+        plugin.check_shape(shape)
+    except ValueError:
+        return False
+    return True
 
 
 def _is_of(origin: Installed | type[Plugin], subject: str | type[Plugin]) -> bool:

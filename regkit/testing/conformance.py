@@ -13,6 +13,7 @@ from regkit.testing.kernel_laws import KernelLaws
 from regkit.testing.laws import Laws
 from regkit.testing.method_laws import MethodLaws
 from regkit.testing.observer_laws import ObserverLaws
+from regkit.testing.partner_laws import KernelPartnerLaws, ShapePartnerLaws
 from regkit.testing.plugin_laws import PluginLaws
 from regkit.testing.shape_laws import ShapeLaws
 from regkit.testing.solver_laws import SolverLaws
@@ -20,17 +21,18 @@ from regkit.testing.template_laws import TemplateLaws
 from regkit.testing.term_laws import TermLaws
 from regkit.testing.tracker_laws import TrackerLaws
 
-LAWS: Mapping[str, type[Laws]] = {
-    "plugin": PluginLaws,
-    "dataset": DatasetLaws,
-    "template": TemplateLaws,
-    "observer": ObserverLaws,
-    "shape": ShapeLaws,
-    "pair": KernelLaws,
-    "term_pair": TermLaws,
-    "solver": SolverLaws,
-    "tracker": TrackerLaws,
-    "method": MethodLaws,
+LAWS: Mapping[str, tuple[type[Laws], ...]] = {
+    "plugin": (PluginLaws,),
+    "dataset": (DatasetLaws,),
+    "template": (TemplateLaws,),
+    "observer": (ObserverLaws,),
+    "shape": (ShapeLaws, ShapePartnerLaws),
+    "kernel": (KernelPartnerLaws,),
+    "pair": (KernelLaws,),
+    "term_pair": (TermLaws,),
+    "solver": (SolverLaws,),
+    "tracker": (TrackerLaws,),
+    "method": (MethodLaws,),
 }
 """The laws by the argument of their tests."""
 
@@ -69,7 +71,7 @@ def conformance(
         argument = case.slot.group.removeprefix("regkit.").removesuffix("s")
         if case.own and not case.broken:
             parameters.setdefault(argument, []).append(case)
-    bases = [laws for argument, laws in LAWS.items() if parameters.get(argument)]
+    bases = [law for argument, laws in LAWS.items() if parameters.get(argument) for law in laws]
     content: dict[str, Any] = {
         "parameters": parameters,
         "__doc__": f"The laws of the plug-ins of {', '.join(map(str, subjects)) or 'all'}.",

@@ -82,6 +82,6 @@ def _freedoms(body: Body) -> list[str]:
 
 def best_length(problem: Problem, x: Array, step: Array) -> float:
     """By which power of two a step (n,) from x (n,) is to be multiplied to go lowest."""
-    lengths = 2.0 ** np.arange(-9, 10)
+    lengths = 2.0 ** np.arange(-14, 10)
     energies = [problem.value_and_gradient(x + length * step)[0] for length in lengths]
     return float(lengths[int(np.argmin(energies))])

@@ -171,8 +171,6 @@ class KernelLaws(Laws):
             left < 1e-3, bound.kernel, f"has blocks without stiffness where it has forces: "
             f"{100 * left:.2g} % of the gradient cannot be stepped along", look_at=bound.bind(),
         )  # fmt: skip
-        # Half a radian at most, so that rotations are about linear.
-        step *= min(1.0, 0.5 / np.abs(step).max())
         length = best_length(problem, x, np.asarray(step))
         require(
             length > 1.0 / TOO_FAR, bound.kernel, "has blocks that are too soft: the energy is "

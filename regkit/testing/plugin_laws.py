@@ -45,8 +45,9 @@ class PluginLaws(Laws):
         made = _made(plugin)
         frozen = True
         try:
-            made.kind = made.kind
-            frozen = False
+            for name, value in made:
+                setattr(made, name, value)
+                frozen = False
         except ValidationError:
             pass
         require(

@@ -7,6 +7,7 @@ from regkit.testing.samples import LINKAGE
 
 DATA = Path(__file__).parents[2] / "docs" / "examples" / "data"
 
+LOSSES = ("squares", "huber", "tukey", "geman_mcclure")
 RIGID = {"shape": "cloud_gsog", "kernel": "local_likelihood", "solver": "gauss_newton"}
 
 TestInstalled = conformance(
@@ -16,6 +17,14 @@ TestInstalled = conformance(
         "datasets.utd_mhad": {"root": str(Path(__file__).parent / "data" / "utd_mhad")},
         "templates.file": {"path": str(LINKAGE)},
         "templates.cloud": {"path": str(DATA / "mannequin" / "model.npz")},
+        "kernels.likelihood": [{}, {"outliers": 0.2}],
+        "kernels.point_to_point": [{}, {"robust": {"loss": "huber"}}, {"way_back": 0.5}],
+        "kernels.point_to_plane": [
+            {},
+            {"point_share": 0.0, "robust": {"loss": "squares", "scale": 0.1}},
+            {"angle_deg": 80.0, "way_back": 0.2, "noise": None},
+        ],
+        "kernels.sphere_distance": [{}, *({"robust": {"loss": loss}} for loss in LOSSES)],
         "methods.direct": [
             {"shape": "gsog", "kernel": "likelihood", "solver": "gauss_newton"},
             {"shape": "sog", "kernel": "correlation", "solver": "lbfgs"},

@@ -4,27 +4,19 @@ import numpy as np
 import pytest
 
 from regkit.camera import Camera
-from regkit.coordinates import COORDINATES
 from regkit.observation import Observation
 from regkit.primitives import Gaussians, SurfaceGaussians
-from regkit.problem import RegistrationProblem
 from regkit.rigid import rigid
 from regkit.rotation import vector_to_matrix
 from regkit_plugins.kernels.correlation import Correlation
 from regkit_plugins.kernels.likelihood import Likelihood
 from regkit_plugins.kernels.seen import Visible, seen
 from regkit_plugins.shapes.gsog import GeneralizedSumOfGaussians
-from regkit_plugins.shapes.sog import SumOfGaussians
 
 CAMERA = Camera(width=176, height=144, fx=230.0, fy=230.0, cx=87.5, cy=71.5)
 KERNELS = [
     Correlation(), Correlation(covariance="frozen"), Likelihood(), Likelihood(covariance="frozen")
 ]  # fmt: skip
-SHAPES = [
-    shape(surface=surface)
-    for shape in (SumOfGaussians, GeneralizedSumOfGaussians)
-    for surface in ("volume", "visible")
-]
 
 
 def name(plugin) -> str:
@@ -41,31 +33,6 @@ def scene(linkage, random, shape):
     variances = random.choice([0.01, 0.03], size=250) ** 2
     data = Observation(points, random.uniform(0.5, 2.0, 250), variances, CAMERA)
     return start, primitives, data
-
-
-@pytest.mark.parametrize("coordinates", COORDINATES)
-@pytest.mark.parametrize("shape", SHAPES, ids=name)
-@pytest.mark.parametrize("kernel", KERNELS, ids=name)
-def test_gradient_agrees_with_finite_differences(linkage, random, kernel, shape, coordinates):
-    start, primitives, data = scene(linkage, random, shape)
-    placed = primitives.place(linkage.place(start).transforms)
-    chart = COORDINATES[coordinates](linkage.skeleton, start)
-    similarity = kernel.against(data, placed, blur=0.01)
-    problem = RegistrationProblem(chart, primitives, [similarity])
-    x = problem.start + 0.2 * random.normal(size=len(problem.start))
-    value, gradient = problem.value_and_gradient(x)
-    numerical = [
-        problem.value_and_gradient(x + 1e-6 * e)[0] - problem.value_and_gradient(x - 1e-6 * e)[0]
-        for e in np.eye(len(x))
-    ]
-    np.testing.assert_allclose(
-        gradient, np.array(numerical) / 2e-6, atol=1e-6 * np.abs(gradient).max()
-    )
-    again, same, matrix = problem.normal_equations(x)
-    assert again == value
-    np.testing.assert_array_equal(same, gradient)
-    np.testing.assert_allclose(matrix, matrix.T, atol=1e-9 * np.abs(matrix).max())
-    assert np.linalg.eigvalsh(matrix).min() > -1e-9 * np.abs(matrix).max()
 
 
 def pair_weights(kernel, view, precisions, points):

@@ -91,16 +91,6 @@ def test_crop_near_beyond_far_is_refused(near, far):
 
 @pytest.mark.parametrize("observer", OBSERVERS, ids=lambda observer: observer.kind)
 class TestEveryObserver:
-    def test_observation_is_a_valid_sum_of_gaussians(self, observer, cloud):
-        camera = Camera(10, 10, 5.0, 5.0, 4.5, 4.5)
-        observation = observer.observe(Frame(cloud, camera))
-        count = len(observation.points)
-        assert observation.points.shape == (count, 3)
-        assert observation.weights.shape == observation.variances.shape == (count,)
-        assert (observation.weights > 0.0).all()
-        assert (observation.variances > 0.0).all()
-        assert observation.camera is camera
-
     def test_observation_does_not_depend_on_the_order_of_the_points(self, observer, cloud, random):
         def rows(points: np.ndarray) -> np.ndarray:
             seen = observer.observe(frame(points))

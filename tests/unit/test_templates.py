@@ -221,14 +221,6 @@ def test_human_rest_pose_is_neutral() -> None:
     assert markers["left_foot"][2] > markers["left_ankle"][2] + 0.1
 
 
-@pytest.mark.parametrize("name", TEMPLATES)
-def test_limits_contain_the_rest_pose_and_the_stances(name: str) -> None:
-    body = own_size(name)
-    assert body.stances[0].name == "rest"
-    for stance in body.stances:
-        assert body.skeleton.limits.violation(stance.pose).max() == pytest.approx(0.0, abs=1e-9)
-
-
 NATURAL: dict[str, dict[str, float | tuple[float, float] | tuple[float, float, float]]] = {
     "arms overhead": {"left_upper_arm": (-175.0, 0.0, 0.0), "right_upper_arm": (-175.0, 0.0, 0.0)},
     "arms overhead sideways": {"left_upper_arm": (0.0, 0.0, 175.0)},
@@ -299,29 +291,6 @@ def test_fingers_curl_out_of_the_palm(name: str) -> None:
         )
         assert joint[2] > 0.015
         assert tip[1] < joint[1]
-
-
-@pytest.mark.parametrize("name", TEMPLATES)
-def test_size_scales_all_lengths(name: str) -> None:
-    small = own_size(name)
-    large = TEMPLATES[name].body(1.2 * small.size)
-    turned = small.stances[1].pose
-    small_at, large_at = (
-        small.place(turned).transforms,
-        large.place(large.stances[1].pose).transforms,
-    )
-    np.testing.assert_allclose(1.2 * small_at[:, :3, 3], large_at[:, :3, 3], atol=1e-12)
-    np.testing.assert_allclose(1.2 * small.capsules.radii, large.capsules.radii)
-    np.testing.assert_allclose(
-        1.2 * small.markers.place(small_at), large.markers.place(large_at), atol=1e-12
-    )
-    for kind, own in small.gaussians.items():
-        np.testing.assert_allclose(1.2 * own.scales, large.gaussians[kind].scales)
-        np.testing.assert_allclose(
-            1.2 * own.place(small_at).centres,
-            large.gaussians[kind].place(large_at).centres,
-            atol=1e-12,
-        )
 
 
 def test_human_tries_several_heights_unless_it_is_given() -> None:

@@ -6,18 +6,14 @@ import numpy as np
 import pytest
 
 from regkit.camera import Camera
-from regkit.coordinates import COORDINATES
 from regkit.errors import ConfigError
-from regkit.interfaces import Response, Scene, Shares, Similarity
+from regkit.interfaces import Scene, Shares
 from regkit.observation import Observation
 from regkit.primitives import Gaussians
-from regkit.problem import RegistrationProblem
 from regkit.rigid import rigid
 from regkit.rotation import vector_to_matrix
 from regkit_plugins.kernels.correlation import Correlation
 from regkit_plugins.shapes.gsog import GeneralizedSumOfGaussians
-from regkit_plugins.shapes.sog import SumOfGaussians
-from regkit_plugins.shapes.sphere import SphereMesh
 from regkit_plugins.terms.clamp import Clamp
 from regkit_plugins.terms.continuity import Continuity
 from regkit_plugins.terms.free_space import FreeSpace
@@ -26,17 +22,6 @@ from regkit_plugins.terms.limits import LimitsTerm
 from regkit_plugins.terms.visibility import Visibility
 
 CAMERA = Camera(width=176, height=144, fx=230.0, fy=230.0, cx=87.5, cy=71.5)
-ENERGIES = [Clamp(weight=2.0), Continuity(weight=0.3), FreeSpace(), Intersection(), LimitsTerm()]
-SHAPES = [SumOfGaussians(), GeneralizedSumOfGaussians(), SphereMesh()]
-PAIRS = [(t, s) for t in ENERGIES for s in SHAPES if issubclass(s.makes, t.accepts)]
-
-
-class Nothing(Similarity):
-    """An energy of zero, so that a term stands alone."""
-
-    def __call__(self, placed, *, curvature=False):
-        count = len(placed)
-        return Response(0.0, np.zeros((count, 6)), np.zeros((count, 6, 6)) if curvature else None)
 
 
 def posed(linkage, random, spread=0.9):
@@ -56,36 +41,6 @@ def scene_at(linkage, random, shape, start):
     depth[40:100, 90:120] = 2.1  # A silhouette that the linkage is partly beside, partly before.
     data = Observation(points, np.ones(250), np.full(250, 0.01**2), CAMERA, depth)
     return Scene(linkage, data, start, placed), primitives
-
-
-def problem_of(term, scene, primitives, chart):
-    effect = term.against(scene)
-    if isinstance(effect, Similarity):
-        return RegistrationProblem(chart, primitives, [effect])
-    return RegistrationProblem(chart, primitives, [Nothing()], [effect])
-
-
-@pytest.mark.parametrize("coordinates", COORDINATES)
-@pytest.mark.parametrize(("term", "shape"), PAIRS, ids=lambda plugin: plugin.kind)
-def test_gradient_agrees_with_finite_differences(linkage, random, term, shape, coordinates):
-    start = posed(linkage, random)
-    scene, primitives = scene_at(linkage, random, shape, start)
-    chart = COORDINATES[coordinates](linkage.skeleton, start)
-    problem = problem_of(term, scene, primitives, chart)
-    x = problem.start + 0.03 * random.normal(size=len(problem.start))
-    value, gradient = problem.value_and_gradient(x)
-    assert value > 0.0
-    numerical = [
-        problem.value_and_gradient(x + 1e-6 * e)[0] - problem.value_and_gradient(x - 1e-6 * e)[0]
-        for e in np.eye(len(x))
-    ]
-    largest = np.abs(gradient).max()
-    np.testing.assert_allclose(gradient, np.array(numerical) / 2e-6, atol=1e-6 * largest)
-    again, same, matrix = problem.normal_equations(x)
-    assert again == value
-    np.testing.assert_allclose(same, gradient, atol=1e-12 * largest)
-    np.testing.assert_allclose(matrix, matrix.T, atol=1e-9 * max(np.abs(matrix).max(), 1.0))
-    assert np.linalg.eigvalsh(matrix).min() > -1e-9 * max(np.abs(matrix).max(), 1.0)
 
 
 def before_camera(scales, centres, segments=(0, 1)):
