@@ -17,10 +17,6 @@ from typing import Any
 from pages import ROOT, Block, Page
 from ruamel.yaml import YAML
 
-from regkit.body import BodyDescription
-from regkit.document import Document
-from regkit.experiment import Experiment
-
 TEMPLATES = ROOT / "plugins" / "regkit_plugins" / "templates"
 COMPLETE: dict[str, Any] = {
     "name": "part",
@@ -141,35 +137,35 @@ class Runner:
 
     def _check_yaml(self, block: Block) -> None:
         data = YAML(typ="safe", pure=True).load(block.text)
-        whole = block.markers.get("part of")
-        if whole is None and "segments" in data:
-            self._validated(block, data, BodyDescription)
-        elif whole is None:
-            told = f"{block.place}: neither a template nor fields of an experiment: say what"
-            assert set(data) <= set(Experiment.model_fields), told
-            complete = data if set(data) >= REQUIRED else COMPLETE | data
-            self._validated(block, complete, Experiment)
-        elif whole == "hand":
-            hand = YAML(typ="safe", pure=True).load(TEMPLATES / "hand_right.yaml")
-            hand.pop("mesh")
-            self._validated(block, hand | {"segments": hand["segments"] | data}, BodyDescription)
-        elif whole == "bones":
-            from regkit.fitting.bones import read_bone_map
+        whole = block.markers.get("part of", "experiment")
+        assert isinstance(data, dict), f"{block.place}: neither a template nor an experiment"
+        match whole:
+            case "experiment":
+                finished = "segments" in data or set(data) >= REQUIRED
+                self._validate(block, data if finished else COMPLETE | data)
+            case "hand":
+                hand = YAML(typ="safe", pure=True).load(TEMPLATES / "hand_right.yaml")
+                # What else the file says of a segment need not suit another one of its name.
+                hand = {name: hand[name] for name in ("title", "size", "segments")}
+                self._validate(block, hand | {"segments": hand["segments"] | data})
+            case "bones":
+                from regkit.fitting.bones import read_bone_map
 
-            file = self.folder / "bones_part.yaml"
-            file.write_text(block.text, encoding="utf-8")
-            read_bone_map(file)
-        else:
-            raise AssertionError(f"{block.place}: no such document: {whole}")
+                file = self.folder / "bones_part.yaml"
+                file.write_text(block.text, encoding="utf-8")
+                read_bone_map(file)
+            case _:
+                raise AssertionError(f"{block.place}: no such document: {whole}")
 
-    def _validated(self, block: Block, data: dict[str, Any], model: type[Any]) -> None:
+    def _validate(self, block: Block, data: dict[str, Any]) -> None:
         """Check data as the YAML file that a reader would write beside the page's other files."""
         # Examples name the sample data from where they lie themselves.
         if not (self.folder / "data").exists():
             (self.folder / "data").symlink_to(ROOT / "docs" / "examples" / "data")
         file = self.folder / f"block_{block.line}.yaml"
         YAML(typ="safe", pure=True).dump(data, file)
-        Document.read(file).validated(model)
+        ended = self.command("validate", file)
+        assert ended.code == 0, f"{block.place}: {ended.err}"
 
 
 def _check_excerpt(block: Block) -> None:

@@ -11,7 +11,8 @@ A comment before a block says what is special about it:
     <!-- example: from FILE -->                an excerpt of a file that is run by itself
     <!-- example: let NAME be FILE -->         stands alone: NAME is a link to a file or folder
 
-YAML needs none of these if it is a template, an experiment, or some fields of an experiment.
+YAML needs none of these if it is a template, an experiment, or some fields of an experiment, which
+is completed and checked as `regkit validate` does.
 """
 
 from __future__ import annotations
