@@ -2,25 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import cast
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from regkit.arrays import Array
 from regkit.body import Body
-from regkit.coordinates import TangentCoordinates
-from regkit.interfaces import Kernel, Similarity
 from regkit.observation import Observation
-from regkit.primitives import Placed, Primitives
-from regkit.problem import RegistrationProblem
 from regkit.rigid import rigid
-from regkit.skeleton import Pose
+from regkit.testing.bound import Bound
 from regkit.testing.cases import Pair
 from regkit.testing.differences import Slopes, best_length
 from regkit.testing.laws import Laws
-from regkit.testing.samples import data_of, moved_data, moved_pose, posed, surface_data
+from regkit.testing.samples import moved_pose, posed, surface_data
 from regkit.testing.shape_laws import attached
 from regkit.testing.verdict import copied, require, same
 
@@ -31,64 +25,6 @@ HALF_A_TURN = rigid(np.diag([-1.0, -1.0, 1.0]), np.zeros(3))
 FAR_AWAY = np.array([0.0, 0.0, 5.0])
 TOO_FAR = 32.0
 """A Gauss-Newton step that should be so many times longer or shorter has wrong blocks."""
-
-
-@dataclass(frozen=True)
-class Bound:
-    """A kernel bound to data about a posed body.
-
-    Attributes:
-        pair: The kernel and the shape.
-        body: The body.
-        start: Its pose.
-        primitives: What the shape made of it.
-        data: The data.
-    """
-
-    pair: Pair
-    body: Body
-    start: Pose
-    primitives: Primitives
-    data: Observation
-
-    @classmethod
-    def near(cls, pair: Pair, body: Body, random: np.random.Generator) -> Bound:
-        """With noisy, uneven data before a camera."""
-        start = posed(body, random)
-        data = data_of(body, start, random)
-        return cls(pair, body, start, attached(pair.shape, body), data)
-
-    @property
-    def kernel(self) -> Kernel:
-        """The kernel."""
-        return cast(Kernel, self.pair.plugin)
-
-    def placed(self, pose: Pose | None = None) -> Placed[Primitives]:
-        """The primitives in a pose; without one, at the start."""
-        return self.primitives.place(self.body.place(pose or self.start).transforms)
-
-    def similarity(self, blur: float = 0.0) -> Similarity:
-        """The kernel against the data."""
-        return self.kernel.against(self.data, self.placed(), blur=blur)
-
-    def problem(self, blur: float = 0.0) -> RegistrationProblem:
-        """The energy on the degrees of freedom."""
-        chart = TangentCoordinates(self.body.skeleton, self.start)
-        return RegistrationProblem(chart, self.primitives, [self.similarity(blur)])
-
-    def near_start(self, random: np.random.Generator, by: float = 0.05) -> Array:
-        """A point about the start, where nothing is special."""
-        return np.asarray(by * random.normal(size=self.body.skeleton.freedoms))
-
-    def moved(self, motion: Array) -> Bound:
-        """The same after a rigid motion of the body and the data."""
-        return replace(
-            self, start=moved_pose(self.start, motion), data=moved_data(self.data, motion)
-        )
-
-    def bind(self) -> object:
-        """Where the author of the kernel should look."""
-        return type(self.similarity()).__call__
 
 
 class KernelLaws(Laws):
@@ -109,9 +45,9 @@ class KernelLaws(Laws):
             slopes.largest > 0.0, bound.kernel,
             "has an energy that no motion of the body changes, with shape "
             f"'{bound.pair.shape.kind}'",
-            look_at=bound.bind(),
+            look_at=bound.answer,
         )  # fmt: skip
-        require(slopes.agree(), bound.kernel, slopes.told(bound.body), look_at=bound.bind())
+        require(slopes.agree(), bound.kernel, slopes.told(bound.body), look_at=bound.answer)
 
     def test_kernel_response_has_its_shapes_and_does_not_depend_on_the_curvature(
         self, bound: Bound
@@ -119,7 +55,7 @@ class KernelLaws(Laws):
         """(K, 6) wrenches and, if asked for, (K, 6, 6) blocks beside the same energy."""
         placed, similarity = bound.placed(), bound.similarity()
         plain, curved = similarity(placed), similarity(placed, curvature=True)
-        count, at = len(placed), bound.bind()
+        count, at = len(placed), bound.answer
         require(
             plain.wrenches.shape == (count, 6) and np.isfinite(plain.wrenches).all()
             and np.isfinite(plain.energy), bound.kernel,
@@ -142,7 +78,7 @@ class KernelLaws(Laws):
         blocks = bound.similarity()(bound.placed(), curvature=True).stiffness
         if blocks is None:
             pytest.skip("it has no Gauss-Newton blocks")
-        at, size = bound.bind(), np.abs(blocks).max()
+        at, size = bound.answer, np.abs(blocks).max()
         require(
             blocks.shape == (len(bound.primitives), 6, 6) and np.isfinite(blocks).all(),
             bound.kernel, f"has blocks of the shape {blocks.shape}, or not finite", look_at=at,
@@ -169,16 +105,16 @@ class KernelLaws(Laws):
         left = np.linalg.norm(matrix @ step + gradient) / np.linalg.norm(gradient)
         require(
             left < 1e-3, bound.kernel, f"has blocks without stiffness where it has forces: "
-            f"{100 * left:.2g} % of the gradient cannot be stepped along", look_at=bound.bind(),
+            f"{100 * left:.2g} % of the gradient cannot be stepped along", look_at=bound.answer,
         )  # fmt: skip
         length = best_length(problem, x, np.asarray(step))
         require(
             length > 1.0 / TOO_FAR, bound.kernel, "has blocks that are too soft: the energy is "
-            f"least after {length:.2g} of the Gauss-Newton step", look_at=bound.bind(),
+            f"least after {length:.2g} of the Gauss-Newton step", look_at=bound.answer,
         )  # fmt: skip
         require(
             length < TOO_FAR, bound.kernel, "has blocks that are too stiff: the energy is least "
-            f"after {length:.3g} Gauss-Newton steps", look_at=bound.bind(),
+            f"after {length:.3g} Gauss-Newton steps", look_at=bound.answer,
         )  # fmt: skip
 
     @pytest.mark.parametrize("camera", [False, True], ids=["blind", "seen"])
@@ -196,7 +132,7 @@ class KernelLaws(Laws):
         require(
             by < 1e-6, bound.kernel, f"has an energy that changes by {by:.2g} of itself when body "
             "and data are moved together; it may depend on their relative places alone",
-            look_at=bound.bind(),
+            look_at=bound.answer,
         )  # fmt: skip
         turn = motion[:3, :3]
         turned = np.concatenate(
@@ -206,7 +142,7 @@ class KernelLaws(Laws):
         require(
             by < 1e-5, bound.kernel, f"has wrenches that do not turn with body and data, by "
             f"{by:.2g} of the largest; they must be given in the world's axes, about the "
-            "primitives' centres", look_at=bound.bind(),
+            "primitives' centres", look_at=bound.answer,
         )  # fmt: skip
 
     def test_kernel_prefers_the_body_where_the_data_are(
@@ -224,7 +160,7 @@ class KernelLaws(Laws):
         require(
             here < min(aside), bound.kernel, "prefers a body 0.1 m beside its data: the energy is "
             f"{min(aside):.6g} there and {here:.6g} where they are; registration makes it small",
-            look_at=bound.bind(),
+            look_at=bound.answer,
         )  # fmt: skip
 
     def test_kernel_explains_what_is_near_and_nothing_far_away(
@@ -267,10 +203,10 @@ class KernelLaws(Laws):
         ]
         require(
             same(*answers), bound.kernel, "answers something else when it is asked again",
-            look_at=bound.bind(),
+            look_at=bound.answer,
         )  # fmt: skip
         after = (bound.data.points, bound.data.weights, bound.data.variances, placed)
         require(
             same(before, after), bound.kernel, "changes the data or the primitives that it is "
-            "given; copy arrays before writing to them", look_at=bound.bind(),
+            "given; copy arrays before writing to them", look_at=bound.answer,
         )  # fmt: skip

@@ -50,7 +50,8 @@ def copied(value: Any) -> Any:
 def same(first: Any, second: Any) -> bool:
     """Whether two values are equal to the last bit, through dataclasses, arrays and sequences."""
     if isinstance(first, np.ndarray):
-        return isinstance(second, np.ndarray) and np.array_equal(first, second, equal_nan=True)
+        real = first.dtype.kind in "fc"
+        return isinstance(second, np.ndarray) and np.array_equal(first, second, equal_nan=real)
     if is_dataclass(first) and not isinstance(first, type):
         return type(first) is type(second) and all(
             same(getattr(first, each.name), getattr(second, each.name)) for each in fields(first)

@@ -18,8 +18,9 @@ from regkit.errors import PluginError
 from regkit.interfaces import ShapeModel
 from regkit.plugin import run_plugin_file
 from regkit.testing import conformance
+from regkit.testing.bound import Bound
 from regkit.testing.cases import Case, Pair
-from regkit.testing.kernel_laws import Bound, KernelLaws
+from regkit.testing.kernel_laws import KernelLaws
 from regkit.testing.laws import Laws
 from regkit.testing.plugin_laws import PluginLaws
 from regkit.testing.samples import linkage
@@ -182,8 +183,10 @@ def loaded(folder: Path, text: str, old: str = "", new: str = "") -> ModuleType:
     assert old in text
     file = folder / "faulty.py"
     file.write_text(text.replace(old, new))
+    plugin._REGISTERED.clear()
     run_plugin_file(file)
-    return sys.modules["regkit_plugin_file_faulty"]
+    (registered,) = (one for plugins in plugin._REGISTERED.values() for one in plugins.values())
+    return sys.modules[registered.__module__]
 
 
 def random() -> np.random.Generator:
@@ -252,9 +255,7 @@ def test_faulty_kernel_breaks_its_law(tmp_path, fault):
     with pytest.raises(pytest.fail.Exception, match=re.escape(expected)) as caught:
         kernel_laws(loaded(tmp_path, KERNEL, old, new))[law]()
     assert str(caught.value).startswith("kernel 'radial_faulty' ")
-    assert f"look at regkit_plugin_file_faulty.RadialDistances.__call__ ({tmp_path}" in str(
-        caught.value
-    )
+    assert f"RadialDistances.__call__ ({tmp_path / 'faulty.py'}:" in str(caught.value)
 
 
 def test_broken_plugin_fails_the_law_of_loading():
@@ -330,3 +331,16 @@ def test_shape_that_no_kernel_takes_is_told(tmp_path):
     (case,) = suite.parameters["shape"]
     with pytest.raises(pytest.fail.Exception, match="makes Primitives, which no installed kernel"):
         suite().test_shape_has_a_kernel_that_compares_it(case.plugin)
+
+
+def test_suite_without_pytest_says_what_to_install():
+    program = (
+        "import sys; sys.modules['pytest'] = None\n"
+        "from regkit.errors import DependencyError\n"
+        "try:\n    import regkit.testing\nexcept DependencyError as error:\n    print(error)\n"
+    )
+    ended = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=False
+    )
+    assert "pytest" in ended.stdout
+    assert ended.stdout.endswith("run: pip install 'regkit[testing]'\n")
