@@ -77,5 +77,6 @@ nitpick_ignore_regex = [
     # Parts that are no part of the public interface.
     (r"py:class", r"regkit\.api\.tables\.Summary|regkit\.calibration\.\w+\.\w+"),
     (r"py:class", r"regkit\.constraints\._Rows|regkit\.model\._from_its_folder"),
+    (r"py:class", r"regkit\.testing\.conformance\.Conformance"),
     (r"py:(class|obj)", r"(.*\.)?(P|S|M|P_co|S_co)"),
 ]
