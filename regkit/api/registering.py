@@ -6,12 +6,15 @@ from collections.abc import Iterator, Mapping
 from itertools import islice
 from typing import Any
 
+import numpy as np
+
 from regkit.api.choices import Choice, chosen_method, described_start, load_template, told
 from regkit.api.frames import Frames, GivenFrames, Intrinsics, Measured, frame_of, sequence_of
 from regkit.api.numbers import check_metres
 from regkit.api.results import Registration, Tracking
+from regkit.body import Body
 from regkit.clouds import spacing, voxel_for
-from regkit.errors import RegkitError
+from regkit.errors import ConfigError, DataError, RegkitError
 from regkit.interfaces import Method, Observer, Sequence, Template, Tracker
 from regkit.observation import Frame, Observation
 from regkit.optional import one_blas_thread
@@ -102,7 +105,9 @@ def _tracked(
     loaded = load_template(template)
     chosen, its_observer, its_tracker = chosen_method(method, observer, tracker, place=place)
     sequence.prepare()
-    first = next(iter(sequence.frames()))
+    first = next(iter(sequence.frames()), None)
+    if first is None:
+        raise DataError("the sequence has no frame", place=sequence.name)
     where = first.place or sequence.name
     check_metres(first.points, loaded.candidate_sizes(), place=where)
     observed = its_observer or _observer_for(first)
@@ -137,14 +142,34 @@ def _start(
 ) -> Start:
     """The start that was given, or the one found in the first frame, its size in a few."""
     if isinstance(start, Pose):
-        sizes = template.candidate_sizes()
-        return Start(template.body(sizes[len(sizes) // 2]), start)
+        size = template.given_size()
+        if size is None:
+            raise ConfigError("a given start needs the template's size too", place="start")
+        body = template.body(size)
+        _check_fits(start, body)
+        return Start(body, start)
     if start is not None:
         try:
             return given_start(template, described_start(start, place=place))
         except RegkitError as error:
             raise error.at("start") from None
     return found_start(template, *_looked_at(sequence, template, observer))
+
+
+def _check_fits(pose: Pose, body: Body) -> None:
+    """Refuse a pose of another skeleton.
+
+    Raises:
+        ConfigError: If it has another number of joints than the body.
+    """
+    rest = body.skeleton.rest()
+    for name in ("root", "balls", "hinges"):
+        given, wanted = np.shape(getattr(pose, name)), np.shape(getattr(rest, name))
+        if given != wanted:
+            raise ConfigError(
+                f"a pose of another body: its {name} are {given}, those of '{body.name}' {wanted}",
+                place="start",
+            )
 
 
 def _looked_at(sequence: Sequence, template: Template, observer: Observer) -> Iterator[Observation]:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from regkit.api.numbers import checked_numbers
+from regkit.api.reference import Reference, truth_of
 from regkit.api.tables import Summary
 from regkit.arrays import Array
 from regkit.body import Body
@@ -19,16 +19,11 @@ from regkit.errors import ConfigError, DataError
 from regkit.files import write_arrays
 from regkit.interfaces import Registrar
 from regkit.metrics import Measure, joint_errors, measured
-from regkit.observation import Truth
 from regkit.skeleton import Pose
 from regkit.tracking import Track, TrackedFrame
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-Reference = Truth | Mapping[str, ArrayLike] | ArrayLike
-"""Reference joints: a ``Truth``, arrays (T, 3) [m] by name, or one (T, M, 3) [m] for all markers;
-NaN where one was not seen."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -91,7 +86,7 @@ class Tracking(Summary):
         Raises:
             RegkitError: If they do not fit the frames or the markers.
         """
-        known = None if truth is None else self._truth(truth)
+        known = None if truth is None else truth_of(truth, self.body, len(self))
         return measured(self.track, self.body, known, {})
 
     def error(self, truth: Reference) -> float:
@@ -100,7 +95,7 @@ class Tracking(Summary):
         Raises:
             RegkitError: If they do not fit the frames or the markers, or none was seen.
         """
-        distances = joint_errors(self.track, self.body, self._truth(truth), {})
+        distances = joint_errors(self.track, self.body, truth_of(truth, self.body, len(self)), {})
         if not np.isfinite(distances).any():
             raise DataError("no joint was seen in any frame", place="truth")
         return float(np.nanmean(distances))
@@ -113,7 +108,7 @@ class Tracking(Summary):
         """
         from regkit.report.overlay import overlay
 
-        known = None if truth is None else self._truth(truth)
+        known = None if truth is None else truth_of(truth, self.body, len(self))
         title = f"{self.method} on {self.name}"
         return overlay(title, self.frames, self.track, self.registrar, known)
 
@@ -149,23 +144,6 @@ class Tracking(Summary):
             "converged": f"{len(self) - int(measure.unconverged_frames or 0)} of {len(self)}",
             "speed": f"{measure.fps:.3g} frames per second",
         }
-
-    def _truth(self, truth: Reference) -> Truth:
-        """Reference joints as one type.
-
-        Raises:
-            DataError: If an array does not have the shape that it must have.
-        """
-        if isinstance(truth, Truth):
-            return truth
-        if isinstance(truth, Mapping):
-            columns = [checked_numbers(at, place=f"truth['{n}']") for n, at in truth.items()]
-            for name, column in zip(truth, columns, strict=True):
-                _check_shape(column, (len(self), 3), f"truth['{name}']")
-            return Truth(tuple(truth), np.stack(columns, axis=1))
-        values = checked_numbers(truth, place="truth")
-        _check_shape(values, self.markers.shape, "truth")
-        return Truth(self.joint_names, values)
 
 
 @dataclass(frozen=True, repr=False)
@@ -251,8 +229,3 @@ def _rows(tracking: Tracking, measure: Measure) -> dict[str, str]:
         "body": f"{tracking.body.name}, {tracking.size:.3g} m",
         "surface": "-" if surface is None else f"half of the data within {surface:.3g} mm",
     }
-
-
-def _check_shape(values: Array, shape: tuple[int, ...], place: str) -> None:
-    if values.shape != shape:
-        raise DataError(f"an array of shape {values.shape}; it must be {shape}", place=place)

@@ -240,6 +240,12 @@ def test_wrong_choices_are_named(depth, camera, human):
         "start: a given start needs the template's size": lambda: regkit.register(
             image, "human", camera=camera, start={}
         ),
+        "start: a pose of another body: its balls are": lambda: regkit.register(
+            image, human, camera=camera, start=Pose(np.eye(4), np.zeros((2, 4)), np.zeros(3))
+        ),
+        "start: a given start needs": lambda: regkit.register(
+            image, "human", camera=camera, start=Pose(np.eye(4), np.zeros((2, 4)), np.zeros(3))
+        ),
         "did you mean 'root'?": lambda: regkit.register(
             image, human, camera=camera, start={"rot": {}}
         ),
@@ -257,6 +263,10 @@ def test_wrong_truth_and_file_are_named(tracking, tmp_path):
         tracking.error(np.zeros((3, 4)))
     with pytest.raises(DataError, match=r"truth\['head'\]: an array of shape \(2, 3\)"):
         tracking.error({"head": np.zeros((2, 3))})
+    with pytest.raises(ConfigError, match=r"truth: none of its joints \(nose\) is a marker"):
+        tracking.error({"nose": np.zeros((FRAMES, 3))})
+    with pytest.raises(DataError, match="truth: it has 1 frames, but 4 were tracked"):
+        tracking.plot(regkit.Truth(("head",), np.zeros((1, 1, 3))))
     with pytest.raises(DataError, match="no joint was seen"):
         tracking.error(np.full(tracking.markers.shape, np.nan))
     with pytest.raises(ConfigError, match=r"path: '.*walk.csv' must end with .npz"):
