@@ -11,7 +11,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from regkit.document import Document
-from regkit.experiment import Experiment, run
+from regkit.experiment import Experiment, Outcome, run
 from regkit.metrics import Measure
 
 FOLDER = Path("results/suite")
@@ -31,21 +31,6 @@ template: {template}
 observer: {observer}
 methods: {{method: {method}}}
 """
-
-
-class Silent:
-    """Wants to know only of failures."""
-
-    def begin(self, method: str, sequence: str, frames: int) -> None:
-        """A sequence begins."""
-
-    def advance(self) -> None:
-        """A frame is done."""
-
-    def end(self, method: str, sequence: str, outcome: object) -> None:
-        """A sequence ends."""
-        if isinstance(outcome, Exception):
-            print(f"{sequence} failed: {outcome}", file=sys.stderr)
 
 
 def bodies(kind: str) -> list[Path]:
@@ -86,8 +71,8 @@ def _tracked(
             EXPERIMENT.format(folder=folder, template=template, observer=observer, method=method)
         )
         experiment = Experiment.read(file, (*settings, f"dataset.sequences=[{sequence}]"))
-        outcome = run(experiment, Path(temporary) / "out", Silent())
-    return f"{folder.name}/{sequence}", outcome.measures["method"][sequence]
+        measures = _measures(run(experiment, Path(temporary) / "out"))
+    return f"{folder.name}/{sequence}", measures[sequence]
 
 
 def tracked_utd(folder: Path, method: str) -> dict[str, Measure]:
@@ -95,7 +80,13 @@ def tracked_utd(folder: Path, method: str) -> dict[str, Measure]:
     with TemporaryDirectory() as temporary:
         settings = (f"dataset.root={folder.absolute()}", f"methods={{method: {method}}}")
         experiment = Experiment.read(UTD, settings)
-        return run(experiment, Path(temporary) / "out", Silent()).measures["method"]
+        return _measures(run(experiment, Path(temporary) / "out"))
+
+
+def _measures(outcome: Outcome) -> dict[str, Measure]:
+    for sequence, reason in outcome.failures["method"].items():
+        print(f"{sequence} failed: {reason}", file=sys.stderr)
+    return outcome.measures["method"]
 
 
 def mean(measures: dict[str, Measure], figure: str) -> float:

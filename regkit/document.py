@@ -61,32 +61,52 @@ class Document:
         """The document after ``a.b.c=value`` settings, whose values are YAML.
 
         Raises:
-            ConfigError: If a setting is not of that form or goes through something that is no
-                mapping.
+            ConfigError: If a setting is not of that form, or its value cannot be there.
         """
-        data, places = _copied(self.data), dict(self.places)
+        document = self
         for setting in settings:
             option = f"--set {setting}"
             name, equals, value = setting.partition("=")
             keys = name.split(".")
             if not equals or not all(keys):
                 raise ConfigError("a setting must read a.b.c=value", place=option)
-            inner = data
-            for depth, key in enumerate(keys[:-1]):
-                if isinstance(
-                    inner.get(key), str
-                ):  # The short form `shape: gsog` grows into a mapping.
-                    inner[key] = {"kind": inner[key]}
-                inner = inner.setdefault(key, {})
-                if not isinstance(inner, dict):
-                    raise ConfigError(
-                        f"{'.'.join(keys[: depth + 1])} is not a mapping", place=option
-                    )
-            inner[keys[-1]] = _copied(_parsed(value, option))
-            replaced = tuple(keys)
-            places = {at: place for at, place in places.items() if at[: len(keys)] != replaced}
-            places[replaced] = option
-        return Document(data, places)
+            document = document.changed(keys, _copied(_parsed(value, option)), place=option)
+        return document
+
+    def changed(self, keys: Iterable[str], value: Any, *, place: str) -> Document:
+        """The document with one value that is new or another.
+
+        Args:
+            keys: The way to the value; an item of a list is named by its number, from 0.
+            value: What is to stand there.
+            place: Where that was said.
+
+        Raises:
+            ConfigError: If the way goes through something that is no mapping and no list, or there
+                is no such item in a list.
+        """
+        data = _copied(self.data)
+        inner: Any = data
+        way: Location = ()
+        *around, last = keys
+        for key in around:
+            way = (*way, _position(inner, key, way, place))
+            within = inner.get(way[-1], {}) if isinstance(inner, dict) else inner[way[-1]]
+            if isinstance(within, str):  # The short form `shape: gsog` grows into a mapping.
+                within = {"kind": within}
+            if not isinstance(within, dict | list):
+                raise ConfigError(f"{'.'.join(map(str, way))} is not a mapping", place=place)
+            inner[way[-1]] = within
+            inner = within
+        way = (*way, _position(inner, last, way, place))
+        inner[way[-1]] = _copied(value)
+        places = {at: said for at, said in self.places.items() if at[: len(way)] != way}
+        return Document(data, places | {way: place})
+
+    def without(self, key: str) -> Document:
+        """The document without one of its uppermost fields."""
+        data = {name: value for name, value in self.data.items() if name != key}
+        return Document(data, {at: place for at, place in self.places.items() if at[:1] != (key,)})
 
     def place(self, location: Location) -> str:
         """``file:line: field`` of a value, or of the nearest one around it that was written."""
@@ -124,12 +144,27 @@ class Document:
         value: Any = self.data
         kept: list[str | int] = []
         for part in location:
+            if isinstance(part, int) and isinstance(value, dict):
+                part = str(part)  # Items of a preset's list are named by their numbers.
             try:
                 value = value[part]
             except (KeyError, IndexError, TypeError):
                 continue
             kept.append(part)
         return (*kept, location[-1]) if absent else tuple(kept)
+
+
+def _position(around: Any, key: str, way: Location, place: str) -> str | int:
+    """The key of a mapping, or the number of an item of a list."""
+    if not isinstance(around, list):
+        return key
+    if not key.isdecimal() or int(key) >= len(around):
+        raise ConfigError(
+            f"{'.'.join(map(str, way))} is a list of {len(around)}, whose items are named by "
+            f"numbers from 0; there is no item '{key}'",
+            place=place,
+        )
+    return int(key)
 
 
 _SPEAKING = ("unknown_field", "plugin_", "value_error")
@@ -144,6 +179,15 @@ def yaml_text(data: Any) -> str:
     yaml.sort_base_mapping_type_on_output = False  # type: ignore[assignment]
     yaml.dump(data, stream)
     return stream.getvalue()
+
+
+def yaml_data(text: str) -> Any:
+    """What ``yaml_text`` wrote.
+
+    Raises:
+        ConfigError: If it is no YAML any more.
+    """
+    return _copied(_parsed(text, "text"))
 
 
 def _parsed(text: str, place: str) -> Any:

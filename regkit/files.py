@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
+from uuid import uuid4
 
 import numpy as np
 
@@ -22,7 +22,8 @@ def replacing(path: Path) -> Iterator[Path]:
     Raises:
         DataError: If the file cannot be written.
     """
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp{path.suffix}")
+    # Processes of several machines may write to one folder, where their numbers may be the same.
+    temporary = path.with_name(f".{path.name}.{uuid4().hex[:12]}.tmp{path.suffix}")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         try:
@@ -32,6 +33,12 @@ def replacing(path: Path) -> Iterator[Path]:
             temporary.unlink(missing_ok=True)
     except OSError as error:
         raise DataError(f"cannot be written: {error.strerror or error}", place=str(path)) from None
+
+
+def remove_unfinished(folder: Path, name: str = "*") -> None:
+    """Remove what ``replacing`` left of a file, or of all, when its process was killed."""
+    for path in folder.glob(f".{name}.*.tmp*"):
+        path.unlink(missing_ok=True)
 
 
 def write_text(path: Path, text: str) -> None:

@@ -92,3 +92,15 @@ def one_blas_thread() -> AbstractContextManager[object]:
         "threadpoolctl"
     ).threadpool_limits(1, user_api="blas")
     return limits
+
+
+def one_thread() -> AbstractContextManager[object]:
+    """A context in which the libraries that are loaded use one thread, in OpenMP too.
+
+    The order in which threads add up changes the last bits of a sum, and with one thread there is
+    one order.
+    """
+    limits: AbstractContextManager[object] = importlib.import_module(
+        "threadpoolctl"
+    ).threadpool_limits(1)
+    return limits

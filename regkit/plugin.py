@@ -8,6 +8,7 @@ until it is named, so a broken third-party plug-in can only harm those who name 
 
 from __future__ import annotations
 
+import hashlib
 import importlib.util
 import inspect
 import sys
@@ -140,6 +141,8 @@ class Plugin(Model):
 
 P = TypeVar("P", bound=Plugin)
 _REGISTERED: dict[str, dict[str, type[Any]]] = {}
+_FROM_FILE = "regkit_plugin_file_"
+"""How the names of modules begin that ``run_plugin_file`` makes."""
 
 
 def register(plugin: type[P]) -> type[P]:
@@ -187,6 +190,18 @@ def _check(plugin: object, slot: type[Plugin], kind: str) -> None:
         ) from None
 
 
+def from_file(plugin: type[Plugin]) -> bool:
+    """Whether a plug-in was registered by a file that ``run_plugin_file`` ran."""
+    return plugin.__module__.startswith(_FROM_FILE)
+
+
+def plugin_files() -> tuple[Path, ...]:
+    """The files whose plug-ins are registered, for other processes to run them too."""
+    plugins = [plugin for by_kind in _REGISTERED.values() for plugin in by_kind.values()]
+    modules = sorted({plugin.__module__ for plugin in plugins if from_file(plugin)})
+    return tuple(Path(str(sys.modules[module].__file__)) for module in modules)
+
+
 def run_plugin_file(path: Path) -> None:
     """Run a Python file that registers plug-ins with ``@register``.
 
@@ -194,7 +209,9 @@ def run_plugin_file(path: Path) -> None:
         PluginError: If the file is missing, fails, or registers nothing.
     """
     before = {group: dict(plugins) for group, plugins in _REGISTERED.items()}
-    spec = importlib.util.spec_from_file_location(f"regkit_plugin_file_{path.stem}", path)
+    where = hashlib.sha256(str(path.absolute()).encode()).hexdigest()[:8]
+    name = f"{_FROM_FILE}{path.stem}_{where}"
+    spec = importlib.util.spec_from_file_location(name, path.absolute())
     if spec is None or spec.loader is None or not path.is_file():
         raise PluginError("there is no such Python file", place=str(path))
     module = importlib.util.module_from_spec(spec)

@@ -54,15 +54,31 @@ def changed(base: Mapping[str, Any], value: Mapping[str, Any]) -> dict[str, Any]
 
 
 def _merged(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """``base`` with ``changes`` in it; what is a mapping in both is merged, if of one kind."""
-    merged = dict(base)
-    for key, change in changes.items():
-        old = base.get(key)
-        if isinstance(old, str) and isinstance(change, dict):
-            old = {"kind": old}
-        if isinstance(old, dict) and isinstance(change, dict):
-            same = change.get("kind", old.get("kind")) == old.get("kind")
-            merged[key] = _merged(old, change) if same else change
-        else:
-            merged[key] = change
-    return merged
+    """``base`` with ``changes`` in it."""
+    return dict(base) | {key: _changed(base.get(key), new, key) for key, new in changes.items()}
+
+
+def _changed(old: Any, new: Any, key: str) -> Any:
+    """A value after a change: mappings of one kind and items of lists change, the rest is new."""
+    if not isinstance(new, dict):
+        return new
+    if isinstance(old, str):
+        old = {"kind": old}
+    if isinstance(old, dict) and new.get("kind", old.get("kind")) == old.get("kind"):
+        return _merged(old, new)
+    if isinstance(old, list) and new and all(index.isdecimal() for index in new):
+        return _with_items(old, new, key)
+    return new
+
+
+def _with_items(old: list[Any], new: Mapping[str, Any], key: str) -> list[Any]:
+    """A list of which some items, named by their numbers, are changed."""
+    items = list(old)
+    for index, item in new.items():
+        if int(index) >= len(items):
+            raise PluginError(
+                f"{key} is a list of {len(items)} in the preset, whose items are named by numbers "
+                f"from 0; there is no item '{index}'"
+            )
+        items[int(index)] = _changed(items[int(index)], item, f"{key}.{index}")
+    return items

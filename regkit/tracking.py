@@ -26,11 +26,13 @@ class TrackedFrame:
         observation: What was measured, as data.
         registered: The pose and how it was found.
         seconds: Time to observe and register; reading the file is not counted.
+        observing: How much of it was to observe [s].
     """
 
     observation: Observation
     registered: Registered
     seconds: float
+    observing: float
 
 
 def tracked(
@@ -47,13 +49,14 @@ def tracked(
         begun = time.perf_counter()
         try:
             observation = observer.observe(frame)
+            observing = time.perf_counter() - begun
             registered = follower.step(observation, past)
             seconds = time.perf_counter() - begun
             _check_near(registrar.body, registered.pose, observation)
         except RegkitError as error:
             raise error.at(frame.place or f"{sequence.name}: frame {index}") from None
         past.append(registered)
-        yield TrackedFrame(observation, registered, seconds)
+        yield TrackedFrame(observation, registered, seconds, observing)
 
 
 def _check_near(body: Body, pose: Pose, observation: Observation) -> None:
@@ -100,7 +103,8 @@ class Track:
         energies: (T,) in the method's own units.
         evaluations: (T,).
         converged: Whether the solver met a tolerance, (T,).
-        seconds: (T,).
+        seconds: To observe and register, (T,).
+        observing: To observe, (T,) [s].
     """
 
     root: Array
@@ -112,6 +116,7 @@ class Track:
     evaluations: Array
     converged: Array
     seconds: Array
+    observing: Array
 
     def pose(self, index: int) -> Pose:
         """The pose in a frame."""
@@ -148,4 +153,5 @@ class Track:
             evaluations=np.array([float(frame.registered.evaluations) for frame in frames]),
             converged=np.array([float(frame.registered.converged) for frame in frames]),
             seconds=np.array([frame.seconds for frame in frames]),
+            observing=np.array([frame.observing for frame in frames]),
         )

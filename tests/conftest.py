@@ -1,5 +1,6 @@
 """Fixtures that many tests share: a linkage with every type of joint, and the reference data."""
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -45,3 +46,11 @@ def lump() -> np.ndarray:
     x, y, z = directions.T
     radii = 1.0 + 0.3 * np.sin(3.0 * x + 1.0) * y + 0.35 * np.cos(2.0 * z) * x + 0.2 * y * z
     return 0.1 * radii[:, None] * directions * [1.6, 1.0, 0.7] + [0.5, -0.2, 1.0]
+
+
+@pytest.fixture(autouse=True, scope="session")
+def own_cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """No test reads or leaves anything in the user's cache."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("REGKIT_CACHE", str(tmp_path_factory.mktemp("cache")))
+        yield

@@ -17,7 +17,7 @@ from regkit.clouds import spacing, voxel_for
 from regkit.errors import ConfigError, DataError, RegkitError
 from regkit.interfaces import Method, Observer, Sequence, Template, Tracker
 from regkit.observation import Frame, Observation
-from regkit.optional import one_blas_thread
+from regkit.optional import one_thread
 from regkit.skeleton import Pose
 from regkit.start import Start, found_start, given_start
 from regkit.tracking import Track, TrackedFrame, tracked
@@ -111,7 +111,7 @@ def _tracked(
     where = first.place or sequence.name
     check_metres(first.points, loaded.candidate_sizes(), place=where)
     observed = its_observer or _observer_for(first)
-    with one_blas_thread():
+    with one_thread():
         begin = _start(sequence, loaded, observed, start, place)
         registrar = chosen.prepare(begin.body)
         steps = tracked(sequence, observed, registrar, its_tracker, begin.pose)
@@ -119,6 +119,7 @@ def _tracked(
     return Tracking(
         name=sequence.name,
         method=told(method),
+        fps=sequence.fps,
         registrar=registrar,
         frames=done,
         track=Track.of(list(done), registrar),

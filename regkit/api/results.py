@@ -18,7 +18,7 @@ from regkit.body import Body
 from regkit.errors import ConfigError, DataError
 from regkit.files import write_arrays
 from regkit.interfaces import Registrar
-from regkit.metrics import Measure, joint_errors, measured
+from regkit.metrics import JointErrors, Measure, joint_errors, measured
 from regkit.skeleton import Pose
 from regkit.tracking import Track, TrackedFrame
 
@@ -35,6 +35,7 @@ class Tracking(Summary):
     Attributes:
         name: What the sequence is called.
         method: What the method is called.
+        fps: Frames per second at which it was recorded.
         registrar: What registered the frames.
         frames: What was measured and found in each of them.
         track: The same as arrays: root (T, 4, 4) [m], balls (T, n_ball, 4), hinges (T, n_hinge)
@@ -43,6 +44,7 @@ class Tracking(Summary):
 
     name: str
     method: str
+    fps: float
     registrar: Registrar
     frames: tuple[TrackedFrame, ...]
     track: Track
@@ -86,8 +88,7 @@ class Tracking(Summary):
         Raises:
             RegkitError: If they do not fit the frames or the markers.
         """
-        known = None if truth is None else truth_of(truth, self.body, len(self))
-        return measured(self.track, self.body, known, {})
+        return measured(self.track, self.body, self._errors(truth), self.fps)
 
     def error(self, truth: Reference) -> float:
         """The mean distance [m] of the markers to reference joints that were seen.
@@ -95,7 +96,8 @@ class Tracking(Summary):
         Raises:
             RegkitError: If they do not fit the frames or the markers, or none was seen.
         """
-        distances = joint_errors(self.track, self.body, truth_of(truth, self.body, len(self)), {})
+        known = truth_of(truth, self.body, len(self))
+        distances = joint_errors(self.track, self.body, known, {}).raw
         if not np.isfinite(distances).any():
             raise DataError("no joint was seen in any frame", place="truth")
         return float(np.nanmean(distances))
@@ -107,10 +109,13 @@ class Tracking(Summary):
             truth: Reference joints, drawn as crosses.
         """
         from regkit.report.overlay import overlay
+        from regkit.report.record import Record
+        from regkit.report.style import PALETTE
 
         known = None if truth is None else truth_of(truth, self.body, len(self))
-        title = f"{self.method} on {self.name}"
-        return overlay(title, self.frames, self.track, self.registrar, known)
+        errors = self._errors(truth)
+        record = Record.of(self.frames, self.track, self.registrar, errors, known, self.fps)
+        return overlay(f"{self.method} on {self.name}", record, PALETTE[0])
 
     def save(self, path: str | Path) -> None:
         """Write the motion as an ``.npz`` file, with the arrays of a run's ``poses.npz``.
@@ -123,6 +128,11 @@ class Tracking(Summary):
             raise ConfigError(f"'{path}' must end with .npz", place="path")
         write_arrays(Path(path), self.track.named_arrays(self.body))
 
+    def _errors(self, truth: Reference | None) -> JointErrors | None:
+        if truth is None:
+            return None
+        return joint_errors(self.track, self.body, truth_of(truth, self.body, len(self)), {})
+
     def __len__(self) -> int:
         """Number of frames."""
         return len(self.frames)
@@ -132,7 +142,9 @@ class Tracking(Summary):
         at = range(len(self))[index]
         kept = {name: values[at : at + 1] for name, values in vars(self.track).items()}
         name = f"{self.name}[{at}]" if len(self) > 1 else self.name
-        one = Tracking(name, self.method, self.registrar, (self.frames[at],), Track(**kept))
+        one = Tracking(
+            name, self.method, self.fps, self.registrar, (self.frames[at],), Track(**kept)
+        )
         return Registration(one)
 
     def rows(self) -> dict[str, str]:

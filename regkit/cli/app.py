@@ -9,10 +9,13 @@ import typer
 from regkit.cli.calibrate import calibrate
 from regkit.cli.console import print_error
 from regkit.cli.doctor import doctor
+from regkit.cli.export import export
 from regkit.cli.fit import fit
+from regkit.cli.import_ import import_
 from regkit.cli.new import new
 from regkit.cli.plugins import plugins
 from regkit.cli.register import register
+from regkit.cli.report import report
 from regkit.cli.run import run
 from regkit.cli.schema import schema
 from regkit.cli.validate import validate
@@ -24,8 +27,12 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
-for command in (run, register, calibrate, fit, validate, plugins, new, schema, doctor):
-    app.command()(command)
+COMMANDS = (
+    run, report, export, register, calibrate, fit, import_, validate, plugins, new, schema, doctor
+)  # fmt: skip
+for command in COMMANDS:
+    # A word of Python's own has an underscore behind it.
+    app.command(command.__name__.rstrip("_"))(command)
 
 
 def main() -> None:

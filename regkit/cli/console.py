@@ -12,8 +12,9 @@ from rich.console import Console
 from regkit.errors import RegkitError
 from regkit.plugin import run_plugin_file
 
-output = Console()
-errors = Console(stderr=True)
+# What a user wrote between two colons is no emoji.
+output = Console(emoji=False)
+errors = Console(stderr=True, emoji=False)
 
 PluginFiles = Annotated[
     list[Path] | None,

@@ -14,9 +14,11 @@ from rich.markup import escape
 from rich.table import Table
 
 from regkit import optional
+from regkit.cache import cache_folder
 from regkit.cli.console import output
 from regkit.errors import RegkitError
 from regkit.interfaces import SLOTS
+from regkit.preset import preset, presets_of
 
 
 def doctor() -> None:
@@ -24,7 +26,7 @@ def doctor() -> None:
     table = Table("what", "state", "to mend it")
     findings = [_python(), *map(_library, ("numpy", "scipy", "pydantic", "matplotlib", "PIL"))]
     findings += [_optional("open3d", optional.open3d), _optional("casadi", optional.casadi)]
-    findings += [_plugins()]
+    findings += [_plugins(), _cache()]
     for what, state, cure in findings:
         table.add_row(what, escape(state), escape(cure), style="red" if cure else None)
     output.print(table)
@@ -54,6 +56,13 @@ def _optional(name: str, load: Callable[[], Any]) -> tuple[str, str, str]:
         return name, state.rstrip("; "), cure
 
 
+def _cache() -> tuple[str, str, str]:
+    """Where the cache is and what it takes; it may be deleted at any time."""
+    folder = cache_folder()
+    size = sum(path.stat().st_size for path in folder.rglob("*") if path.is_file())
+    return "cache", f"{folder} ({size / 1e6:.1f} MB; may be deleted)", ""
+
+
 def _plugins() -> tuple[str, str, str]:
     broken = []
     total = 0
@@ -62,6 +71,11 @@ def _plugins() -> tuple[str, str, str]:
             total += 1
             try:
                 slot.load(kind)
+            except RegkitError as error:
+                broken.append(str(error))
+        for name in presets_of(slot.group):
+            try:
+                preset(slot.group, name)
             except RegkitError as error:
                 broken.append(str(error))
     if broken:

@@ -27,7 +27,9 @@ def fit(
     mesh: Annotated[
         Path,
         typer.Argument(
-            metavar="MESH", help="Skinned mesh, an .npz file, in metres.", show_default=False
+            metavar="MESH",
+            help="Skinned mesh in metres: a rigged .glb or .gltf file, or an .npz file.",
+            show_default=False,
         ),
     ],
     template: Annotated[
@@ -48,6 +50,15 @@ def fit(
             show_default=False,
         ),
     ] = None,
+    parents: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help="YAML file that names the parent of each bone, null for the first, where a glTF "
+            "file's bones are no tree.",
+            show_default=False,
+        ),
+    ] = None,
     out: Annotated[
         Path, typer.Option(metavar="FILE", help="The template to write, or to replace.")
     ] = Path("fitted.yaml"),
@@ -61,12 +72,12 @@ def fit(
     from regkit.cli.template_file import check_replaceable, write_template
     from regkit.fitting.bones import read_bone_map
     from regkit.fitting.template import FittedTemplate
-    from regkit.skinned_mesh import SkinnedMesh
+    from regkit.interchange.meshes import read_mesh
 
     run_plugin_files(plugin)
     check_replaceable(out)
     description = template_named(template).description()
-    skinned = SkinnedMesh.read(mesh)
+    skinned = read_mesh(mesh, parents)
     mapped = {} if bones is None else read_bone_map(bones)
     try:
         fitted = FittedTemplate.to(skinned, description, mapped, vertices)

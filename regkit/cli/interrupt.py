@@ -15,7 +15,9 @@ class Interrupt:
     like a fault of the sequence.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, answer: str = "stopping after this frame") -> None:
+        """``answer`` is what is said at once."""
+        self._answer = answer
         self._asked = False
         self._former = signal.getsignal(signal.SIGINT)
 
@@ -44,5 +46,5 @@ class Interrupt:
 
     def _note(self, *_: object) -> None:
         self._asked = True
-        errors.print("stopping after this frame; Ctrl-C again ends at once", highlight=False)
+        errors.print(f"{self._answer}; Ctrl-C again ends at once", highlight=False)
         signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -69,11 +69,11 @@ def _tell_broken() -> None:
 
 def _schemas() -> dict[str, str]:
     from regkit.body import BodyDescription
-    from regkit.experiment import Experiment
+    from regkit.experiment.sweep import SweptExperiment
     from regkit.skeleton import SkeletonDescription
 
     models: dict[str, type[BaseModel]] = {
-        "experiment": Experiment,
+        "experiment": SweptExperiment,
         "template": BodyDescription,
         "skeleton": SkeletonDescription,
     }

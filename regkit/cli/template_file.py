@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 from regkit.body import BodyDescription
@@ -29,11 +30,15 @@ def check_replaceable(out: Path) -> None:
 
 
 def write_template(
-    out: Path, description: BodyDescription, skin: SkinnedMesh | None, opening: str
+    out: Path,
+    description: BodyDescription,
+    skin: SkinnedMesh | None,
+    opening: str,
+    comments: Mapping[str, str] | None = None,
 ) -> None:
-    """Write a template, which ``opening`` introduces, and its skin."""
+    """Write a template, which ``opening`` introduces, and its skin; ``comments`` are on joints."""
     if skin is not None:
         mesh = out.with_name(f"{out.stem}_mesh.npz")
         skin.write(mesh)
         description = description.model_copy(update={"mesh": mesh})
-    write_text(out, template_text(description, opening, {}))
+    write_text(out, template_text(description, opening, comments or {}))

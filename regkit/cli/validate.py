@@ -32,12 +32,14 @@ def validate(
 def _checked(file: Path) -> str:
     """What kind of file it is, once it is known to be valid."""
     from regkit.body import BodyDescription
-    from regkit.experiment import Experiment
+    from regkit.experiment import Study
     from regkit.skeleton import SkeletonDescription
 
     document = Document.read(file)
     if "methods" in document.data:
-        document.validated(Experiment)
+        study = Study.of(document)
+        if study.lists:
+            return f"sweep of {len(study.experiments)} experiments"
         return "experiment"
     if "segments" not in document.data:
         raise ConfigError(

@@ -2,25 +2,51 @@
 
 from __future__ import annotations
 
+import json
 import os
 import platform
+from contextlib import suppress
+from datetime import datetime
 from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
 from typing import Any
 
 from regkit import __version__
 
-LIBRARIES = ("numpy", "scipy", "numba", "pydantic", "open3d-cpu", "open3d", "casadi", "matplotlib")
+LIBRARIES = (
+    "numpy",
+    "scipy",
+    "numba",
+    "pydantic",
+    "open3d-cpu",
+    "open3d",
+    "casadi",
+    "matplotlib",
+    "joblib",
+    "distributed",
+)
 
 
-def environment() -> dict[str, Any]:
-    """Versions and machine, as JSON."""
+def environment(earlier: Path, workers: str) -> dict[str, Any]:
+    """Versions, machine, workers, and when the run was begun, as JSON.
+
+    Args:
+        earlier: The file with what was written when the run was begun, if it is resumed.
+        workers: Who does the work this time; frames per second are theirs, who share the machine.
+    """
+    told, begun = [], f"{datetime.now().astimezone():%Y-%m-%d %H:%M %z}"
+    with suppress(OSError, ValueError, KeyError):
+        before = json.loads(earlier.read_text(encoding="utf-8"))
+        told, begun = list(before["workers"]), str(before["date"])
     return {
+        "date": begun,
         "regkit": __version__,
         "python": platform.python_version(),
         "libraries": {name: installed(name) for name in LIBRARIES if installed(name)},
         "system": platform.platform(),
         "processor": _processor(),
         "cores": os.cpu_count(),
+        "workers": list(dict.fromkeys([*told, workers])),
     }
 
 

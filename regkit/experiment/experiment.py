@@ -11,14 +11,14 @@ from pydantic import AfterValidator, Field, ValidationInfo, field_validator
 
 from regkit.document import Document
 from regkit.errors import ConfigError
-from regkit.interfaces import Dataset, Method, Observer, Template, Tracker
+from regkit.interfaces import Dataset, Method, Observer, Sequence, Template, Tracker
 from regkit.model import Model
 from regkit.skeleton import PoseDescription
 from regkit.start import given_start
 
 
 def _fit_for_a_folder(name: str) -> str:
-    if not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9_.-]*", name):
+    if not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9_.,=-]*", name):
         raise ValueError(
             f"'{name}' names a folder: use letters, digits, '-', '_' and '.', and begin with a "
             "letter or digit"
@@ -38,6 +38,8 @@ class Experiment(Model):
     """Where the frames come from."""
     template: Template
     """What is seen in them."""
+    subjects: dict[str, Template] = Field(default_factory=dict)
+    """Templates of single people, by the dataset's names for them; all others get ``template``."""
     observer: Observer = Field(default="points", validate_default=True)
     """How frames become data."""
     tracker: Tracker = Field(default="hold", validate_default=True)
@@ -53,12 +55,13 @@ class Experiment(Model):
     def _start_fits_template(
         cls, start: PoseDescription | None, others: ValidationInfo
     ) -> PoseDescription | None:
-        template = others.data.get("template")
-        if start is not None and isinstance(template, Template):
-            try:
-                given_start(template, start)
-            except ConfigError as error:
-                raise ValueError(error.message) from None
+        templates = [others.data.get("template"), *others.data.get("subjects", {}).values()]
+        for template in templates:
+            if start is not None and isinstance(template, Template):
+                try:
+                    given_start(template, start)
+                except ConfigError as error:
+                    raise ValueError(error.message) from None
         return start
 
     @classmethod
@@ -66,6 +69,22 @@ class Experiment(Model):
         """An experiment's YAML, after ``a.b.c=value`` settings.
 
         Raises:
-            ConfigError: One line for each thing that is wrong, with its file, line and field.
+            ConfigError: One line for each thing that is wrong, with its file, line and field; or
+                the file holds a sweep, which is many experiments.
         """
-        return Document.read(path).overridden(settings).validated(cls)
+        document = Document.read(path).overridden(settings)
+        if document.data.get("sweep"):
+            raise ConfigError(
+                "many experiments, and one is needed here; take the sweep out, with "
+                "--set sweep={}, say",
+                place=document.place(("sweep",)),
+            )
+        return document.without("sweep").validated(cls)
+
+    def template_of(self, sequence: Sequence) -> Template:
+        """The template of who is seen in a sequence."""
+        return (
+            self.template
+            if sequence.subject is None
+            else self.subjects.get(sequence.subject, self.template)
+        )

@@ -7,14 +7,19 @@ import traceback
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+from zipfile import BadZipFile
+
+import numpy as np
 
 from regkit.body import Body
-from regkit.document import yaml_text
+from regkit.document import Document, yaml_data, yaml_text
 from regkit.errors import ConfigError, DataError, PluginError, RegkitError
+from regkit.experiment.differences import differences
 from regkit.experiment.environment import environment
-from regkit.experiment.experiment import Experiment
-from regkit.files import write_arrays, write_json, write_text
-from regkit.metrics import Measure, mean_of
+from regkit.experiment.hold import MARK
+from regkit.files import remove_unfinished, write_arrays, write_json, write_text
+from regkit.metrics import Measure
+from regkit.report import Record, draw_overlay, method_styles
 from regkit.tracking import Track
 
 
@@ -23,10 +28,12 @@ class Results:
     """An experiment's folder.
 
     config.yaml               the experiment with every default filled in
-    environment.json          versions and machine
-    metrics.json              figures by method and sequence, and their means
-    report.md                 the same as tables, and pictures
-    METHOD/SEQUENCE/          measure.json, poses.npz and overlay.png of a finished sequence
+    environment.json          versions, machine and workers
+    starts/SEQUENCE.json      where every method begins
+    metrics.json              figures by method and sequence, and what they say together
+    report.html, report.md    the same as tables, figures and pictures
+    figures/, tables/         the figures, and all numbers as CSV
+    METHOD/SEQUENCE/          measure.json, poses.npz, record.npz and overlay.png of a finished one
 
     Attributes:
         folder: Where it is.
@@ -35,31 +42,37 @@ class Results:
     folder: Path
 
     @classmethod
-    def opened(cls, folder: Path, experiment: Experiment) -> Results:
+    def opened(cls, folder: Path, config: dict[str, Any], workers: str) -> Results:
         """The folder for an experiment, new or begun before with the same configuration.
+
+        Args:
+            folder: Where it is; the run holds it already.
+            config: The experiment as JSON has it.
+            workers: Who does the work this time.
 
         Raises:
             ConfigError: If it holds the results of another configuration.
         """
-        results = cls(folder)
-        config = yaml_text(experiment.model_dump(mode="json"))
+        text = yaml_text(config)
         file = folder / "config.yaml"
-        if folder.exists() and not folder.is_dir():
-            raise ConfigError("this is a file, not a folder", place=f"--out {folder}")
-        if file.exists() and file.read_text(encoding="utf-8") != config:
-            raise ConfigError(
-                f"the folder holds the results of another configuration ({file}); "
-                "choose another folder, or run what it was begun with",
-                place=f"--out {folder}",
-            )
-        if not file.exists() and folder.exists() and any(folder.iterdir()):
+        if file.exists():
+            before = file.read_text(encoding="utf-8")
+            if before != text:
+                raise ConfigError(
+                    f"the folder holds the results of another configuration ({file}): "
+                    f"{differences(yaml_data(before), yaml_data(text))}; choose another folder, or "
+                    "run what it was begun with",
+                    place=f"--out {folder}",
+                )
+        elif any(path.name != MARK for path in folder.iterdir()):
             raise ConfigError(
                 "the folder holds other files; choose a new or an empty one",
                 place=f"--out {folder}",
             )
-        write_text(file, config)
-        write_json(folder / "environment.json", environment())
-        return results
+        remove_unfinished(folder)
+        write_text(file, text)
+        write_json(folder / "environment.json", environment(folder / "environment.json", workers))
+        return cls(folder)
 
     def sequence_folder(self, method: str, sequence: str) -> Path:
         """Where a method's results on a sequence are."""
@@ -82,39 +95,49 @@ class Results:
                 place=str(file),
             ) from None
 
-    def write(self, method: str, sequence: str, track: Track, body: Body, measure: Measure) -> None:
+    def record(self, method: str, sequence: str) -> Record | None:
+        """What is kept of a finished sequence for the report, or None.
+
+        Raises:
+            DataError: If the file was damaged since.
+        """
+        file = self.sequence_folder(method, sequence) / "record.npz"
+        if not file.exists():
+            return None
+        try:
+            with file.open("rb") as stream, np.load(stream, allow_pickle=False) as arrays:
+                return Record.from_arrays(dict(arrays))
+        except (ValueError, KeyError, EOFError, OSError, BadZipFile) as error:
+            raise DataError(
+                f"damaged ({error}); delete measure.json beside it to have the sequence done again",
+                place=str(file),
+            ) from None
+
+    def write(
+        self,
+        method: str,
+        sequence: str,
+        track: Track,
+        body: Body,
+        measure: Measure,
+        record: Record,
+    ) -> None:
         """Write a finished sequence; its figures come last, and with them it counts as finished."""
         folder = self.sequence_folder(method, sequence)
         write_arrays(folder / "poses.npz", track.named_arrays(body))
+        write_arrays(folder / "record.npz", record.arrays())
+        config = Document.read(self.folder / "config.yaml").data
+        colour = method_styles(config, [method])[method].colour
+        draw_overlay(folder / "overlay.png", f"{method} on {sequence}", record, colour)
         (folder / "error.txt").unlink(missing_ok=True)
         write_json(folder / "measure.json", measure.to_dict())
 
-    def failed(self, method: str, sequence: str, error: Exception) -> RegkitError:
+    def failed(self, file: Path, error: Exception) -> RegkitError:
         """The error as one that can be told; of a programming error the traceback is kept."""
         if isinstance(error, RegkitError):
             return error
-        file = self.sequence_folder(method, sequence) / "error.txt"
         write_text(file, "".join(traceback.format_exception(error)))
         return PluginError(
             f"{type(error).__name__}: {error}; this is a fault of the program or of a plug-in, and "
             f"{file} says where"
         )
-
-    def write_report(self, text: str) -> None:
-        """Write ``report.md``."""
-        write_text(self.folder / "report.md", text)
-
-    def write_metrics(
-        self, measures: dict[str, dict[str, Measure]], failures: dict[str, dict[str, str]]
-    ) -> None:
-        """Write ``metrics.json``; a failed sequence has all its figures null, and says why."""
-        methods = {}
-        for method, by_sequence in measures.items():
-            sequences: dict[str, Any] = {
-                sequence: measure.to_dict() for sequence, measure in by_sequence.items()
-            }
-            for sequence, reason in failures.get(method, {}).items():
-                sequences[sequence] = mean_of([]).to_dict() | {"error": reason}
-            mean = mean_of(list(by_sequence.values()))
-            methods[method] = {"sequences": sequences, "mean": mean.to_dict()}
-        write_json(self.folder / "metrics.json", {"methods": methods})

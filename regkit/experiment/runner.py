@@ -1,174 +1,139 @@
-"""Running an experiment: every method on every sequence, what is finished being kept."""
+"""Running experiments: every method on every sequence, what is finished being kept."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
-from functools import cached_property
-from itertools import islice
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Protocol
 
-from regkit.errors import ConfigError, RegkitError
+from regkit.errors import ConfigError
 from regkit.experiment.experiment import Experiment
+from regkit.experiment.hold import held
+from regkit.experiment.ledger import Ledger, Outcome
+from regkit.experiment.packed import check_shared
+from regkit.experiment.progress import Progress, Silent
+from regkit.experiment.reporting import report, summarise
 from regkit.experiment.results import Results
-from regkit.interfaces import Method, Sequence
-from regkit.metrics import Measure, matched, measured
+from regkit.experiment.study import Study
+from regkit.experiment.workers import ThisProcess, Workers
+from regkit.experiment.working import work
 from regkit.model import did_you_mean
-from regkit.observation import Observation, Truth
-from regkit.optional import one_blas_thread
-from regkit.report import draw_overlay, report
-from regkit.start import Start, found_start, given_start
-from regkit.tracking import Track, tracked
 
-
-class Progress(Protocol):
-    """Who wants to know how far a run is."""
-
-    def begin(self, method: str, sequence: str, frames: int) -> None:
-        """A method starts on a sequence."""
-
-    def advance(self) -> None:
-        """One more frame is done."""
-
-    def end(self, method: str, sequence: str, outcome: Measure | RegkitError) -> None:
-        """The sequence is finished, or could not be."""
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """The figures in a results folder, by method and sequence, and what failed with its reason."""
-
-    measures: dict[str, dict[str, Measure]]
-    failures: dict[str, dict[str, str]]
+REPORTING = "writing the report"
+"""What is begun last."""
 
 
 def run(
-    experiment: Experiment, folder: Path, progress: Progress, *, only: Iterable[str] = ()
+    experiment: Experiment | Study,
+    folder: Path,
+    progress: Progress | None = None,
+    *,
+    only: Iterable[str] = (),
+    workers: Workers | None = None,
 ) -> Outcome:
     """Run an experiment into its folder; what the folder holds already is not done again.
 
-    A sequence that fails does not stop the others. After each one the metrics and the report are
-    written anew, over all that the folder holds.
+    A sequence that fails does not stop the others. The figures are the same to the last bit,
+    whoever does the work, but for the frames per second. While the run goes on ``metrics.json``
+    tells what is finished; the report is written when it ends, even by an interrupt.
 
     Args:
-        experiment: What to run.
+        experiment: What to run; the experiments of a sweep are run into folders of their own.
         folder: Where to.
         progress: Who is told.
-        only: Names of the methods to run; all of them if it is empty.
+        only: Names of the methods to run, with all their variants; all of them if it is empty.
+        workers: Who does the work; this process without them.
+
+    Returns:
+        All that the folder holds; methods of a sweep are called ``SETTING/METHOD``.
 
     Raises:
         RegkitError: If nothing can be run: an unknown method, a dataset without sequences, a folder
-            that holds something else.
+            that holds something else, workers that cannot be had.
     """
-    methods = _chosen(experiment, tuple(only))
-    sequences = experiment.dataset.chosen()
-    results = Results.opened(folder, experiment)
-    outcome = Outcome({name: {} for name in methods}, {name: {} for name in methods})
-    others = [name for name in experiment.methods if name not in methods]
-    outcome.measures.update(_finished(results, others, sequences))
-    with one_blas_thread():
-        for sequence in sequences:
-            task = _Task(experiment, results, sequence)
-            for name, method in methods.items():
-                progress.begin(name, sequence.name, sequence.length)
-                try:
-                    measure = task.measure(name, method, progress)
-                except Exception as error:
-                    failure = results.failed(name, sequence.name, error)
-                    outcome.failures[name][sequence.name] = str(failure)
-                    progress.end(name, sequence.name, failure)
-                else:
-                    outcome.measures[name][sequence.name] = measure
-                    progress.end(name, sequence.name, measure)
-                results.write_metrics(outcome.measures, outcome.failures)
-                results.write_report(report(experiment.name, outcome.measures, outcome.failures))
+    study = Study.of_one(experiment) if isinstance(experiment, Experiment) else experiment
+    workers, progress = workers or ThisProcess(), progress or Silent()
+    ledgers = _ledgers(study, folder, tuple(only))
+    if workers.remote:
+        for one in study.experiments.values():
+            check_shared(one)
+    if folder.exists() and not folder.is_dir():
+        raise ConfigError("this is a file, not a folder", place=f"--out {folder}")
+    with workers.team() as team, held(folder) as hold:
+        team.serve(hold)
+        Results.opened(folder, study.config(), workers.described)
+        if study.lists:
+            for ledger in ledgers:
+                ledger.open(workers.described)
+        try:
+            work(ledgers, team, progress)
+        finally:
+            for ledger in ledgers:
+                ledger.summarise()
+            outcome = _together(ledgers) if study.lists else ledgers[0].outcome
+            if study.lists:
+                summarise(folder, outcome.measures, outcome.failures)
+        progress.begin(REPORTING, None)
+        for ledger in ledgers:
+            ledger.report()
+        if study.lists:
+            report(folder, outcome.measures, outcome.failures)
+        progress.end(REPORTING, 0, None)
     return outcome
 
 
-@dataclass(frozen=True)
-class _Task:
-    """One sequence, which every method gets with the same start."""
+def _ledgers(study: Study, folder: Path, only: tuple[str, ...]) -> list[Ledger]:
+    """What is known of each experiment before anything is run.
 
-    experiment: Experiment
-    results: Results
-    sequence: Sequence
-
-    def measure(self, name: str, method: Method, progress: Progress) -> Measure:
-        """The figures of a method, tracked now or found in the results folder."""
-        finished = self.results.finished(name, self.sequence.name)
-        if finished is not None:
-            return finished
-        joints = self.experiment.dataset.joints
-        if self.truth is not None:
-            # A misspelt joint is found before the hours of computing, not after them.
-            matched(self.start.body, self.truth, joints)
-        registrar = method.prepare(self.start.body)
-        frames = []
-        for frame in tracked(
-            self.sequence,
-            self.experiment.observer,
-            registrar,
-            method.tracker or self.experiment.tracker,
-            self.start.pose,
-        ):
-            frames.append(frame)
-            progress.advance()
-        track = Track.of(frames, registrar)
-        measure = measured(track, registrar.body, self.truth, joints)
-        picture = self.results.sequence_folder(name, self.sequence.name) / "overlay.png"
-        title = f"{name} on {self.sequence.name}"
-        draw_overlay(picture, title, frames, track, registrar, self.truth)
-        self.results.write(name, self.sequence.name, track, registrar.body, measure)
-        return measure
-
-    @cached_property
-    def truth(self) -> Truth | None:
-        """The reference joints, if there are any and they are to be compared."""
-        return self.sequence.truth() if self.experiment.dataset.compared else None
-
-    @cached_property
-    def start(self) -> Start:
-        """The given start, or the one found in the first frame, its size in a few."""
-        if self.experiment.start is not None:
-            return given_start(self.experiment.template, self.experiment.start)
-        return found_start(self.experiment.template, *self._looked_at())
-
-    def _looked_at(self) -> Iterator[Observation]:
-        """The first frame, and two later ones where the size is unknown and they can be used."""
-        sized = self.experiment.template.given_size() is not None
-        last = self.sequence.length - 1
-        wanted = {0} if sized else {0, last // 2, last}
-        for index, frame in enumerate(islice(self.sequence.frames(), 1 + max(wanted))):
-            if index not in wanted:
-                continue
-            try:
-                yield self.experiment.observer.observe(frame)
-            except RegkitError as error:
-                # What is wrong with a later frame is told when it is tracked.
-                if index == 0:
-                    raise error.at(frame.place or self.sequence.name) from None
+    Raises:
+        RegkitError: If a method, a sequence or a subject is named that there is not.
+    """
+    methods = _chosen(study.methods, only)
+    ledgers: list[Ledger] = []
+    for name, one in study.experiments.items():
+        if ledgers and one.dataset == ledgers[-1].experiment.dataset:
+            lengths = ledgers[-1].lengths
+        else:
+            lengths = _lengths(one)
+        ledgers.append(Ledger(one, Results(folder / name), methods, lengths, name))
+    return ledgers
 
 
-def _finished(
-    results: Results, methods: list[str], sequences: list[Sequence]
-) -> dict[str, dict[str, Measure]]:
-    """What the folder holds of methods that are not run now."""
-    found: dict[str, dict[str, Measure]] = {}
-    for method in methods:
-        for sequence in sequences:
-            measure = results.finished(method, sequence.name)
-            if measure is not None:
-                found.setdefault(method, {})[sequence.name] = measure
-    return found
+def _lengths(experiment: Experiment) -> dict[str, int]:
+    """The number of frames of each sequence, by its name."""
+    sequences = experiment.dataset.chosen()
+    unknown = experiment.subjects.keys() - {sequence.subject for sequence in sequences}
+    if unknown:
+        # Those of other sequences may be given templates, too.
+        everything = experiment.dataset.model_copy(update={"sequences": None}).chosen()
+        known = sorted({one.subject for one in everything if one.subject is not None})
+        for name in sorted(unknown - set(known)):
+            raise ConfigError(
+                f"no sequence shows a subject '{name}' (there are: {', '.join(known) or 'none'})"
+                + did_you_mean(name, known),
+                place="subjects",
+            )
+    return {sequence.name: sequence.length for sequence in sequences}
 
 
-def _chosen(experiment: Experiment, only: tuple[str, ...]) -> dict[str, Method]:
+def _chosen(known: list[str], only: tuple[str, ...]) -> list[str]:
+    """The methods to run; one that is swept stands for all of its variants."""
+    heads = [name.partition(",")[0] for name in known]
     for name in only:
-        if name not in experiment.methods:
-            known = list(experiment.methods)
+        if name not in known and name not in heads:
             raise ConfigError(
                 f"no method '{name}' (there are: {', '.join(known)})" + did_you_mean(name, known),
                 place="--only",
             )
-    return {name: experiment.methods[name] for name in only or experiment.methods}
+    return [name for name, head in zip(known, heads, strict=True)
+            if not only or name in only or head in only]  # fmt: skip
+
+
+def _together(ledgers: list[Ledger]) -> Outcome:
+    """The outcomes of all experiments as one."""
+    whole = Outcome({}, {})
+    for ledger in ledgers:
+        outcome = ledger.outcome
+        for method in outcome.measures:
+            whole.measures[f"{ledger.setting}/{method}"] = outcome.measures[method]
+            whole.failures[f"{ledger.setting}/{method}"] = outcome.failures[method]
+    return whole

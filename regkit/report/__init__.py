@@ -1,6 +1,8 @@
-"""Reports: tables and pictures of what a run found."""
+"""Reports: tables, figures and pictures of what a run found, as a page and as Markdown."""
 
 from regkit.report.overlay import draw_overlay
-from regkit.report.tables import report
+from regkit.report.page import write_report, write_summary
+from regkit.report.record import Record
+from regkit.report.run import Run, method_styles
 
-__all__ = ["draw_overlay", "report"]
+__all__ = ["Record", "Run", "draw_overlay", "method_styles", "write_report", "write_summary"]

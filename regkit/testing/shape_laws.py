@@ -14,6 +14,9 @@ from regkit.testing.laws import Laws
 from regkit.testing.samples import posed
 from regkit.testing.verdict import copied, require, same
 
+OUTSIDE = 0.05
+"""How far a primitive's centre may be outside of its segment, as a part of the body's size."""
+
 
 def attached(shape: ShapeModel, body: Body) -> Primitives:
     """The primitives of a body; a shape model that refuses it fails the test."""
@@ -70,6 +73,19 @@ class ShapeLaws(Laws):
             not bare, shape, f"leaves segments without a primitive: {', '.join(bare)}",
             look_at=type(shape).attach,
         )  # fmt: skip
+
+    def test_shape_lies_where_its_segments_are(self, shape: ShapeModel, body: Body) -> None:
+        """Each centre is within its own segment's flesh, or no farther out than a twentieth."""
+        primitives, transforms = attached(shape, body), body.place(body.skeleton.rest()).transforms
+        centres, flesh = primitives.place(transforms).centres, body.capsules.place(transforms)
+        for segment in np.unique(np.intersect1d(primitives.segments, flesh.segments)):
+            own = centres[primitives.segments == segment]
+            outside = flesh.some(flesh.segments == segment).surface_distance(own)
+            require(
+                outside.max() < OUTSIDE * body.size, shape, f"has a primitive {outside.max():.2g} "
+                f"m outside of its segment '{body.skeleton.names[segment]}'; centres are given in "
+                "the frame of the segment that carries them", look_at=type(shape).attach,
+            )  # fmt: skip
 
     def test_shape_moves_with_the_body(
         self, shape: ShapeModel, body: Body, random: np.random.Generator

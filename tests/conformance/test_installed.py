@@ -15,6 +15,10 @@ TestInstalled = conformance(
         "datasets.depth": {"root": str(DATA / "human_walk")},
         "datasets.clouds": {"root": str(DATA / "mannequin")},
         "datasets.utd_mhad": {"root": str(Path(__file__).parent / "data" / "utd_mhad")},
+        "datasets.synthetic": {
+            "defaults": {"motion": {"kind": "clip", "name": "walk"}, "frames": 2},
+            "takes": {"near": {}, "far": {"view": {"distance": 3.5}}},
+        },
         "templates.file": {"path": str(LINKAGE)},
         "templates.cloud": {"path": str(DATA / "mannequin" / "model.npz")},
         "kernels.likelihood": [{}, {"outliers": 0.2}],

@@ -70,6 +70,12 @@ SHAPE_FAULTS = {
         "test_shape_covers_every_segment",
         "shape 'faulty' leaves segments without a primitive: arm; look at",
     ),
+    "place": (
+        "centres=capsules.ends.mean(axis=1)",
+        "centres=capsules.ends.mean(axis=1)[::-1]",
+        "test_shape_lies_where_its_segments_are",
+        "m outside of its segment 'base'; centres are given in the frame of the segment",
+    ),
     "random": (
         "centres=capsules.ends.mean(axis=1)",
         "centres=capsules.ends.mean(axis=1) + 0.01 * np.random.default_rng().normal(size=(1, 3))",

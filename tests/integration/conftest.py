@@ -1,11 +1,12 @@
 """The command line as a fixture."""
 
 import importlib
+import subprocess
 import sys
 from typing import NamedTuple
 
 import pytest
-from small_experiment import Files, small
+from small_experiment import Files, Started, small
 
 from regkit import plugin
 from regkit.cli import main
@@ -37,6 +38,28 @@ def regkit(monkeypatch, capsys):
         return Ended(int(caught.value.code or 0), told.out, told.err)
 
     return run
+
+
+@pytest.fixture
+def started():
+    """The command line in a process of its own, which is gone when the test ends."""
+    processes = []
+
+    def start(*arguments: object) -> Started:
+        process = subprocess.Popen(
+            [sys.executable, "-m", "regkit", *map(str, arguments)],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+        )
+        processes.append(process)
+        return Started(process)
+
+    yield start
+    for process in processes:
+        process.kill()
+        process.communicate()
 
 
 @pytest.fixture

@@ -2,12 +2,13 @@
 
 import json
 import shutil
+import subprocess
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, NamedTuple
 
-from regkit.experiment.runner import Progress
 from regkit.interfaces import Follower, Registered, Registrar, Tracker
 from regkit.plugin import register
 
@@ -108,14 +109,27 @@ def damage(image: Path) -> bytes:
     return content
 
 
-class Silence(Progress):
-    """Wants to know nothing."""
+def figures_but_times(out: Path) -> list:
+    """All figures of a run but the frames per second, in the order in which they are written."""
 
-    def begin(self, method, sequence, frames) -> None:
-        pass
+    def without(value):
+        if not isinstance(value, dict):
+            return value
+        return [(key, without(inner)) for key, inner in value.items() if key != "fps"]
 
-    def advance(self) -> None:
-        pass
+    return without(json.loads((out / "metrics.json").read_text()))
 
-    def end(self, method, sequence, outcome) -> None:
-        pass
+
+@dataclass(frozen=True)
+class Started:
+    """The command line in a process of its own."""
+
+    process: subprocess.Popen
+
+    def wait_for(self, path: Path) -> None:
+        """Until a file is there, while the command still runs."""
+        end = time.monotonic() + 120.0
+        while not path.exists():
+            assert self.process.poll() is None, self.process.communicate()
+            assert time.monotonic() < end
+            time.sleep(0.01)

@@ -167,6 +167,7 @@ def test_broken_preset_is_told(regkit, distribution, files):
     table = regkit("plugins")
     assert table.code == 0
     assert "broken: preset 'odd' of odd-things" in " ".join(table.out.split())
+    assert "preset 'odd' of odd-things cannot be imported" in regkit("doctor").out
     ended = regkit("run", files.experiment, "--set", "methods.gsog={preset: odd}", *QUICK)
     assert ended.code == 1
     assert "preset 'odd' of odd-things cannot be imported: ModuleNotFoundError" in ended.err

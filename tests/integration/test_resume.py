@@ -12,8 +12,10 @@ from small_experiment import (
     Stepping,
     add_method,
     counting,
+    figures_but_times,
 )
 
+from regkit.experiment.hold import held
 from regkit.interfaces import Follower, Tracker
 from regkit.plugin import register
 
@@ -44,6 +46,7 @@ def test_resumed_run_does_only_what_is_missing(regkit, files):
     assert changed == {
         "gsog/second/measure.json",
         "gsog/second/poses.npz",
+        "gsog/second/record.npz",
         "gsog/second/overlay.png",
     }
     for method, figures in files.metrics().items():
@@ -89,7 +92,7 @@ def test_interrupted_run_is_completed_later(regkit, files, interrupt):
     begun = len(steps)
     assert regkit(*arguments).code == 0
     assert len(steps) - begun == FRAMES
-    assert len(files.written()) == 6
+    assert len(files.written()) == 8
 
 
 def test_damaged_measure_is_told_and_the_rest_is_kept(regkit, files):
@@ -136,3 +139,60 @@ def test_only_keeps_what_other_methods_have_finished(regkit, files):
     assert regkit("run", files.experiment, "--out", files.out, "--only", "sog", *QUICK).code == 0
     assert files.metrics()["gsog"] == before["gsog"]
     assert set(files.metrics()["sog"]["sequences"]) == {"first"}
+
+
+def test_difference_to_the_folder_is_named(regkit, files):
+    regkit("run", files.experiment, "--out", files.out, *QUICK)
+    ended = regkit("run", files.experiment, "--out", files.out, "--set",
+                   "observer=octree", *QUICK)  # fmt: skip
+    assert "observer.kind is points there and octree here" in ended.err
+
+
+@pytest.mark.slow
+def test_killed_run_is_completed_later(regkit, files, started):
+    """Killed as hard as can be, while a track is half done and another is finished."""
+    whole = files.out.with_name("whole")
+    add_method(files.experiment, "sog", "sog")
+    assert regkit("run", files.experiment, "--out", whole).code == 0
+    run = started("run", files.experiment, "--out", files.out)
+    run.wait_for(files.out / "gsog" / "first" / "measure.json")
+    run.process.send_signal(signal.SIGKILL)
+    run.process.wait()
+    left = files.out / "sog" / "first" / ".poses.npz.0.tmp.npz"
+    left.parent.mkdir(parents=True, exist_ok=True)
+    left.touch()
+    before = files.written()
+    assert regkit("run", files.experiment, "--out", files.out).code == 0
+    kept = {name: when for name, when in before.items() if name.startswith("gsog/first")}
+    assert kept == {name: when for name, when in files.written().items() if name in kept}
+    assert figures_but_times(files.out) == figures_but_times(whole)
+    assert not list(files.out.rglob(".*"))
+
+
+def test_two_runs_in_one_folder_are_refused(regkit, files):
+    with held(files.out):
+        ended = regkit("run", files.experiment, "--out", files.out)
+        assert ended.code == 1
+        assert f"another run (process {os.getpid()} on " in ended.err
+        assert "is writing there" in ended.err
+    assert regkit("run", files.experiment, "--out", files.out, *QUICK).code == 0
+
+
+def test_start_is_found_once(regkit, files):
+    """A resumed run and other methods begin where the first one did, to the last bit."""
+    files.experiment.write_text(
+        "".join(line for line in files.experiment.read_text().splitlines(keepends=True)
+                if not line.startswith("start:"))
+    )  # fmt: skip
+    arguments = ("run", files.experiment, "--out", files.out, *QUICK)
+    assert regkit(*arguments).code == 0
+    kept = files.out / "starts" / "first.json"
+    when, first = kept.stat().st_mtime_ns, figures_but_times(files.out)
+    (files.out / "gsog" / "first" / "measure.json").unlink()
+    assert regkit(*arguments).code == 0
+    assert kept.stat().st_mtime_ns == when
+    assert figures_but_times(files.out) == first
+    (files.out / "gsog" / "first" / "measure.json").unlink()
+    kept.write_text("{")
+    ended = regkit(*arguments)
+    assert f"first failed: {kept}: damaged" in ended.err

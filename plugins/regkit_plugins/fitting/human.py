@@ -26,7 +26,7 @@ from regkit_plugins.fitting.human_layout import (
     human_layout,
 )
 from regkit_plugins.fitting.human_limits import JOINTS, SOURCES, STANCES
-from regkit_plugins.synthesis.landmarks import human_landmarks
+from regkit_plugins.synthesis.motion.bodies import human_landmarks
 
 SPACING = 0.008
 """Distance of the points inside the mesh [m]: some 100,000 points."""

@@ -1,4 +1,4 @@
-"""Presets: whole methods as YAML files, to use by name or to copy."""
+"""Presets: whole methods and datasets as YAML files, to use by name or to copy."""
 
 from pathlib import Path
 
@@ -9,3 +9,5 @@ ICP = _FOLDER / "icp.yaml"
 PAPER = _FOLDER / "paper.yaml"
 RIGID = _FOLDER / "rigid.yaml"
 SPHERES = _FOLDER / "spheres.yaml"
+
+SMMC_LIKE = _FOLDER / "smmc_like.yaml"

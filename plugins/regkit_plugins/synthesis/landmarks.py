@@ -3,25 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from regkit.arrays import Array
+from regkit.arrays import Array, Indices
 from regkit.rigid import moved
 from regkit.skinned_mesh import SkinnedMesh
-
-_HUMAN_BONES = {
-    "shoulder": "Arm",
-    "elbow": "ForeArm",
-    "wrist": "Hand",
-    "hand": "HandFinger1",
-    "hip": "UpLeg",
-    "knee": "Leg",
-    "ankle": "Foot",
-    "foot": "ToeBase",
-}
-"""The bone, without its side, that starts in each joint."""
 
 _FINGERS = {
     "thumb": ("cmc", "mcp", "ip"),
@@ -46,23 +34,6 @@ class Landmark:
     position: Array
 
 
-def human_landmarks(mesh: SkinnedMesh) -> dict[str, Landmark]:
-    """The 20 joints of a human body, by name; left is the person's own left."""
-    head, crown = mesh.origin("Head"), mesh.vertices[np.argmax(mesh.vertices[:, 2])]
-    pelvis = (mesh.origin("LeftUpLeg") + mesh.origin("RightUpLeg")) / 2
-    landmarks = {
-        "head": Landmark(mesh.bone("Head"), (head + crown) / 2),
-        "neck": Landmark(mesh.bone("Neck"), mesh.origin("Neck")),
-        "spine": Landmark(mesh.bone("Spine"), mesh.origin("Spine")),
-        "pelvis": Landmark(mesh.bone("Hips"), pelvis),
-    }
-    for side in ("Left", "Right"):
-        for joint, bone in _HUMAN_BONES.items():
-            label = side + bone
-            landmarks[f"{side.lower()}_{joint}"] = Landmark(mesh.bone(label), mesh.origin(label))
-    return landmarks
-
-
 def hand_landmarks(mesh: SkinnedMesh, side: str = "R") -> dict[str, Landmark]:
     """The wrist and the 20 joints and tips of the fingers, by name.
 
@@ -77,6 +48,17 @@ def hand_landmarks(mesh: SkinnedMesh, side: str = "R") -> dict[str, Landmark]:
             landmarks[f"{finger}_{joint}"] = Landmark(mesh.bone(label), mesh.origin(label))
         landmarks[f"{finger}_tip"] = _tip(mesh, mesh.bone(f"finger{number}-3.{side}"))
     return landmarks
+
+
+def some_vertices(mesh: SkinnedMesh, vertices: Indices) -> SkinnedMesh:
+    """The skin of a mesh at some of its vertices, (N,) indices, without triangles."""
+    return replace(
+        mesh,
+        vertices=mesh.vertices[vertices],
+        faces=np.zeros((0, 3), dtype=np.intp),
+        indices=mesh.indices[vertices],
+        weights=mesh.weights[vertices],
+    )
 
 
 def placed(landmarks: Mapping[str, Landmark], mesh: SkinnedMesh, bone_poses: Array) -> Array:

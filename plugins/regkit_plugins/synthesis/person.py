@@ -12,14 +12,18 @@ from regkit.arrays import Array
 from regkit.rigid import rigid
 from regkit.rotation import vector_to_matrix
 from regkit.skinned_mesh import SkinnedMesh
-from regkit_plugins.synthesis import assets
-from regkit_plugins.synthesis.landmarks import human_landmarks
-from regkit_plugins.synthesis.motion_clip import ClipPose, MotionClip
-from regkit_plugins.synthesis.retarget_body import BodyMotion
+from regkit_plugins.synthesis.motion.body_map import body_map
+from regkit_plugins.synthesis.motion.motion import Motion
+from regkit_plugins.synthesis.motion.played import Played
+from regkit_plugins.synthesis.motion.retarget import retargeted
+from regkit_plugins.synthesis.motion.shipped import shipped_clip
 from regkit_plugins.synthesis.scene import SR4000, Scene
 
 _R_CAMERA_BODY = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 """From x left, y backward, z up to x right, y down, z forward: the body looks into the camera."""
+
+_BODY = body_map("anny_cmu")
+"""The people of the sample sequences and of the suite have anny's CMU rig."""
 
 
 @dataclass(frozen=True)
@@ -51,11 +55,12 @@ class PersonTake:
     speed: float = 1.0
     repeated: bool = False
     tilt: float = 0.0
-    noise: float = SR4000.noise
+    noise: float = 0.008
 
     def scene(self, name: str, body: str, mesh: SkinnedMesh) -> Scene:
         """The scene, which is called ``name``, with a mesh that is ``body`` of anny."""
-        clip = assets.clip(self.clip)
+        clip = shipped_clip(self.clip)
+        motion = clip.looped() if self.repeated else clip
         return Scene(
             name=name,
             source=(
@@ -64,23 +69,16 @@ class PersonTake:
             ),
             licence="CC0-1.0 (body), MIT and zlib (motion)",
             mesh=mesh,
-            landmarks=human_landmarks(mesh),
-            bone_poses=self._bone_poses(clip.looped() if self.repeated else clip, mesh),
+            landmarks=_BODY.landmarks(mesh),
+            bone_poses=self._bone_poses(Played.of(motion, self.start, self.speed, self.way), mesh),
             sensor=replace(SR4000, noise=self.noise),
             frames=self.frames,
         )
 
-    def _bone_poses(self, clip: MotionClip, mesh: SkinnedMesh) -> Callable[[float], Array]:
+    def _bone_poses(self, motion: Motion, mesh: SkinnedMesh) -> Callable[[float], Array]:
         """The bone poses ``T_camera_bone`` (J, 4, 4) at a time [s]."""
-        motion = BodyMotion.of(mesh)
+        bone_poses = retargeted(motion, mesh, _BODY)
         tilt = rigid(vector_to_matrix(np.array([radians(self.tilt), 0.0, 0.0])), np.zeros(3))
         turn = vector_to_matrix(np.array([0.0, 0.0, radians(self.heading)]))
         T_camera_ground = tilt @ rigid(_R_CAMERA_BODY @ turn, np.array(self.place))
-
-        def bone_poses(time: float) -> Array:
-            played = self.speed * time
-            pose = clip.at(self.start + played)
-            root = pose.root - (1.0 - self.way) * played * clip.velocity
-            return np.asarray(T_camera_ground @ motion.bone_poses(ClipPose(root, pose.rotations)))
-
-        return bone_poses
+        return lambda time: np.asarray(T_camera_ground @ bone_poses(time))

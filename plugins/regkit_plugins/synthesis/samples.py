@@ -17,7 +17,8 @@ _WALK = PersonTake("walk", heading=20.0, place=(-0.05, 0.76, 3.25))
 def human_walk(seed: int) -> DepthSequence:
     """A person who walks towards the camera, turned a little to the side."""
     scene = _WALK.scene("human_walk", "the body", assets.average_human())
-    return scene.rendered(np.random.default_rng([seed, 0]))
+    random = np.random.default_rng([seed, 0])
+    return scene.rendered(lambda frame: random)
 
 
 def hand_gestures(seed: int) -> DepthSequence:
@@ -30,7 +31,8 @@ def hand_gestures(seed: int) -> DepthSequence:
         sensor=SR4000,
     )
     scene = take.scene("hand_gestures", "the right hand", assets.average_hand())
-    return scene.rendered(np.random.default_rng([seed, 1]))
+    random = np.random.default_rng([seed, 1])
+    return scene.rendered(lambda frame: random)
 
 
 def _gestures() -> Gestures:

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from regkit.arrays import Array
 from regkit.camera import Camera
 from regkit.skinned_mesh import SkinnedMesh
-from regkit_plugins.synthesis.landmarks import Landmark, placed
-from regkit_plugins.synthesis.raycast import measured, ray_cast
+from regkit_plugins.synthesis.cameras import CAMERAS
+from regkit_plugins.synthesis.landmarks import Landmark, placed, some_vertices
+from regkit_plugins.synthesis.noise import DepthNoise, noise_of
+from regkit_plugins.synthesis.raycast import RayCaster, View, stored
 from regkit_plugins.synthesis.sequence import DepthSequence
 
 FPS = 30.0
@@ -23,21 +25,19 @@ class Sensor:
 
     Attributes:
         camera: Intrinsics.
-        noise: Standard deviation of the depth [m].
+        noise: What it makes of the depth, or the standard deviation of plain Gaussian noise [m].
         depth_scale: Stored units per metre.
     """
 
     camera: Camera
-    noise: float
+    noise: DepthNoise | float
     depth_scale: float
 
 
-SR4000 = Sensor(Camera(width=176, height=144, fx=231.0, fy=231.0, cx=87.5, cy=71.5), 0.008, 1000.0)
+SR4000 = Sensor(CAMERAS["sr4000"].camera(), 0.008, CAMERAS["sr4000"].depth_scale)
 """Size, opening angle and noise (at a few metres) of a MESA SR4000."""
 
-SR305 = Sensor(
-    Camera(width=320, height=240, fx=238.0, fy=238.0, cx=159.5, cy=119.5), 0.002, 10000.0
-)
+SR305 = Sensor(CAMERAS["sr305"].camera(), 0.002, CAMERAS["sr305"].depth_scale)
 """An Intel RealSense SR305 at half its resolution, with a hand close before it."""
 
 
@@ -53,7 +53,9 @@ class Scene:
         landmarks: Its joints, by name.
         bone_poses: The bone poses ``T_camera_bone`` (J, 4, 4) at a time [s].
         sensor: What looks at it.
-        frames: How many images there are, ``FPS`` of them per second.
+        frames: How many images there are.
+        fps: How many of them per second.
+        markers: Vertices of the mesh whose truth is known beside the joints', by name.
     """
 
     name: str
@@ -64,33 +66,58 @@ class Scene:
     bone_poses: Callable[[float], Array]
     sensor: Sensor
     frames: int
+    fps: float = FPS
+    markers: Mapping[str, int] = field(default_factory=dict)
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """The names of the joints and of the markers."""
+        return (*self.landmarks, *self.markers)
 
     def truth(self) -> Array:
-        """Where the joints are in every image (T, L, 3), in the camera's frame [m]."""
-        return np.array([placed(self.landmarks, self.mesh, pose) for pose in self._poses()])
+        """Where joints and markers are in every image (T, L, 3), in the camera's frame [m]."""
+        skin = some_vertices(self.mesh, np.array([*self.markers.values()], dtype=np.intp))
+        return np.array([
+            np.concatenate([placed(self.landmarks, self.mesh, pose), skin.posed(pose)])
+            for pose in self.poses()
+        ])  # fmt: skip
 
-    def rendered(self, random: np.random.Generator) -> DepthSequence:
-        """What the sensor measures, with noise from ``random``.
+    def views(self) -> Iterator[View]:
+        """What there is to be seen in every image.
 
         Raises:
             DependencyError: If Open3D cannot be loaded.
         """
-        camera, noise, scale = self.sensor.camera, self.sensor.noise, self.sensor.depth_scale
+        caster = RayCaster(self.sensor.camera)
+        for pose in self.poses():
+            yield caster.view(self.mesh.posed(pose), self.mesh.faces)
+
+    def rendered(self, random: Callable[[int], np.random.Generator]) -> DepthSequence:
+        """What the sensor measures.
+
+        Args:
+            random: Where the noise of a frame comes from.
+
+        Raises:
+            DependencyError: If Open3D cannot be loaded.
+        """
+        noise, scale = noise_of(self.sensor.noise), self.sensor.depth_scale
         images = [
-            measured(ray_cast(self.mesh.posed(pose), self.mesh.faces, camera), noise, scale, random)
-            for pose in self._poses()
+            stored(noise.applied(view, random(frame)), scale)
+            for frame, view in enumerate(self.views())
         ]
         return DepthSequence(
             name=self.name,
-            fps=FPS,
+            fps=self.fps,
             depth_scale=scale,
             source=self.source,
             licence=self.licence,
-            camera=camera,
+            camera=self.sensor.camera,
             depth=np.array(images),
-            joints=tuple(self.landmarks),
+            joints=self.joints,
             truth=self.truth(),
         )
 
-    def _poses(self) -> list[Array]:
-        return [self.bone_poses(frame / FPS) for frame in range(self.frames)]
+    def poses(self) -> list[Array]:
+        """The bone poses ``T_camera_bone`` (J, 4, 4) in every image."""
+        return [self.bone_poses(frame / self.fps) for frame in range(self.frames)]

@@ -71,13 +71,17 @@ class DepthSequence:
         """Write the files beside the folder, and rename them when they are complete."""
         with tempfile.TemporaryDirectory(dir=folder.parent, prefix=f".{folder.name}-") as scratch:
             new, old = Path(scratch) / "new", Path(scratch) / "old"
-            self._write_into(new)
+            self.write_into(new)
             if folder.exists():
                 folder.rename(old)
             new.rename(folder)
 
-    def _write_into(self, folder: Path) -> None:
-        """Write the files into a new folder."""
+    def write_into(self, folder: Path) -> None:
+        """Write the files into a new folder.
+
+        Raises:
+            OSError: If that is not possible.
+        """
         images = folder / "depth"
         images.mkdir(parents=True)
         (folder / _HEADER).write_text(self._header(), encoding="utf-8", newline="\n")

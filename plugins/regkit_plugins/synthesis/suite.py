@@ -60,7 +60,8 @@ def rendered(name: str, take: str, seed: int) -> DepthSequence:
     """
     body = SUITE[name]
     scene = body.takes[take].scene(take, body.what, body.mesh())
-    return scene.rendered(np.random.default_rng([seed, *f"{name}/{take}".encode()]))
+    random = np.random.default_rng([seed, *f"{name}/{take}".encode()])
+    return scene.rendered(lambda frame: random)
 
 
 def _small_human(mesh: SkinnedMesh) -> FittedTemplate:

@@ -1,0 +1,187 @@
+"""Depth images of bodies that are moved and rendered."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from regkit.errors import DataError, RegkitError
+from regkit.interfaces import Dataset, Sequence
+from regkit.model import misplaced
+from regkit.observation import Frame, Truth
+from regkit.preset import changed
+from regkit_plugins.datasets.depth import DepthFolders
+from regkit_plugins.synthesis.cache import SequenceCache
+from regkit_plugins.synthesis.cameras import CameraChoice, camera_of
+from regkit_plugins.synthesis.digest import digest
+from regkit_plugins.synthesis.noise import NOISES, DepthNoise, NoiseChoice, noise_of
+from regkit_plugins.synthesis.scene import Scene, Sensor
+from regkit_plugins.synthesis.sequence import DepthSequence
+from regkit_plugins.synthesis.take import Take
+
+Name = Annotated[str, Field(pattern=r"^\w[\w. -]*$")]
+
+
+class Synthetic(Dataset):
+    """Rigged bodies moved by recorded motion, ray-cast into depth, with exact joints.
+
+    Each take becomes a sequence. It is rendered when it is first needed, and kept in the user's
+    cache folder, which ``regkit doctor`` names, until that is deleted. The noise of a frame depends
+    on the seed, the take's name and the frame's number only.
+    """
+
+    kind: Literal["synthetic"] = "synthetic"
+
+    camera: CameraChoice = "sr4000"
+    """What looks at the bodies: a known camera by its name, ``{file: camera.json}``, or numbers."""
+    noise: NoiseChoice | None = None
+    """What the camera makes of the depth: the noise of a known camera by its name, ``none``, a
+    standard deviation [m], or its parts. Without it, that of the camera if it is known, or none."""
+    seed: Annotated[int, Field(ge=0)] = 0
+    """Seed of the noise; another one changes nothing else."""
+    fps: Annotated[float, Field(gt=0.0)] = 30.0
+    """Frames per second."""
+    defaults: Take = Take()
+    """What all takes have in common."""
+    takes: dict[Name, Take] = Field(min_length=1)
+    """The sequences by name, each with what it has of its own."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _complete(cls, value: Any) -> Any:
+        """Give each take what it leaves to the defaults."""
+        if not isinstance(value, dict):
+            return value
+        defaults, takes = value.get("defaults"), value.get("takes")
+        if not isinstance(defaults, dict) or not isinstance(takes, dict):
+            return value
+        whole = {
+            name: _over(defaults, take) if isinstance(take, dict) else take
+            for name, take in takes.items()
+        }
+        return {**value, "takes": whole}
+
+    @model_validator(mode="after")
+    def _all_move(self) -> Self:
+        for name, take in self.takes.items():
+            if take.motion is None:
+                message = "it has no motion of its own, and there is none among the defaults"
+                raise misplaced(type(self), message, "takes", name)
+        return self
+
+    def found(self) -> list[Sequence]:
+        """A sequence for each take; nothing is rendered yet."""
+        return [self._sequence(name, take) for name, take in self.takes.items()]
+
+    def _sequence(self, name: str, take: Take) -> SyntheticSequence:
+        length = min(take.frames, self.frames or take.frames)
+        return SyntheticSequence(
+            name=name,
+            fps=self.fps,
+            length=length,
+            subject=take.subject_name(),
+            take=take,
+            dataset=self,
+        )
+
+    def sensor(self) -> Sensor:
+        """The camera with its noise.
+
+        Raises:
+            DataError: If the camera's file is missing or wrong.
+        """
+        given = camera_of(self.camera)
+        return Sensor(given.camera(), self._noise(), given.depth_scale)
+
+    def _noise(self) -> DepthNoise:
+        if self.noise is not None:
+            return noise_of(self.noise)
+        return NOISES[self.camera if isinstance(self.camera, str) else "none"]
+
+
+@dataclass(frozen=True)
+class SyntheticSequence(Sequence):
+    """One take.
+
+    Attributes:
+        take: Who moves how.
+        dataset: What looks at it.
+    """
+
+    take: Take
+    dataset: Synthetic
+
+    def prepare(self) -> None:
+        """Render the images, unless they are in the cache."""
+        self._folder()
+
+    def frames(self) -> Iterator[Frame]:
+        """The images of the cache, which are rendered if they are not there."""
+        (recorded,) = DepthFolders(root=self._folder()).found()
+        yield from recorded.frames()
+
+    def truth(self) -> Truth:
+        """Where joints and markers are, without any rounding."""
+        scene = self._scene()
+        return Truth(scene.joints, scene.truth())
+
+    def _folder(self) -> Path:
+        scene, seed = self._scene(), self.dataset.seed
+        try:
+            return SequenceCache.of_user().entry(digest(scene, seed), lambda: _seen(scene, seed))
+        except RegkitError as error:
+            raise self._located(error) from None
+
+    def _scene(self) -> Scene:
+        try:
+            return self.take.scene(self.name, self.dataset.sensor(), self.fps, self.length)
+        except RegkitError as error:
+            raise self._located(error) from None
+
+    def _located(self, error: RegkitError) -> RegkitError:
+        return type(error)(
+            f"this take cannot be rendered: {error}", place=f"dataset.takes.{self.name}"
+        )
+
+
+_SOURCES = frozenset({"name", "path", "frames"})
+"""Fields that say which body or motion is meant, each alone."""
+
+
+def _over(defaults: Mapping[str, Any], take: Mapping[str, Any]) -> dict[str, Any]:
+    """A take as it was written, with what it leaves to the defaults."""
+    common, own = dict(defaults), dict(take)
+    for field, kind in (("body", "shipped"), ("motion", "clip")):
+        if isinstance(common.get(field), dict) and field in own:
+            if isinstance(own[field], str):
+                own[field] = {"kind": kind, "name": own[field]}
+            if isinstance(own[field], dict) and not _SOURCES.isdisjoint(own[field]):
+                # Only one of them can say where it comes from.
+                common[field] = {k: v for k, v in common[field].items() if k not in _SOURCES}
+    return changed(common, own)
+
+
+def _seen(scene: Scene, seed: int) -> DepthSequence:
+    """The rendered scene.
+
+    Raises:
+        DataError: If a frame shows nothing.
+    """
+    sequence = scene.rendered(_random(scene.name, seed))
+    empty = np.flatnonzero(~sequence.depth.any(axis=(1, 2)))
+    if len(empty):
+        raise DataError(
+            f"nothing of the body is in the image of frame {empty[0]}; give another view.distance, "
+            "or none"
+        )
+    return sequence
+
+
+def _random(name: str, seed: int) -> Callable[[int], np.random.Generator]:
+    """Where the noise of a frame comes from: of each frame of each sequence, from elsewhere."""
+    return lambda frame: np.random.default_rng([seed, frame, *name.encode()])

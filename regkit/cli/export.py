@@ -1,0 +1,65 @@
+"""``regkit export``."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from regkit.cli.console import PluginFiles, output, run_plugin_files
+from regkit.errors import ConfigError
+
+
+class Unit(StrEnum):
+    """What a length of one means in a BVH file."""
+
+    M = "m"
+    CM = "cm"
+
+
+def export(
+    results: Annotated[
+        Path,
+        typer.Argument(
+            metavar="RESULTS/METHOD/SEQUENCE",
+            help="The folder of a finished sequence.",
+            show_default=False,
+        ),
+    ],
+    to: Annotated[
+        Path,
+        typer.Option(
+            metavar="FILE",
+            help="What to write: a .bvh, .csv or .glb file, or one to replace.",
+            show_default=False,
+        ),
+    ],
+    unit: Annotated[Unit, typer.Option(help="Unit of length of a .bvh file.")] = Unit.M,
+    fps: Annotated[
+        float | None,
+        typer.Option(help="Frames per second, if not those of the sequence.", show_default=False),
+    ] = None,
+    plugin: PluginFiles = None,
+) -> None:
+    """Write a tracked motion for other programs: BVH, CSV or glTF."""
+    from regkit.experiment.tracked_motion import read_tracked_motion
+    from regkit.interchange.motions import FORMATS, write_motion
+
+    run_plugin_files(plugin)
+    if to.suffix.lower() not in FORMATS:
+        raise ConfigError(
+            f"'{to.suffix}' is no format that is exported ({', '.join(FORMATS)})", place="--to"
+        )
+    if fps is not None and not 0.0 < fps < float("inf"):
+        raise ConfigError(f"{fps:g} is no number of frames per second", place="--fps")
+    motion = read_tracked_motion(results, fps)
+    write_motion(motion, to, scale=0.01 if unit is Unit.CM else 1.0)
+    output.print(
+        f"written: {to} (frames: {len(motion.transforms)}, {motion.fps:g} a second; "
+        f"segments: {len(motion.body.skeleton.names)})",
+        highlight=False,
+        markup=False,
+        soft_wrap=True,
+    )

@@ -1,0 +1,56 @@
+"""``regkit report``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from regkit.cli.console import output
+
+
+def report(
+    folder: Annotated[Path, typer.Argument(help="Results folder of a run.", show_default=False)],
+    compare: Annotated[
+        list[str] | None,
+        typer.Option(metavar="A,B", help="Also test these two methods against each other."),
+    ] = None,
+) -> None:
+    """Write the report of a results folder anew, also of a run that was interrupted."""
+    from regkit.experiment import found
+    from regkit.experiment import report as write_report
+
+    measures, failures = found(folder)
+    pairs = [_pair(text, list(measures)) for text in compare or ()]
+    page = write_report(folder, measures, failures, pairs)
+    output.print(f"report: {page}", highlight=False, soft_wrap=True)
+
+
+def _pair(text: str, methods: list[str]) -> tuple[str, str]:
+    """The two methods of ``--compare``.
+
+    Raises:
+        ConfigError: If they are not two that there are.
+    """
+    from regkit.errors import ConfigError
+    from regkit.model import did_you_mean
+
+    place = f"--compare {text}"
+    parts = text.split(",")
+    # The name of a sweep's variant has commas itself.
+    splits = [(",".join(parts[:k]), ",".join(parts[k:])) for k in range(1, len(parts))]
+    if not splits:
+        raise ConfigError("name two methods, as in A,B", place=place)
+    one, other = next((pair for pair in splits if {*pair} <= {*methods}), splits[0])
+    for name in (one, other):
+        if name not in methods:
+            known = ", ".join(methods)
+            raise ConfigError(
+                f"no method '{name}' in the results (there are: {known})"
+                + did_you_mean(name, methods),
+                place=place,
+            )
+    if one == other:
+        raise ConfigError("name two different methods, as in A,B", place=place)
+    return one, other

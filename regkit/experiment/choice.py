@@ -1,0 +1,38 @@
+"""Who does the work, as the command line names it."""
+
+from __future__ import annotations
+
+from regkit.errors import ConfigError
+from regkit.experiment.workers import ThisProcess, Workers
+
+
+def chosen_workers(jobs: int, cluster: str | None) -> Workers:
+    """This process, so many others, or those of a cluster.
+
+    Args:
+        jobs: How many processes of this machine.
+        cluster: ``SCHEME:ADDRESS`` of a cluster, or None.
+
+    Raises:
+        ConfigError: If both are asked for, or there is no such scheme.
+    """
+    # Workers are imported where they are wanted: most runs need none.
+    if cluster is None:
+        if jobs == 1:
+            return ThisProcess()
+        from regkit.experiment.processes import Processes
+
+        return Processes(jobs)
+    place = f"--cluster {cluster}"
+    if jobs != 1:
+        raise ConfigError("a cluster has its own workers; leave --jobs out", place=place)
+    scheme, _, address = cluster.partition(":")
+    if scheme != "dask" or not address:
+        raise ConfigError(
+            "a cluster is named by a scheme and an address, and the only scheme is dask; such as "
+            "dask:tcp://10.0.0.1:8786",
+            place=place,
+        )
+    from regkit.experiment.cluster import DaskCluster
+
+    return DaskCluster(address)

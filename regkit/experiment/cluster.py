@@ -1,0 +1,178 @@
+"""Workers of a Dask cluster, on this machine or on others that share its files."""
+
+from __future__ import annotations
+
+import logging
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from queue import Empty, SimpleQueue
+from typing import Any
+
+from regkit import __version__
+from regkit.errors import ConfigError, DataError, RegkitError
+from regkit.experiment.hold import Hold
+from regkit.experiment.packed import Packed, check_worker, performed
+from regkit.experiment.processes import PATIENCE
+from regkit.experiment.progress import Progress
+from regkit.experiment.task import Result, Task
+from regkit.experiment.workers import TRIES, Team, Workers
+from regkit.optional import library
+
+INSTALL = 'pip install "regkit[cluster]"'
+
+REACHED_WITHIN = 10.0
+"""So long [s] a scheduler and its first worker may take to answer."""
+
+ALONE_FOR = 120.0
+"""So long [s] a run waits when all workers are lost: they may be about to be replaced."""
+
+
+@dataclass(frozen=True)
+class DaskCluster(Workers):
+    """The workers of a Dask scheduler.
+
+    Attributes:
+        address: Of the scheduler, such as ``tcp://10.0.0.1:8786``.
+    """
+
+    address: str
+
+    @property
+    def described(self) -> str:
+        """Where the scheduler is."""
+        return f"the Dask cluster at {self.address}"
+
+    @property
+    def remote(self) -> bool:
+        """In other processes."""
+        return True
+
+    @property
+    def place(self) -> str:
+        """The command-line option."""
+        return f"--cluster dask:{self.address}"
+
+    @contextmanager
+    def team(self) -> Iterator[Team]:
+        """The workers there are, and those that come later.
+
+        Raises:
+            DependencyError: If Dask is not installed.
+            ConfigError: If there is no scheduler, or it has no workers.
+        """
+        distributed = library("distributed", install=INSTALL)
+        with _quiet():
+            try:
+                # A client that is given a wrong address prints a traceback when it is collected.
+                distributed.comm.resolve_address(self.address)
+                client = distributed.Client(
+                    self.address, timeout=REACHED_WITHIN, set_as_default=False
+                )
+            except (OSError, ValueError) as error:
+                reason = str(error).splitlines()[0]
+                raise ConfigError(
+                    f"there is no Dask scheduler: {reason}", place=self.place
+                ) from None
+            try:
+                self._wait(client, distributed.TimeoutError)
+                yield _DaskTeam(client, self.place)
+            finally:
+                client.close(timeout=REACHED_WITHIN)
+
+    def _wait(self, client: Any, too_late: type[Exception]) -> None:
+        try:
+            client.wait_for_workers(1, timeout=REACHED_WITHIN)
+        except too_late:
+            raise ConfigError(
+                f"the scheduler has no workers; start some: dask worker {self.address}",
+                place=self.place,
+            ) from None
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """What Dask's parts tell each other of lost connections, the run tells in its own words."""
+    loggers = [
+        logging.getLogger(name)
+        for name in list(logging.Logger.manager.loggerDict)
+        if name.partition(".")[0] == "distributed"
+    ]
+    levels = [logger.level for logger in loggers]
+    try:
+        for logger in loggers:
+            logger.setLevel(logging.CRITICAL)
+        yield
+    finally:
+        for logger, level in zip(loggers, levels, strict=True):
+            logger.setLevel(level)
+
+
+def _answer(hold: Hold, version: str) -> str | None:
+    """In a worker: why it cannot serve, or None."""
+    try:
+        check_worker(hold, version)
+    except RegkitError as error:
+        return str(error)
+    return None
+
+
+class _DaskTeam(Team):
+    """No more tasks are sent than there are workers; one that loses its worker Dask sends again."""
+
+    def __init__(self, client: Any, place: str) -> None:
+        self._client, self._place = client, place
+        self._hold: Hold | None = None
+        self._ended: SimpleQueue[tuple[Task, Any]] = SimpleQueue()
+
+    def serve(self, hold: Hold) -> None:
+        """See whether every worker can, before hours are spent."""
+        self._hold = hold
+        answers = self._client.run(_answer, hold, __version__, on_error="return")
+        for worker, answer in answers.items():
+            if answer is not None:
+                raise ConfigError(f"the worker {worker} cannot serve: {answer}", place=self._place)
+
+    def count(self) -> int:
+        """The workers there are now, whatever number of threads each has."""
+        return self._workers()
+
+    def begin(self, task: Task) -> None:
+        """Send it to the scheduler."""
+        assert self._hold is not None
+        future = self._client.submit(performed, Packed.of(task, self._hold), pure=False)
+        future.add_done_callback(lambda done: self._ended.put((task, done)))
+
+    def ended(self, progress: Progress) -> tuple[Task, Result]:
+        """The next task to end."""
+        alone_since: float | None = None
+        while True:
+            try:
+                task, future = self._ended.get(timeout=PATIENCE)
+            except Empty:
+                progress.wait()
+                alone = not self._workers()
+                alone_since = (alone_since or time.monotonic()) if alone else None
+                if alone_since is not None and time.monotonic() - alone_since > ALONE_FOR:
+                    raise DataError("all workers are lost", place=self._place) from None
+                continue
+            return task, self._result(future)
+
+    def _result(self, future: Any) -> Result:
+        if future.status == "finished":
+            result: Result = future.result()
+            return result
+        if future.status != "error":
+            raise DataError("the scheduler is lost", place=self._place)
+        error = future.exception()
+        killed = library("distributed", install=INSTALL).KilledWorker
+        if isinstance(error, killed):
+            return RegkitError(f"its worker died {TRIES} times, as if killed; it may lack memory")
+        return RegkitError(f"a worker failed: {type(error).__name__}: {error}")
+
+    def _workers(self) -> int:
+        try:
+            return len(self._client.nthreads())
+        except (OSError, RuntimeError, ValueError):
+            raise DataError("the scheduler is lost", place=self._place) from None

@@ -1,0 +1,40 @@
+"""In what two configurations differ."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+TOLD = 3
+"""So many differences are told."""
+
+
+def differences(there: Any, here: Any) -> str:
+    """The first few fields in which two configurations differ, as a person would say it."""
+    found = [f"{field} is {old} there and {new} here" for field, old, new in _all("", there, here)]
+    more = len(found) - TOLD
+    return ", ".join(found[:TOLD]) + (f", and {more} more" if more > 0 else "")
+
+
+def _all(field: str, there: Any, here: Any) -> Iterator[tuple[str, str, str]]:
+    if isinstance(there, list) and isinstance(here, list):
+        there, here = dict(enumerate(there)), dict(enumerate(here))
+    if isinstance(there, dict) and isinstance(here, dict):
+        for key in there | here:
+            inner = f"{field}.{key}" if field else str(key)
+            yield from _all(inner, there.get(key, _NOTHING), here.get(key, _NOTHING))
+    elif there != here:
+        yield field, _told(there), _told(here)
+
+
+def _told(value: Any) -> str:
+    if value is _NOTHING:
+        return "not given"
+    if value is None:
+        return "null"
+    if isinstance(value, dict):
+        return str(value.get("kind", "a mapping"))
+    return str(value)
+
+
+_NOTHING = object()

@@ -1,0 +1,117 @@
+"""Whose a results folder is while a run writes to it."""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from pathlib import Path
+from uuid import uuid4
+
+from regkit.errors import ConfigError, DataError
+
+MARK = ".running"
+"""The file that is locked; it is gone when the run has ended, and stale if it was killed."""
+
+
+@dataclass(frozen=True)
+class Hold:
+    """A run's claim on its results folder.
+
+    The operating system ends it with the process, so that a killed run never stands in the way.
+    Workers, which may be elsewhere, read the claim: they write for nobody else.
+
+    Attributes:
+        folder: The results folder.
+        run: A name that no other run has.
+    """
+
+    folder: Path
+    run: str
+
+    def stands(self) -> bool:
+        """Whether the folder, as seen from here, is still the run's."""
+        try:
+            text = (self.folder / MARK).read_text(encoding="utf-8")
+            return bool(json.loads(text)["run"] == self.run)
+        except (OSError, ValueError, KeyError):
+            return False
+
+
+@contextmanager
+def held(folder: Path) -> Iterator[Hold]:
+    """A results folder as this run's alone.
+
+    It is made if it is not there, and then is gone again if nothing was written to it.
+
+    Raises:
+        ConfigError: If another run is writing there.
+        DataError: If it cannot be written to.
+    """
+    hold, new = Hold(folder.absolute(), uuid4().hex), not folder.exists()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        descriptor = _locked(folder)
+    except OSError as error:
+        raise DataError(
+            f"cannot be written: {error.strerror or error}", place=str(folder)
+        ) from None
+    try:
+        claim = {"run": hold.run, "process": os.getpid(), "machine": platform.node()}
+        os.truncate(descriptor, 0)
+        os.write(descriptor, json.dumps(claim).encode())
+        yield hold
+    finally:
+        with suppress(OSError):
+            (folder / MARK).unlink()
+        os.close(descriptor)
+        if new:
+            with suppress(OSError):
+                folder.rmdir()
+
+
+def _locked(folder: Path) -> int:
+    """An open descriptor of the mark, which nobody else has locked."""
+    while True:
+        descriptor = os.open(folder / MARK, os.O_RDWR | os.O_CREAT, 0o644)
+        try:
+            _lock(descriptor)
+        except OSError:
+            os.close(descriptor)
+            raise _occupied(folder) from None
+        # Its last holder may have removed the file between our opening and locking it.
+        with suppress(OSError):
+            if os.path.samestat(os.fstat(descriptor), (folder / MARK).stat()):
+                return descriptor
+        os.close(descriptor)
+
+
+def _occupied(folder: Path) -> ConfigError:
+    who = "another run"
+    with suppress(OSError, ValueError, KeyError):
+        claim = json.loads((folder / MARK).read_text(encoding="utf-8"))
+        who += f" (process {claim['process']} on {claim['machine']})"
+    return ConfigError(
+        f"{who} is writing there; wait for its end, or choose another folder",
+        place=f"--out {folder}",
+    )
+
+
+if sys.platform == "win32":
+    import msvcrt
+
+    def _lock(descriptor: int) -> None:
+        # Windows locks ranges, and none may read a locked one: this byte is far behind the claim.
+        os.lseek(descriptor, 1 << 20, os.SEEK_SET)
+        msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)
+        os.lseek(descriptor, 0, os.SEEK_SET)
+
+else:
+    import fcntl
+
+    def _lock(descriptor: int) -> None:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)

@@ -1,0 +1,169 @@
+"""A task as it is sent to a worker: by what its YAML says, so that no object has to travel."""
+
+from __future__ import annotations
+
+import hashlib
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from threading import Lock
+from typing import Any
+
+from pydantic import BaseModel
+
+from regkit import __version__
+from regkit.document import Document
+from regkit.errors import ConfigError, DataError, DependencyError, RegkitError
+from regkit.experiment.experiment import Experiment
+from regkit.experiment.hold import Hold
+from regkit.experiment.task import Result, Task
+from regkit.plugin import Plugin, from_file, plugin_files, run_plugin_file
+
+CHECKED_EVERY = 1.0
+"""So often [s] a worker looks whether the run still wants its work."""
+
+_ALONE = Lock()
+"""A worker of several threads does one thing at a time: the number of threads of the matrix
+products, which the last bits of results depend on, is one for the whole process."""
+
+
+@dataclass(frozen=True)
+class Packed:
+    """What a worker is told.
+
+    Attributes:
+        config: The experiment, as JSON has it.
+        plugins: Files with plug-ins, to be run first.
+        hold: The run that wants the work.
+        version: Of the regkit that asks.
+        folder, sequence, method, setting: As in the task.
+    """
+
+    config: dict[str, Any]
+    plugins: tuple[Path, ...]
+    hold: Hold
+    version: str
+    folder: Path
+    sequence: str
+    method: str | None
+    setting: str
+
+    @classmethod
+    def of(cls, task: Task, hold: Hold) -> Packed:
+        """A task of the run that holds the results folder."""
+        return cls(
+            task.experiment.model_dump(mode="json"),
+            plugin_files(),
+            hold,
+            __version__,
+            task.folder.absolute(),
+            task.sequence,
+            task.method,
+            task.setting,
+        )
+
+    def task(self) -> Task:
+        """The task again.
+
+        Raises:
+            RegkitError: If this worker cannot do it.
+        """
+        check_worker(self.hold, self.version)
+        for path in self.plugins:
+            if not path.is_file():
+                raise DataError("the worker does not see this file", place=str(path))
+        _run_files(tuple((path, _digest(path)) for path in self.plugins))
+        experiment = Document(self.config, {(): "on a worker"}).validated(Experiment)
+        return Task(experiment, self.folder, self.sequence, self.method, self.setting)
+
+
+def performed(packed: Packed) -> Result:
+    """What a worker does; all that goes wrong is its result."""
+    with _ALONE:
+        try:
+            task = packed.task()
+        except RegkitError as error:
+            return error
+        try:
+            return task.result(_Wanted(packed.hold).check)
+        except _NotWanted:
+            return DataError("the run that wanted this is over")
+
+
+def check_worker(hold: Hold, version: str) -> None:
+    """See whether this worker can serve a run.
+
+    Raises:
+        DependencyError: If it has another version of regkit.
+        DataError: If it does not see the results folder.
+    """
+    if version != __version__:
+        raise DependencyError(f"the worker has regkit {__version__}, and the run has {version}")
+    if not hold.stands():
+        raise DataError(
+            "the worker does not see the results folder; it must be on a file system that all "
+            "machines share, under the same path",
+            place=str(hold.folder),
+        )
+
+
+def check_shared(experiment: Experiment) -> None:
+    """See whether workers can find all plug-ins of an experiment.
+
+    Raises:
+        ConfigError: If one is known in this process only.
+    """
+    for plugin in _plugins_in(experiment):
+        origin = type(plugin).available().get(plugin.kind)
+        installed = origin is not None and not isinstance(origin, type)
+        if not installed and not from_file(type(plugin)):
+            raise ConfigError(
+                f"the plug-in '{plugin.kind}' was registered in this process, and workers do not "
+                "know it; put it into a file that is run by run_plugin_file() or --plugin, or into "
+                "an installed package, or use no workers"
+            )
+
+
+def _plugins_in(value: Any) -> Iterator[Plugin]:
+    if isinstance(value, Plugin):
+        yield value
+    if isinstance(value, BaseModel):
+        value = [getattr(value, name) for name in type(value).model_fields]
+    if isinstance(value, dict):
+        value = list(value.values())
+    if isinstance(value, list | tuple):
+        for item in value:
+            yield from _plugins_in(item)
+
+
+def _digest(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+@lru_cache(maxsize=1)
+def _run_files(files: tuple[tuple[Path, str], ...]) -> None:
+    """Run plug-in files, unless the very same were the last to be run in this worker."""
+    for path, _ in files:
+        run_plugin_file(path)
+
+
+class _NotWanted(BaseException):
+    """The run is over; no handler of errors may take this for one."""
+
+
+class _Wanted:
+    """Looks now and then whether the run that wanted the work still holds its folder."""
+
+    def __init__(self, hold: Hold) -> None:
+        self._hold = hold
+        self._next = time.monotonic() + CHECKED_EVERY
+
+    def check(self) -> None:
+        """Stop the work if nobody wants it any more: its run was killed, or interrupted."""
+        if time.monotonic() < self._next:
+            return
+        self._next = time.monotonic() + CHECKED_EVERY
+        if not self._hold.stands():
+            raise _NotWanted

@@ -1,0 +1,156 @@
+"""Workers that are processes of this machine, by joblib's loky."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import threading
+import time
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from queue import Empty, SimpleQueue
+from typing import Any
+
+from regkit.errors import RegkitError
+from regkit.experiment.hold import Hold
+from regkit.experiment.packed import Packed, performed
+from regkit.experiment.progress import Progress
+from regkit.experiment.task import Result, Task
+from regkit.experiment.workers import TRIES, Team, Workers
+from regkit.optional import library
+
+PATIENCE = 0.2
+"""So long [s] is waited for a task to end before who watches is asked."""
+
+ONE_THREAD = {
+    f"{name}_NUM_THREADS": "1" for name in ("OMP", "OPENBLAS", "MKL", "NUMBA", "VECLIB_MAXIMUM")
+}
+
+
+@dataclass(frozen=True)
+class Processes(Workers):
+    """So many processes.
+
+    Attributes:
+        jobs: How many.
+    """
+
+    jobs: int
+
+    @property
+    def described(self) -> str:
+        """How many processes."""
+        return f"{self.jobs} processes"
+
+    @property
+    def remote(self) -> bool:
+        """In other processes."""
+        return True
+
+    @contextmanager
+    def team(self) -> Iterator[Team]:
+        """The processes, which are killed in the end, busy or not: what counts is on the disk."""
+        team = _ProcessTeam(self.jobs)
+        try:
+            yield team
+        finally:
+            team.leave()
+
+
+class _ProcessTeam(Team):
+    """Each worker is a pool of one process, so that it is known whose task killed it."""
+
+    def __init__(self, jobs: int) -> None:
+        self._hold: Hold | None = None
+        self._idle = [_pool() for _ in range(jobs)]
+        self._busy: dict[Task, Any] = {}
+        self._deaths: Counter[Task] = Counter()
+        self._ended: SimpleQueue[tuple[Task, Any]] = SimpleQueue()
+        self._jobs = jobs
+
+    def serve(self, hold: Hold) -> None:
+        """They see what this process sees."""
+        self._hold = hold
+
+    def count(self) -> int:
+        """As many as there are processes."""
+        return self._jobs
+
+    def begin(self, task: Task) -> None:
+        """Send it to an idle process, which starts when it is first needed."""
+        assert self._hold is not None
+        pool = self._busy[task] = self._idle.pop()
+        with _deaf_children():
+            future = pool.submit(performed, Packed.of(task, self._hold))
+        future.add_done_callback(lambda done: self._ended.put((task, done)))
+
+    def ended(self, progress: Progress) -> tuple[Task, Result]:
+        """The next task to end; one whose process died is given to a new one, a few times."""
+        while True:
+            try:
+                task, future = self._ended.get(timeout=PATIENCE)
+            except Empty:
+                progress.wait()
+                continue
+            pool, error = self._busy.pop(task), future.exception()
+            if error is None:
+                self._idle.append(pool)
+                return task, future.result()
+            pool.shutdown(wait=False, kill_workers=True)
+            self._idle.append(_pool())
+            if not isinstance(error, _loky().BrokenProcessPool):
+                return task, RegkitError(f"its result could not be had: {error}")
+            self._deaths[task] += 1
+            if self._deaths[task] == TRIES:
+                return task, RegkitError(
+                    f"its process died {TRIES} times, as if killed; if it lacked memory, take "
+                    "fewer --jobs"
+                )
+            self.begin(task)
+
+    def leave(self) -> None:
+        """Kill all processes."""
+        for pool in [*self._idle, *self._busy.values()]:
+            pool.shutdown(wait=True, kill_workers=True)
+
+
+def _loky() -> Any:
+    return library("joblib.externals.loky", install="pip install joblib")
+
+
+def _pool() -> Any:
+    return _loky().ProcessPoolExecutor(
+        max_workers=1, env=ONE_THREAD, initializer=_follow_parent, initargs=(os.getpid(),)
+    )
+
+
+def _follow_parent(parent: int) -> None:
+    """In a worker: end with the parent, however that ends, and leave Ctrl-C to it."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+    def follow() -> None:
+        # Windows tells the same number for ever; there a worker ends with its task.
+        while os.getppid() == parent:
+            time.sleep(1.0)
+        os._exit(1)
+
+    threading.Thread(target=follow, daemon=True).start()
+
+
+@contextmanager
+def _deaf_children() -> Iterator[None]:
+    """Let processes that are started here not hear Ctrl-C, not even while they import.
+
+    What is blocked here is blocked there; here it is only put off.
+    """
+    if sys.platform == "win32":
+        yield
+        return
+    former = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, former)

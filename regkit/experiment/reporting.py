@@ -1,0 +1,119 @@
+"""The report of a results folder, from its files alone: no data and no plug-ins are needed."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from regkit.document import Document
+from regkit.errors import DataError
+from regkit.experiment.results import Results
+from regkit.metrics import Measure
+from regkit.report import Run, write_report, write_summary
+
+Measures = Mapping[str, Mapping[str, Measure]]
+"""Figures by method and sequence; a method of a sweep is called ``SETTING/METHOD``."""
+
+Failures = Mapping[str, Mapping[str, str]]
+"""Why sequences failed, by method and sequence."""
+
+
+def summarise(folder: Path, measures: Measures, failures: Failures) -> None:
+    """Write ``metrics.json`` and ``report.md`` as far as a run is, without figures."""
+    write_summary(_run(folder, measures, failures), folder)
+
+
+def report(
+    folder: Path, measures: Measures, failures: Failures, pairs: Iterable[tuple[str, str]] = ()
+) -> Path:
+    """Write the report with its figures and tables, and ``metrics.json``.
+
+    Args:
+        folder: The results.
+        measures: Figures by method and sequence.
+        failures: Why sequences failed, by method and sequence.
+        pairs: Methods to be compared beside the best one with the others.
+
+    Returns:
+        The page.
+
+    Raises:
+        DataError: If a file is damaged or cannot be written.
+    """
+    results = Results(folder)
+    records = {
+        method: {
+            sequence: record
+            for sequence in by_sequence
+            if (record := results.record(method, sequence)) is not None
+        }
+        for method, by_sequence in measures.items()
+    }
+    run = replace(_run(folder, measures, failures), records=records, chosen=tuple(pairs))
+    write_report(run, folder)
+    return folder / "report.html"
+
+
+def found(folder: Path) -> tuple[dict[str, dict[str, Measure]], dict[str, dict[str, str]]]:
+    """The figures of all finished sequences, and why others failed, as a folder tells.
+
+    Methods and sequences are in the order of the configuration and of ``metrics.json``; those
+    that neither names come last.
+
+    Raises:
+        DataError: If it is no results folder, or a file is damaged.
+    """
+    if not (folder / "config.yaml").is_file() or not (folder / "environment.json").is_file():
+        raise DataError(
+            "this is not a results folder of `regkit run`: it has no config.yaml and "
+            "environment.json",
+            place=str(folder),
+        )
+    results, metrics = Results(folder), folder / "metrics.json"
+    told = _json(metrics).get("methods", {}) if metrics.exists() else {}
+    config = Document.read(folder / "config.yaml").data
+    named = [] if "sweep" in config else config.get("methods", {})
+    written = [path.parent.relative_to(folder) for path in sorted(folder.rglob("measure.json"))]
+    measures: dict[str, dict[str, Measure]] = {}
+    failures: dict[str, dict[str, str]] = {}
+    for method in dict.fromkeys([*named, *told, *(one.parent.as_posix() for one in written)]):
+        sequences = told.get(method, {}).get("sequences", {})
+        own = [one.name for one in written if one.parent.as_posix() == method]
+        measures[method], failures[method] = {}, {}
+        for sequence in dict.fromkeys([*sequences, *own]):
+            measure = results.finished(method, sequence)
+            if measure is not None:
+                measures[method][sequence] = measure
+            elif "error" in sequences.get(sequence, {}):
+                failures[method][sequence] = sequences[sequence]["error"]
+    return measures, failures
+
+
+def _run(folder: Path, measures: Measures, failures: Failures) -> Run:
+    config = folder / "config.yaml"
+    return Run(
+        config=Document.read(config).data,
+        text=config.read_text(encoding="utf-8"),
+        environment=_json(folder / "environment.json"),
+        measures=measures,
+        failures=failures,
+        records={},
+    )
+
+
+def _json(file: Path) -> dict[str, Any]:
+    """A JSON object that was written before.
+
+    Raises:
+        DataError: If it is missing or damaged.
+    """
+    try:
+        data = json.loads(file.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise DataError(f"missing or damaged ({error})", place=str(file)) from None
+    if not isinstance(data, dict):
+        raise DataError("damaged: it is no JSON object", place=str(file))
+    return data

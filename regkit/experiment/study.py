@@ -1,0 +1,93 @@
+"""An experiment's YAML with its sweep: one experiment, or many."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from regkit.document import Document
+from regkit.errors import ConfigError
+from regkit.experiment.experiment import Experiment
+from regkit.experiment.sweep import combinations
+
+TOLD = 5
+"""So many mistakes are told of a sweep, in which one mistake can have many copies."""
+
+
+@dataclass(frozen=True)
+class Study:
+    """The experiments that a YAML file makes, by names that are fit for folders.
+
+    Attributes:
+        experiments: In the order of the sweep's lists. One experiment alone has no name; its
+            methods may be variants.
+        lists: What the fields are in which the experiments differ, in their order.
+    """
+
+    experiments: dict[str, Experiment]
+    lists: dict[str, list[Any]]
+
+    @property
+    def name(self) -> str:
+        """What the results folder is called."""
+        return self._first.name
+
+    @property
+    def methods(self) -> list[str]:
+        """The names of the methods, which are the same in all experiments."""
+        return list(self._first.methods)
+
+    @property
+    def _first(self) -> Experiment:
+        return next(iter(self.experiments.values()))
+
+    @classmethod
+    def of_one(cls, experiment: Experiment) -> Study:
+        """A study that is one experiment."""
+        return cls({"": experiment}, {})
+
+    @classmethod
+    def read(cls, path: Path, settings: Iterable[str] = ()) -> Study:
+        """An experiment's YAML, after ``a.b.c=value`` settings.
+
+        Raises:
+            ConfigError: One line for each thing that is wrong, with its file, line and field.
+        """
+        return cls.of(Document.read(path).overridden(settings))
+
+    @classmethod
+    def of(cls, document: Document) -> Study:
+        """The experiments of a document, each of which is valid.
+
+        Raises:
+            ConfigError: One line for each thing that is wrong.
+        """
+        made = combinations(document)
+        experiments = {}
+        for one in made:
+            try:
+                experiments[one.name] = one.document.validated(Experiment)
+            except ConfigError as error:
+                lines = str(error).splitlines()
+                more = len(lines) - TOLD
+                told = [*lines[:TOLD], f"and {more} more"] if more > 0 else lines
+                raise ConfigError("\n".join(told)) from None
+        lists: dict[str, list[Any]] = {".".join(keys): [] for keys in made[0].fields}
+        for one in made:
+            for keys in one.fields:
+                value = _at(experiments[one.name].model_dump(mode="json"), keys)
+                if value not in lists[".".join(keys)]:
+                    lists[".".join(keys)].append(value)
+        return cls(experiments, lists)
+
+    def config(self) -> dict[str, Any]:
+        """What can be run again, as JSON: the first experiment, and the lists of all of them."""
+        return self._first.model_dump(mode="json") | ({"sweep": self.lists} if self.lists else {})
+
+
+def _at(value: Any, keys: tuple[str, ...]) -> Any:
+    for key in keys:
+        value = value[int(key)] if isinstance(value, list) else value[key]
+    return value

@@ -1,0 +1,153 @@
+"""The motion in a results folder, with the body that moved."""
+
+from __future__ import annotations
+
+import zipfile
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from regkit.arrays import Array
+from regkit.body import Body
+from regkit.document import Document
+from regkit.errors import ConfigError, DataError
+from regkit.interchange.motion import TrackedMotion
+from regkit.interfaces import Template
+from regkit.model import Model
+from regkit.rigid import rigid
+from regkit.skeleton import Pose
+from regkit.skinned_mesh import SkinnedMesh
+
+NEEDED = ("root", "balls", "hinges", "markers", "size")
+"""The arrays of ``poses.npz`` that make a motion."""
+
+SAME = 1e-6
+"""A marker that is placed again lies so near to where it was [m]."""
+
+
+class _Configuration(Model):
+    """The part of an experiment's configuration that makes the bodies."""
+
+    template: Template
+    subjects: dict[str, Template] = Field(default_factory=dict)
+
+
+def read_tracked_motion(folder: Path, fps: float | None = None) -> TrackedMotion:
+    """The motion in ``RESULTS/METHOD/SEQUENCE``, and the body made again from the configuration.
+
+    Args:
+        folder: The folder of a finished sequence.
+        fps: Frames per second, where they are not those that the sequence was recorded with.
+
+    Raises:
+        RegkitError: If there is no finished sequence, or the template is another one since.
+    """
+    arrays = _arrays(folder)
+    given = _fps(folder, arrays) if fps is None else fps
+    name = f"{folder.resolve().parent.name} {folder.resolve().name}"
+    for template in _templates(folder.resolve().parents[1] / "config.yaml"):
+        body = template.body(float(arrays["size"]))
+        transforms = _placed(body, arrays)
+        if transforms is not None:
+            return TrackedMotion(name, body, transforms, given, _skin(template, body))
+    raise DataError(
+        "the template is not the one that these poses were found with: it was changed since; run "
+        "the experiment again",
+        place=str(folder),
+    )
+
+
+def _placed(body: Body, arrays: Mapping[str, NDArray[Any]]) -> Array | None:
+    """The transforms (T, S, 4, 4) of a body's segments, if its markers come to lie as they were."""
+    skeleton = body.skeleton
+    shapes = {
+        "balls": (len(skeleton.ball_links), 4),
+        "hinges": (len(skeleton.hinge_links),),
+        "markers": (len(body.markers.names), 3),
+    }
+    if any(arrays[name].shape[1:] != shape for name, shape in shapes.items()):
+        return None
+    poses = zip(arrays["root"], arrays["balls"], arrays["hinges"], strict=True)
+    transforms = np.array([body.place(Pose(*pose)).transforms for pose in poses])
+    placed = np.array([body.markers.place(one) for one in transforms])
+    same = np.abs(placed - arrays["markers"]).max(initial=0.0) <= SAME
+    return transforms if same else None
+
+
+def _arrays(folder: Path) -> dict[str, NDArray[Any]]:
+    """The arrays of ``poses.npz``.
+
+    Raises:
+        ConfigError: If it is not there.
+        DataError: If it is damaged.
+    """
+    file = folder / "poses.npz"
+    if not file.is_file():
+        others = sorted(folder.glob("**/poses.npz"))
+        hint = f"; there are: {', '.join(str(other.parent) for other in others)}" if others else ""
+        raise ConfigError(
+            f"no poses.npz is here; name the folder of a finished sequence, "
+            f"RESULTS/METHOD/SEQUENCE{hint}",
+            place=str(folder),
+        )
+    arrays = _read(file)
+    missing = [name for name in NEEDED if name not in arrays]
+    if missing:
+        raise DataError(f"lacks the arrays {', '.join(missing)}", place=str(file))
+    return arrays
+
+
+def _fps(folder: Path, arrays: Mapping[str, NDArray[Any]]) -> float:
+    """Frames per second at which the sequence was recorded.
+
+    Raises:
+        ConfigError: If the results do not say it.
+    """
+    record = folder / "record.npz"
+    told = _read(record) if "fps" not in arrays and record.is_file() else arrays
+    if "fps" not in told:
+        raise ConfigError(
+            "the results do not say how many frames there were in a second; give --fps",
+            place=str(folder),
+        )
+    return float(told["fps"])
+
+
+def _read(file: Path) -> dict[str, NDArray[Any]]:
+    try:
+        with np.load(file) as content:
+            return {key: content[key] for key in content.files}
+    except (OSError, ValueError, EOFError, zipfile.BadZipFile) as error:
+        raise DataError(f"damaged ({error})", place=str(file)) from None
+
+
+def _templates(config: Path) -> tuple[Template, ...]:
+    """The templates of an experiment's configuration, which need not be valid otherwise.
+
+    Raises:
+        RegkitError: If there is none, or one is wrong.
+    """
+    document = Document.read(config)
+    if "template" not in document.data:
+        raise ConfigError("there is no template; this is no results folder", place=str(config))
+    fields = [field for field in _Configuration.model_fields if field in document.data]
+    places = {at: place for at, place in document.places.items() if not at or at[0] in fields}
+    own = Document({field: document.data[field] for field in fields}, places)
+    read = own.validated(_Configuration)
+    return (read.template, *read.subjects.values())
+
+
+def _skin(template: Template, body: Body) -> SkinnedMesh | None:
+    """The template's mesh at the body's size."""
+    description = template.description()
+    if description.mesh is None:
+        return None
+    mesh = SkinnedMesh.read(description.mesh)
+    scale = body.size / description.size.value
+    rest = rigid(mesh.rest[:, :3, :3], scale * mesh.rest[:, :3, 3])
+    return replace(mesh, vertices=scale * mesh.vertices, rest=rest)

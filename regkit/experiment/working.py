@@ -1,0 +1,48 @@
+"""The work of a run: tasks are given out, and what becomes of them is taken in."""
+
+from __future__ import annotations
+
+from regkit.errors import RegkitError
+from regkit.experiment.ledger import Ledger
+from regkit.experiment.progress import Progress
+from regkit.experiment.schedule import Schedule
+from regkit.experiment.task import Result, Task
+from regkit.experiment.workers import Team
+
+
+def work(ledgers: list[Ledger], team: Team, progress: Progress) -> None:
+    """Do all that is missing in some experiments' folders.
+
+    Raises:
+        RegkitError: If all workers are lost.
+    """
+    for ledger in ledgers:
+        for label, error in ledger.read():
+            progress.end(label, 0, error)
+    progress.planned(
+        sum(ledger.planned for ledger in ledgers), sum(ledger.finished for ledger in ledgers)
+    )
+    schedule = Schedule(pair for ledger in ledgers for pair in ledger.tracks())
+    owners = {ledger.setting: ledger for ledger in ledgers}
+    busy = 0
+    while busy or not schedule.over:
+        count = team.count()
+        while busy < count and (task := schedule.next(count)):
+            progress.begin(task.label, owners[task.setting].frames(task))
+            team.begin(task)
+            busy += 1
+        task, result = team.ended(progress)
+        busy -= 1
+        ended = _taken_in(task, result, owners[task.setting], schedule)
+        progress.end(task.label, ended, result if isinstance(result, RegkitError) else None)
+
+
+def _taken_in(task: Task, result: Result, ledger: Ledger, schedule: Schedule) -> int:
+    """How many tracks have ended with a task, after what became of it is noted."""
+    if result is None:
+        schedule.opened(task)
+        return 0
+    tracks = schedule.closed(task) if task.method is None else [task]
+    for track in tracks:
+        ledger.ended(track, result)
+    return len(tracks)

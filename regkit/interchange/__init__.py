@@ -1,0 +1,1 @@
+"""Skeletons, bodies and motion in the formats of other programs: a file for each format."""

@@ -1,0 +1,41 @@
+"""A tracked motion as a table."""
+
+from __future__ import annotations
+
+import csv
+from io import StringIO
+from pathlib import Path
+
+from regkit.files import write_text
+from regkit.interchange.motion import TrackedMotion
+from regkit.rotation import from_matrix
+
+COLUMNS = ("frame", "time", "kind", "name", "x", "y", "z", "qx", "qy", "qz", "qw")
+"""Times are in seconds, positions in metres in the camera's frame: x right, y down, z forward."""
+
+
+def write_csv(motion: TrackedMotion, path: Path) -> None:
+    """Write a row for each segment and each marker in each frame.
+
+    A segment's row has its origin and the unit quaternion of ``R_camera_segment``, whose scalar is
+    qw >= 0; a marker's has no quaternion.
+
+    Raises:
+        DataError: If the file cannot be written.
+    """
+    text = StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(COLUMNS)
+    names, markers = motion.body.skeleton.names, motion.body.markers
+    for frame, (time, transforms) in enumerate(zip(motion.times, motion.transforms, strict=True)):
+        when = (frame, f"{time:.6f}")
+        turns = from_matrix(transforms[:, :3, :3])
+        for name, place, turn in zip(names, transforms[:, :3, 3], turns, strict=True):
+            writer.writerow((*when, "segment", name, *_words([*place, *turn])))
+        for name, place in zip(markers.names, markers.place(transforms), strict=True):
+            writer.writerow((*when, "marker", name, *_words(list(place)), "", "", "", ""))
+    write_text(path, text.getvalue())
+
+
+def _words(numbers: list[float]) -> list[str]:
+    return [f"{number + 0.0:.8f}" for number in numbers]

@@ -1,0 +1,36 @@
+"""Skinned meshes in any format that regkit reads."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from pydantic import RootModel
+
+from regkit.document import Document
+from regkit.errors import ConfigError
+from regkit.interchange.gltf import RiggedBody
+from regkit.interchange.gltf_file import SUFFIXES
+from regkit.skinned_mesh import SkinnedMesh
+
+
+class BoneParents(RootModel[dict[str, str | None]]):
+    """The parent of each bone, null for the one that has none."""
+
+
+def read_mesh(path: Path, parents: Path | None = None) -> SkinnedMesh:
+    """The mesh in an ``.npz``, ``.glb`` or ``.gltf`` file.
+
+    Args:
+        path: The file.
+        parents: A YAML file that names the parent of each bone, for a glTF whose bones are no tree.
+
+    Raises:
+        RegkitError: If a file is missing or wrong.
+    """
+    gltf = path.suffix.lower() in SUFFIXES
+    if not gltf and parents is not None:
+        raise ConfigError(f"{path} names the bones' parents itself", place=f"--parents {parents}")
+    if not gltf:
+        return SkinnedMesh.read(path)
+    named = None if parents is None else Document.read(parents).validated(BoneParents).root
+    return RiggedBody.read(path, parents=named).mesh

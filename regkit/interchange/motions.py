@@ -1,0 +1,39 @@
+"""Tracked motion in any format that regkit writes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from regkit.errors import ConfigError
+from regkit.interchange.bvh_motion import bvh_of
+from regkit.interchange.csv_motion import write_csv
+from regkit.interchange.gltf_motion import write_gltf
+from regkit.interchange.motion import UPRIGHT_CAMERA, TrackedMotion
+from regkit.interchange.shown_mesh import shown_mesh
+
+FORMATS = (".bvh", ".csv", ".glb")
+"""How the names of the files end."""
+
+
+def write_motion(motion: TrackedMotion, path: Path, *, scale: float = 1.0) -> None:
+    """Write a motion in the format that the file's name ends with.
+
+    Args:
+        motion: The motion.
+        path: The file.
+        scale: Metres per unit of a BVH file, which has no unit of its own.
+
+    Raises:
+        ConfigError: If there is no such format.
+        DataError: If the file cannot be written.
+    """
+    match path.suffix.lower():
+        case ".bvh":
+            bvh_of(motion).write(path, scale=scale)
+        case ".csv":
+            write_csv(motion, path)
+        case ".glb":
+            mesh = shown_mesh(motion.body, motion.skin)
+            write_gltf(path, mesh, motion.transforms, motion.fps, motion.name, UPRIGHT_CAMERA)
+        case suffix:
+            raise ConfigError(f"'{suffix}' is none of {', '.join(FORMATS)}", place=str(path))

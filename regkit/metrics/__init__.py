@@ -1,0 +1,26 @@
+"""How well sequences were tracked, as the literature measures it, and how sure that is."""
+
+from regkit.metrics.joints import JointErrors, joint_errors, matched
+from regkit.metrics.losses import Losses
+from regkit.metrics.measure import NEAR, TEN_CM, Measure, mean_of, measured
+from regkit.metrics.pairs import Pair, compared
+from regkit.metrics.statistics import Summary, summary
+from regkit.metrics.thresholds import area_under, share_within
+
+__all__ = [
+    "NEAR",
+    "TEN_CM",
+    "JointErrors",
+    "Losses",
+    "Measure",
+    "Pair",
+    "Summary",
+    "area_under",
+    "compared",
+    "joint_errors",
+    "matched",
+    "mean_of",
+    "measured",
+    "share_within",
+    "summary",
+]

@@ -1,0 +1,35 @@
+"""The figures of a report, each in a file of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from regkit.report.figures.bars import sequence_bars, shape_bars
+from regkit.report.figures.density import densities
+from regkit.report.figures.joints import joint_dots
+from regkit.report.figures.methods import method_means
+from regkit.report.figures.thresholds import threshold_curves
+from regkit.report.figures.time import errors_over_time
+from regkit.report.figures.timing import timing_split
+from regkit.report.plot import Plot
+from regkit.report.run import Run
+
+
+def plots(run: Run) -> Iterator[Plot]:
+    """Every figure that the results allow."""
+    for make in (
+        method_means,
+        shape_bars,
+        sequence_bars,
+        threshold_curves,
+        joint_dots,
+        errors_over_time,
+        densities,
+        timing_split,
+    ):
+        plot = make(run)
+        if plot is not None:
+            yield plot
+
+
+__all__ = ["plots"]

@@ -1,0 +1,126 @@
+"""The error over time, and when bodies were lost."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from regkit.arrays import Array
+from regkit.report.plot import Ink, Plot, Value, canvas, legend_above, styled
+from regkit.report.record import Record
+from regkit.report.run import Run
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+MOST = 6
+"""So many sequences are drawn: those with the largest errors."""
+
+
+def errors_over_time(run: Run) -> Plot | None:
+    """Each frame's mean joint error, or distance to the surface, in the worst sequences."""
+    joints = run.figure == "joint_error_raw_cm"
+    curves: dict[str, dict[str, Array]] = {}
+    for method, by_sequence in run.records.items():
+        for sequence, record in by_sequence.items():
+            curve = _curve(record, joints)
+            if curve is not None and np.isfinite(curve).any():
+                curves.setdefault(sequence, {})[method] = curve
+    if not curves:
+        return None
+    worst = sorted(
+        curves, key=lambda name: -max(float(np.nanmean(c)) for c in curves[name].values())
+    )[:MOST]
+    shown = [name for name in run.sequences if name in worst]
+    what = "mean joint error" if joints else "median distance of the data to the surface"
+    chosen = f", in the {MOST} sequences with the largest" if len(curves) > MOST else ""
+    caption = f"The {what} of each frame{chosen}" + (
+        "; a bar below shows when a method had lost the body (less than half of the joints near)."
+        if joints
+        else "."
+    )
+    unit = "cm" if joints else "mm"
+
+    def draw(ink: Ink) -> Figure:
+        return _drawn(run, {name: curves[name] for name in shown}, f"error [{unit}]", ink)
+
+    rows: list[list[Value]] = []
+    for sequence, by_method in curves.items():
+        for method, curve in by_method.items():
+            losses = run.records[method][sequence].losses
+            fps = run.records[method][sequence].fps
+            rows += [
+                [sequence, method, frame, frame / fps, float(value),
+                 None if losses is None else int(losses.lost[frame])]
+                for frame, value in enumerate(curve)
+            ]  # fmt: skip
+    return Plot(
+        name="over_time",
+        title="Over time",
+        caption=caption,
+        alt=f"Curves over time, one panel for each sequence. {caption} The numbers of all "
+        "sequences are in over_time.csv.",
+        draw=draw,
+        columns=["sequence", "method", "frame", "time [s]", f"{what} [{unit}]", "lost"],
+        rows=rows,
+    )
+
+
+def _curve(record: Record, joints: bool) -> Array | None:
+    if not joints:
+        return 1000.0 * record.surface_distances
+    if record.errors is None:
+        return None
+    raw = record.errors.raw
+    known = np.isfinite(raw)
+    sums = np.where(known, raw, 0.0).sum(axis=1)
+    return np.asarray(
+        np.where(known.any(axis=1), 100.0 * sums / np.maximum(known.sum(axis=1), 1), np.nan)
+    )
+
+
+def _drawn(run: Run, curves: dict[str, dict[str, Array]], label: str, ink: Ink) -> Figure:
+    figure = canvas(ink, 0.7 + 1.45 * len(curves))
+    grid = figure.subplots(len(curves), 1, squeeze=False)[:, 0]
+    methods = [name for name in run.records if any(name in by for by in curves.values())]
+    for axes, (sequence, by_method) in zip(grid, curves.items(), strict=True):
+        styled(axes, ink, grid="y")
+        axes.set_title(sequence, loc="left", color=ink.text, fontsize=9)
+        for method, curve in by_method.items():
+            style = run.style(method)
+            seconds = np.arange(len(curve)) / run.records[method][sequence].fps
+            axes.plot(
+                seconds, curve, color=style.colour, linestyle=style.dash, linewidth=1.2,
+                marker=style.marker if len(curve) < 4 else None, markersize=4,
+            )  # fmt: skip
+        _shade(axes, run, sequence, list(by_method))
+        axes.set_ylabel(label)
+    grid[-1].set_xlabel("time [s]")
+    handles = [
+        grid[0].plot([], [], color=run.style(name).colour, linestyle=run.style(name).dash,
+                     label=name)[0]
+        for name in methods
+    ]  # fmt: skip
+    legend_above(figure, ink, handles)
+    return figure
+
+
+def _shade(axes: Axes, run: Run, sequence: str, methods: list[str]) -> None:
+    """A strip below zero for each method that was lost, in its colour."""
+    top = axes.get_ylim()[1]
+    lost = [
+        (method, losses.stretches())
+        for method in methods
+        if (losses := run.records[method][sequence].losses) is not None and losses.lost.any()
+    ]
+    strip = 0.07 * top
+    for row, (method, stretches) in enumerate(lost):
+        style, fps = run.style(method), run.records[method][sequence].fps
+        for first, end in stretches:
+            span = (first - 0.5) / fps, (end - first) / fps
+            axes.broken_barh([span], (-(row + 1.0) * strip, 0.8 * strip), color=style.colour,
+                             linewidth=0)  # fmt: skip
+            axes.axvspan(span[0], span[0] + span[1], color=style.colour, alpha=0.08, linewidth=0)
+    axes.set_ylim(-(len(lost) + 0.3) * strip if lost else 0.0, top)

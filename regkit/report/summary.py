@@ -1,0 +1,91 @@
+"""Everything that was measured, as JSON and as tables for other programs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import asdict, fields
+from pathlib import Path
+from typing import Any
+
+from regkit.metrics import Measure, mean_of, summary
+from regkit.metrics.statistics import Interval
+from regkit.report.figures.joints import errors_of, joint_means
+from regkit.report.plot import Value, write_csv
+from regkit.report.run import Run
+
+FIGURES = [field.name for field in fields(Measure)]
+
+
+def metrics(run: Run) -> dict[str, Any]:
+    """``metrics.json``: figures by method and sequence, and what they say together.
+
+    A failed sequence has all its figures None, and says why.
+    """
+    methods = {}
+    for method, by_sequence in run.measures.items():
+        sequences: dict[str, Any] = {name: one.to_dict() for name, one in by_sequence.items()}
+        for sequence, reason in run.failures.get(method, {}).items():
+            sequences[sequence] = mean_of([]).to_dict() | {"error": reason}
+        found = list(by_sequence.values())
+        over = {name: summary([getattr(one, name) for one in found]) for name in FIGURES}
+        methods[method] = {
+            "sequences": sequences,
+            "mean": mean_of(found).to_dict(),
+            "median": {name: one.median for name, one in over.items()},
+            "interval": {name: _listed(one.interval) for name, one in over.items()},
+            "joints": _joints(run, method),
+        }
+    pairs = [asdict(pair) | {"interval": _listed(pair.interval)} for pair in run.pairs()]
+    return {"methods": methods, "pairs": pairs}
+
+
+def write_tables(run: Run, folder: Path) -> None:
+    """Write the same as CSV."""
+    write_csv(folder / "sequences.csv", ["method", "sequence", *FIGURES, "error"], _each(run))
+    rows = []
+    for method, by_sequence in run.finished.items():
+        for name in FIGURES:
+            over = summary([getattr(one, name) for one in by_sequence.values()])
+            rows.append([method, name, over.n, over.mean, over.median, *_ends(over.interval)])
+    columns = ["method", "figure", "sequences", "mean", "median"]
+    write_csv(folder / "methods.csv", [*columns, "mean, 95 % from", "to"], rows)
+    joints = [
+        [method, joint, one["raw_cm"], one["adjusted_cm"]]
+        for method in run.finished
+        for joint, one in _joints(run, method).items()
+    ]
+    write_csv(folder / "joints.csv", ["method", "joint", "raw [cm]", "adjusted [cm]"], joints)
+    write_csv(
+        folder / "pairs.csv",
+        ["figure", "method", "other", "sequences", "won", "tied", "median difference",
+         "95 % from", "to", "p (Wilcoxon)", "p (Holm)"],
+        [
+            [one.figure, one.method, one.other, one.n, one.won, one.tied, one.difference,
+             *_ends(one.interval), one.p, one.p_holm]
+            for one in run.pairs()
+        ],
+    )  # fmt: skip
+
+
+def _each(run: Run) -> Iterator[list[Value]]:
+    for method, by_sequence in run.measures.items():
+        for sequence, measure in by_sequence.items():
+            yield [method, sequence, *measure.to_dict().values(), None]
+        for sequence, reason in run.failures.get(method, {}).items():
+            yield [method, sequence, *(None for _ in FIGURES), reason]
+
+
+def _joints(run: Run, method: str) -> dict[str, dict[str, float | None]]:
+    errors = errors_of(run, method)
+    raw, adjusted = (joint_means(errors, kind) for kind in ("raw", "adjusted"))
+    return {
+        joint: {"raw_cm": mean, "adjusted_cm": adjusted.get(joint)} for joint, mean in raw.items()
+    }
+
+
+def _listed(interval: Interval | None) -> list[float] | None:
+    return None if interval is None else list(interval)
+
+
+def _ends(interval: Interval | None) -> tuple[float | None, float | None]:
+    return interval or (None, None)

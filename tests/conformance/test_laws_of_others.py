@@ -1,0 +1,119 @@
+"""The laws of solvers, datasets and templates catch faults, here in new packages made wrong."""
+
+import importlib
+import re
+from collections.abc import Callable
+from typing import Any
+from zlib import crc32
+
+import numpy as np
+import pytest
+
+from regkit.scaffold import Scaffold
+from regkit.testing.dataset_laws import FRAMES, DatasetLaws
+from regkit.testing.problems import bowl
+from regkit.testing.solver_laws import SolverLaws
+from regkit.testing.template_laws import TemplateLaws
+
+
+@pytest.fixture
+def faulty(tmp_path, monkeypatch) -> Callable[..., Any]:
+    """Makes the plug-in of a new package in which one place of a file is changed."""
+
+    def make(what: str, file: str, old: str, new: str, **options: object) -> Any:
+        # A module of each name is imported once.
+        name = f"faulty_{crc32((old + new).encode())}"
+        scaffold = Scaffold(what, name)
+        source = scaffold.write(tmp_path) / "src"
+        path = source / scaffold.module / file.replace("NAME", name)
+        assert old in path.read_text()
+        path.write_text(path.read_text().replace(old, new))
+        monkeypatch.syspath_prepend(str(source))
+        module = importlib.import_module(f"{scaffold.module}.{what}")
+        return getattr(module, f"{name.title().replace('_', '')}{what.title()}")(**options)
+
+    return make
+
+
+def refusal(law: Callable[[], None], expected: str) -> None:
+    with pytest.raises(pytest.fail.Exception, match=re.escape(expected)) as caught:
+        law()
+    assert "; look at regkit_faulty_" in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "law", "expected"),
+    [
+        ("np.clip(x - length / size * gradient, problem.lower, problem.upper)",
+         "x - length / size * gradient",
+         lambda laws, made:
+            laws.test_solver_stays_in_the_box_and_is_never_worse_than_the_start(made, bowl, 0.01),
+         "leaves the box of bowl by"),
+        ("if there < value and", "if there == there or",
+         lambda laws, made: laws.test_solver_returns_the_best_point_that_it_saw(made),
+         "saw the value"),
+        ("            evaluations += 1\n", "",
+         lambda laws, made: laws.test_solver_returns_the_best_point_that_it_saw(made),
+         "counts 1 evaluations of"),
+        ("if not (np.isfinite(value) and np.isfinite(gradient).all())", "if False",
+         lambda laws, made: laws.test_solver_refuses_a_start_that_is_not_finite(made, np.nan, 1.0),
+         "it must raise a DataError"),
+        ("x - length / size * gradient", "x + length / size * gradient",
+         lambda laws, made: laws.test_solver_makes_a_quadratic_small(made),
+         "brings a quadratic from"),
+    ],
+    ids=["box", "best", "count", "finite", "uphill"],
+)  # fmt: skip
+def test_faulty_solver_breaks_its_law(faulty, old, new, law, expected):
+    made = faulty("solver", "solver.py", old, new)
+    refusal(lambda: law(SolverLaws(), made), expected)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "law", "expected"),
+    [
+        ("[: self.frames]", "",
+         lambda laws, made, found: laws.test_dataset_names_its_sequences(made, found),
+         f"does not keep to `frames`: 'lump' has 3 of {FRAMES}"),
+        ("len(files), files)", "7, files)",
+         lambda laws, made, found:
+            laws.test_dataset_frames_are_finite_and_as_many_as_it_says(made, found),
+         f"says that 'lump' has 7 frames and gives {FRAMES}"),
+        ("np.loadtxt(file, ndmin=2)", "1000.0 * np.loadtxt(file, ndmin=2)",
+         lambda laws, made, found:
+            laws.test_dataset_frames_are_finite_and_as_many_as_it_says(made, found),
+         "points are in metres"),
+        ("        return None\n", '        return Truth(("a", "a"), np.zeros((2, 2, 3)))\n',
+         lambda laws, made, found:
+            laws.test_dataset_truth_has_a_row_for_each_frame(made, found),
+         "has two reference joints of one name in 'lump'"),
+    ],
+    ids=["frames", "length", "millimetres", "joints"],
+)  # fmt: skip
+def test_faulty_dataset_breaks_its_law(faulty, tmp_path, old, new, law, expected):
+    made = faulty("dataset", "dataset.py", old, new, root=tmp_path)
+    (package,) = tmp_path.iterdir()
+    made = made.model_copy(update={"root": package / "data"})
+    found = made.model_copy(update={"frames": FRAMES}).chosen()
+    refusal(lambda: law(DatasetLaws(), made, found), expected)
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "law", "expected"),
+    [
+        ("NAME.yaml", "upper_arm: 60", "upper_arm: 170",
+         "test_template_stances_are_within_the_limits",
+         "has a stance 'bent' 20 degrees beyond a joint limit"),
+        ("template.py", "    def given_size", '''    def body(self, size):
+        """A little more every time."""
+        return self.description().body(self.kind, 1.01 * size)
+
+    def given_size''', "test_template_gives_a_body_of_each_size",
+         "gives a body of the size 0.505 for 0.5"),
+    ],
+    ids=["stance", "size"],
+)  # fmt: skip
+def test_faulty_template_breaks_its_law(faulty, file, old, new, law, expected):
+    made = faulty("template", file, old, new)
+    arguments = (made.body(0.5),) if "stances" in law else ()
+    refusal(lambda: getattr(TemplateLaws(), law)(made, *arguments), expected)

@@ -1,0 +1,130 @@
+"""``regkit export``: the motion in a results folder, for other programs."""
+
+import csv
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+from small_experiment import QUICK
+
+from regkit.body import BodyDescription
+from regkit.document import Document
+from regkit.interchange.bvh import Bvh
+from regkit.interchange.gltf import RiggedBody
+from regkit_plugins.templates.human import Human
+
+UPRIGHT = np.diag([1.0, -1.0, -1.0])
+
+
+@pytest.fixture
+def tracked(regkit, files) -> Path:
+    """The folder of a sequence of one frame."""
+    ended = regkit("run", files.experiment, "--out", files.out, *QUICK)
+    assert ended.code == 0, ended.err
+    return files.out / "gsog" / "first"
+
+
+def markers(folder: Path) -> dict[str, np.ndarray]:
+    with np.load(folder / "poses.npz") as arrays:
+        return dict(zip(arrays["marker_names"], arrays["markers"][0], strict=True))
+
+
+def test_all_formats_hold_the_tracked_motion(regkit, tmp_path, tracked):
+    for name in ("motion.bvh", "large.bvh", "motion.csv", "motion.glb"):
+        unit = ("--unit", "cm") if name == "large.bvh" else ()
+        ended = regkit("export", tracked, "--to", tmp_path / name, *unit)
+        assert ended.code == 0, ended.err
+        assert f"written: {tmp_path / name} (frames: 1, 30 a second; segments: 15)" in ended.out
+    truth = markers(tracked)
+    for name, scale in (("motion.bvh", 1.0), ("large.bvh", 0.01)):
+        motion = Bvh.read(tmp_path / name, scale=scale)
+        places = dict(zip(motion.names, motion.at_frame(0).positions, strict=True))
+        for segment, marker in (("left_forearm", "left_elbow"), ("right_foot", "right_ankle")):
+            np.testing.assert_allclose(places[segment], UPRIGHT @ truth[marker], atol=1e-6)
+    with (tmp_path / "motion.csv").open(newline="") as stream:
+        rows = [row for row in csv.DictReader(stream) if row["kind"] == "marker"]
+    for row in rows:
+        place = [float(row[axis]) for axis in "xyz"]
+        np.testing.assert_allclose(place, truth[row["name"]], atol=1e-7)
+    body = RiggedBody.read(tmp_path / "motion.glb")
+    starts = dict(zip(body.mesh.labels, body.clips[0].at(0.0)[:, :3, 3], strict=True))
+    np.testing.assert_allclose(starts["left_shin"], UPRIGHT @ truth["left_knee"], atol=1e-5)
+
+
+def test_an_exported_body_is_fitted_again_without_a_map(regkit, tmp_path, tracked):
+    assert regkit("export", tracked, "--to", tmp_path / "body.glb").code == 0
+    ended = regkit("fit", tmp_path / "body.glb", "--out", tmp_path / "again.yaml")
+    assert ended.code == 0, ended.err
+    again = Document.read(tmp_path / "again.yaml").validated(BodyDescription)
+    body = Human(height=1.7).body(1.7)
+    rest = body.place(body.skeleton.rest()).transforms[:, :3, 3]
+    for segment, parent in (("left_shin", "left_thigh"), ("right_hand", "right_forearm")):
+        pair = [body.skeleton.names.index(name) for name in (segment, parent)]
+        length = np.linalg.norm(rest[pair[0]] - rest[pair[1]])
+        assert np.linalg.norm(again.segments[segment].offset) == pytest.approx(length, abs=2e-4)
+
+
+def test_frames_per_second_can_be_given(regkit, tmp_path, tracked):
+    ended = regkit("export", tracked, "--to", tmp_path / "motion.bvh", "--fps", 12.5)
+    assert ended.code == 0, ended.err
+    assert Bvh.read(tmp_path / "motion.bvh").frame_time == pytest.approx(0.08)
+
+
+def test_results_without_a_rate_need_one(regkit, tmp_path, tracked):
+    with np.load(tracked / "poses.npz") as arrays:
+        kept = {name: arrays[name] for name in arrays.files if name != "fps"}
+    np.savez(tracked / "poses.npz", **kept)
+    (tracked / "record.npz").unlink(missing_ok=True)
+    ended = regkit("export", tracked, "--to", tmp_path / "motion.bvh")
+    assert ended.code == 1
+    assert "how many frames there were in a second; give --fps" in ended.err
+    assert regkit("export", tracked, "--to", tmp_path / "motion.bvh", "--fps", 5).code == 0
+    np.savez(tracked / "record.npz", fps=20.0)
+    assert regkit("export", tracked, "--to", tmp_path / "motion.bvh").code == 0
+    assert Bvh.read(tmp_path / "motion.bvh").frame_time == pytest.approx(0.05)
+
+
+def test_poses_of_another_template_are_refused(regkit, tmp_path, tracked):
+    config = tracked.parents[1] / "config.yaml"
+    text = config.read_text()
+    config.write_text(text.replace("kind: human\n  height: 1.7", "kind: hand"))
+    ended = regkit("export", tracked, "--to", tmp_path / "motion.bvh")
+    assert ended.code == 1
+    assert "the template is not the one that these poses were found with" in ended.err
+    config.write_text(text.replace("kind: human\n", "kind: humn\n"))
+    ended = regkit("export", tracked, "--to", tmp_path / "motion.bvh")
+    assert ended.code == 1
+    assert "config.yaml:" in ended.err
+    assert "did you mean 'human'?" in ended.err
+
+
+def test_the_template_of_a_subject_is_found(regkit, tmp_path, tracked):
+    config = tracked.parents[1] / "config.yaml"
+    human = "kind: human\n  height: 1.7"
+    others = (
+        "kind: hand\nsubjects: {her: {kind: human, height: 1.6}, him: {kind: human, height: 1.7}}"
+    )
+    assert human in config.read_text()
+    config.write_text(config.read_text().replace(human, others))
+    ended = regkit("export", tracked, "--to", tmp_path / "motion.bvh")
+    assert ended.code == 0, ended.err
+
+
+def test_what_is_no_result_is_refused(regkit, tmp_path, tracked):
+    ended = regkit("export", tracked.parents[1], "--to", tmp_path / "motion.bvh")
+    assert ended.code == 1
+    assert f"there are: {tracked}" in ended.err
+    ended = regkit("export", tracked, "--to", tmp_path / "motion.fbx")
+    assert ended.code == 1
+    assert "--to: '.fbx' is no format that is exported (.bvh, .csv, .glb)" in ended.err
+    copy = tmp_path / "other" / "gsog" / "first"
+    shutil.copytree(tracked, copy)
+    ended = regkit("export", copy, "--to", tmp_path / "motion.bvh")
+    assert ended.code == 1
+    assert f"{tmp_path / 'other' / 'config.yaml'}: there is no such file" in ended.err
+    (tracked / "poses.npz").write_bytes(b"PK")
+    ended = regkit("export", tracked, "--to", tmp_path / "motion.bvh")
+    assert ended.code == 1
+    assert "poses.npz: damaged" in ended.err
+    assert not (tmp_path / "motion.bvh").exists()

@@ -1,0 +1,298 @@
+"""What a report says, and that it needs no more than the files of a run."""
+
+import csv
+import json
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from made_results import FRAMES, METHODS, form, links, made_run, record
+
+from regkit.report import Record, write_report, write_summary
+from regkit.report.brief import brief, flow
+from regkit.report.figures import plots
+from regkit.report.figures.density import projected
+from regkit.report.outlines import outlines
+from regkit.report.plot import DARK, LIGHT
+from regkit.report.style import PALETTE, styles
+from regkit.report.tables import main_table, p_text
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory) -> Path:
+    folder = tmp_path_factory.mktemp("report")
+    write_report(made_run(failures={"icp": {"lost_take": "a | in <b>the</b> reason"}}), folder)
+    return folder
+
+
+def cells(path: Path) -> list[dict[str, str]]:
+    with path.open(encoding="utf-8", newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+def test_every_figure_is_a_picture_with_its_numbers_beside_it(folder):
+    names = {path.stem for path in (folder / "figures").glob("*.png")}
+    assert names == {"methods", "shapes", "sequences", "thresholds", "joints", "over_time",
+                     "densities", "timing"}  # fmt: skip
+    for name in names:
+        assert (folder / "figures" / f"{name}.png").read_bytes().startswith(b"\x89PNG")
+        rows = cells(folder / "figures" / f"{name}.csv")
+        assert rows
+        assert not {"nan", "inf", "None"} & {value for row in rows for value in row.values()}
+    assert not [path for path in links(folder) if Path(path).name.startswith(".")]
+
+
+def test_numbers_of_the_bars_are_those_of_the_metrics(folder):
+    metrics = json.loads((folder / "metrics.json").read_text())["methods"]
+    for row in cells(folder / "figures" / "sequences.csv"):
+        for method in METHODS:
+            expected = metrics[method]["sequences"][row["sequence"]]["joint_error_raw_cm"]
+            assert float(row[f"{method} [cm]"]) == pytest.approx(expected, rel=1e-5)
+
+
+def test_metrics_say_what_sequences_say_together(folder):
+    methods = json.loads((folder / "metrics.json").read_text())["methods"]
+    for figures in methods.values():
+        values = [one["joint_error_raw_cm"] for one in figures["sequences"].values()
+                  if "error" not in one]  # fmt: skip
+        assert figures["mean"]["joint_error_raw_cm"] == pytest.approx(np.mean(values))
+        assert figures["median"]["joint_error_raw_cm"] == pytest.approx(np.median(values))
+        low, high = figures["interval"]["joint_error_raw_cm"]
+        assert low < np.mean(values) < high
+        assert figures["interval"]["near_percent"] is None
+        joints = [one["raw_cm"] for one in figures["joints"].values()]
+        assert np.mean(joints) == pytest.approx(np.mean(values))
+    assert methods["icp"]["sequences"]["lost_take"]["error"].startswith("a |")
+
+
+def test_tables_hold_all_sequences_and_pairs(folder):
+    rows = cells(folder / "tables" / "sequences.csv")
+    assert len(rows) == 3 * 7 + 1
+    (failed,) = [row for row in rows if row["error"]]
+    assert failed["joint_error_raw_cm"] == ""
+    pairs = cells(folder / "tables" / "pairs.csv")
+    of_raw = [row for row in pairs if row["figure"] == "joint_error_raw_cm"]
+    assert [(row["method"], row["other"]) for row in of_raw] == [
+        ("sog", "gsog"), ("sog", "icp")
+    ]  # fmt: skip
+    assert all(float(row["p (Wilcoxon)"]) == pytest.approx(2.0 / 2**7) for row in of_raw)
+
+
+def test_markdown_shows_what_the_page_shows(folder):
+    text = (folder / "report.md").read_text()
+    for target in re.findall(r"\]\(([^)]+)\)", text):
+        assert (folder / target).is_file(), target
+    assert r"a \| in \<b>the\</b> reason" in text
+    assert "| sog | 7 | **3." in text
+    page = (folder / "report.html").read_text()
+    for heading in re.findall(r"^### (.+)$", text, re.MULTILINE):
+        assert f"<h3>{heading}</h3>" in page
+
+
+def test_page_has_nothing_that_is_not_in_it(folder):
+    page = (folder / "report.html").read_text()
+    sources = re.findall(r"""(?:src|srcset|poster|data)=["']([^"']+)""", page)
+    assert sources
+    assert all(source.startswith("data:image/png;base64,") for source in sources)
+    assert set(re.findall(r"<link[^>]*href=[\"']([^\"']*)", page)) == {"data:,"}
+    assert "@import" not in page
+    assert not re.search(r"url\(\s*[\"']?(?!data:)", page)
+    assert not re.search(r"https?://", page)
+
+
+def test_every_picture_has_words(folder):
+    images = re.findall(r"<img[^>]*>", (folder / "report.html").read_text())
+    assert len(images) == 8 + 12
+    for image in images:
+        assert len(re.search(r'alt="([^"]*)"', image).group(1)) > 30
+
+
+def test_overlays_of_the_worst_sequences_are_shown_and_the_others_linked(folder):
+    page = (folder / "report.html").read_text()
+    shown = re.findall(r"<figcaption>(\w+) on (\w+)</figcaption>", page)
+    assert sorted(shown) == sorted(
+        (method, f"take{index}") for method in METHODS for index in (3, 4, 5, 6)
+    )
+    others = re.findall(r'<a href="(\w+/\w+/overlay.png)"', page)
+    assert len(others) == 21 - 12
+    assert all((folder / link).is_file() for link in others)
+
+
+def test_names_are_taken_for_what_they_are_and_not_for_markup(tmp_path):
+    evil = '<img src=x onerror="alert(1)">'
+    run = made_run(1, methods={evil: METHODS["sog"], "b|c": METHODS["icp"]}, prefix="a&b")
+    for records in run.records.values():
+        for one in records:
+            assert one == "a&b0"
+    write_report(run, tmp_path)
+    page = (tmp_path / "report.html").read_text()
+    assert evil not in page
+    assert "&lt;img src=x onerror=&#34;alert(1)&#34;&gt;" in page
+    assert "a&amp;b0" in page
+    assert r"b\|c" in (tmp_path / "report.md").read_text()
+
+
+def test_report_without_references_is_of_the_surface(tmp_path):
+    write_report(made_run(2, compared=False), tmp_path)
+    names = {path.stem for path in (tmp_path / "figures").glob("*.png")}
+    assert names == {"methods", "shapes", "sequences", "over_time", "densities", "timing"}
+    page = (tmp_path / "report.html").read_text()
+    assert "median distance of the data to the surface" in page
+    assert "raw [cm]" not in page
+
+
+def test_report_of_nothing_but_failures_says_so(tmp_path):
+    run = made_run(0, failures={"sog": {"first": "it is dark"}, "icp": {"first": "it is dark"}})
+    write_report(run, tmp_path)
+    assert "2 sequences failed" in (tmp_path / "report.html").read_text()
+    assert "- **sog** on first: it is dark" in (tmp_path / "report.md").read_text()
+
+
+def test_summary_draws_nothing(tmp_path):
+    write_summary(made_run(2), tmp_path)
+    assert links(tmp_path) == ["metrics.json", "report.md"]
+
+
+def test_large_run_stays_a_page_that_can_be_read(tmp_path):
+    """Of 28 sequences and five methods."""
+    methods = METHODS | {"a": METHODS["sog"], "b": METHODS["icp"]}
+    run = made_run(28, methods=methods)
+    for method, records in run.records.items():
+        for sequence in records:
+            overlay = tmp_path / method / sequence / "overlay.png"
+            overlay.parent.mkdir(parents=True)
+            overlay.write_bytes(b"\x89PNG" + bytes(250_000))
+    write_report(run, tmp_path)
+    page = tmp_path / "report.html"
+    assert page.stat().st_size < 8e6
+    assert page.read_text().count('class="card"') == 10
+
+
+@pytest.mark.parametrize("compared", [True, False])
+@pytest.mark.parametrize("kind", ["gaussians", "capsules", "solids", "points"])
+def test_record_is_read_as_it_was_written(random, kind, compared, tmp_path):
+    made = record(random, 0.03, kind=kind, compared=compared)
+    np.savez_compressed(tmp_path / "record.npz", **made.arrays())
+    with np.load(tmp_path / "record.npz", allow_pickle=False) as arrays:
+        read = Record.from_arrays(dict(arrays))
+    assert read.fps == made.fps
+    assert (read.errors is None) == (made.errors is None)
+    if made.errors is not None:
+        np.testing.assert_array_equal(read.errors.raw, made.errors.raw)
+        assert read.errors.joints == made.errors.joints
+    assert len(read.looks) == len(made.looks)
+    for one, other in zip(read.looks, made.looks, strict=True):
+        assert (one.frame, one.why, one.form.kind) == (other.frame, other.why, kind)
+        np.testing.assert_allclose(one.points, other.points, rtol=1e-6)
+        np.testing.assert_allclose(one.form.centres, other.form.centres, rtol=1e-6)
+        np.testing.assert_allclose(one.form.radii, other.form.radii, rtol=1e-6)
+        assert one.reference.shape == other.reference.shape
+
+
+def test_projected_density_is_the_integral_along_the_line_of_sight(random):
+    """Against a sum over many planes."""
+    made = form("gaussians", random)
+    across, down = np.linspace(-0.4, 0.4, 5), np.linspace(-0.3, 0.3, 4)
+    depths = np.linspace(-3.0, 3.0, 4001)
+    grid = np.stack(np.meshgrid(across, down, depths), axis=-1)
+    total = np.zeros(grid.shape[:3])
+    for weight, centre, covariance in zip(
+        made.weights, made.centres, made.covariances(), strict=True
+    ):
+        away = grid - centre
+        total += weight * np.exp(
+            -0.5 * np.einsum("...i,ij,...j->...", away, np.linalg.inv(covariance), away)
+        )
+    expected = np.trapezoid(total, depths, axis=2)
+    np.testing.assert_allclose(projected(made, across, down), expected, rtol=1e-6, atol=1e-12)
+
+
+def test_outline_of_a_capsule_is_as_far_from_its_axis_as_its_radius(random):
+    made = form("capsules", random)
+    for line, centre in zip(outlines(made, (0, 1)), made.centres, strict=True):
+        beside = np.abs(line[0] - centre[0]).max()
+        along = np.abs(line[1] - centre[1]).max()
+        assert (beside, along) == pytest.approx((0.05, 0.1 + 0.05), rel=1e-3)
+
+
+def test_outline_of_a_solid_is_the_hull_of_its_surface(random):
+    made = form("solids", random)
+    lines = list(outlines(made, (2, 1)))
+    assert len(lines) == len(made.centres)
+    for line, centre in zip(lines, made.centres, strict=True):
+        reached = np.abs(line - centre[[2, 1], None]).max(axis=1)
+        np.testing.assert_allclose(reached, 0.07, rtol=0.01)
+
+
+def test_colours_tell_shape_models_and_shades_their_methods():
+    found = styles({"a": "sog", "b": "gsog", "c": "gsog", "d": "mesh"})
+    assert found["a"].colour.upper() == PALETTE[0]
+    assert found["b"].colour.upper() == PALETTE[1]
+    assert len({style.colour for style in found.values()}) == 4
+    assert found["c"].hatch != found["b"].hatch
+    assert found["c"].dash != found["b"].dash
+
+
+def test_methods_of_one_shape_model_have_colours_of_their_own():
+    found = styles(dict.fromkeys("abcdefghij", "gsog"))
+    assert len({style.colour for style in found.values()}) == len(PALETTE)
+    looks = {(style.colour, style.hatch, style.dash) for style in found.values()}
+    assert len(looks) == 10
+
+
+def test_figures_are_drawn_on_either_paper():
+    plot = next(plot for plot in plots(made_run(1)) if plot.name == "timing")
+    assert plot.png(LIGHT) != plot.png(DARK)
+
+
+def test_method_is_told_by_its_kinds_and_by_what_others_have_otherwise():
+    found = brief(METHODS)
+    assert found["sog"] == "{kind: direct, shape: sog, solver: {kind: lbfgs, memory: 5}}"
+    assert found["icp"] == "{kind: direct, shape: mesh, solver: {kind: lbfgs, memory: 9}}"
+    alike = brief({"a": METHODS["sog"], "b": METHODS["gsog"]})
+    assert alike["a"] == "{kind: direct, shape: sog, solver: lbfgs}"
+
+
+def test_flow_leaves_out_what_is_empty():
+    value = {
+        "kind": "depth",
+        "frames": None,
+        "joints": {},
+        "used": True,
+        "sigma": 0.01,
+        "two": [1, 2],
+    }
+    assert flow(value) == "{kind: depth, used: true, sigma: 0.01, two: [1, 2]}"
+
+
+def test_best_figure_of_a_column_is_marked_and_only_where_there_is_one():
+    table = main_table(made_run(7).measures)
+    best = {table.headings[index]: row[0].text for row in table.rows
+            for index, cell in enumerate(row) if cell.best}  # fmt: skip
+    assert best["raw [cm]"] == "sog"
+    assert "speed [fps]" not in best
+
+
+@pytest.mark.parametrize(
+    ("p", "text"), [(None, "-"), (0.0004, "< 0.001"), (0.0123, "0.012"), (0.5, "0.50")]
+)
+def test_p_values_have_sensible_digits(p, text):
+    assert p_text(p) == text
+
+
+def test_record_tells_when_the_body_was_lost(random):
+    made = record(random, 0.5)
+    assert made.losses.lost.sum() == FRAMES
+    assert record(random, 0.5, compared=False).losses is None
+
+
+def test_methods_of_different_settings_are_no_pair_of_shape_models():
+    """A sweep calls its methods ``SETTING/METHOD``, and names them once."""
+    run = made_run(1)
+    one, other = run.measures["sog"], run.measures["gsog"]
+    swept = replace(run, measures={f"{s}/{m}": of for s in "ab" for m, of in
+                                   (("sog", one), ("gsog", other))})  # fmt: skip
+    assert swept.shape_pairs == [("a/sog", "a/gsog"), ("b/sog", "b/gsog")]
+    assert swept.style("a/sog").shape == "sog"

@@ -1,0 +1,227 @@
+"""The dataset of rendered bodies: what its takes say, what is seen, and what mistakes are told."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from regkit.camera import Camera
+from regkit.document import Document
+from regkit.errors import ConfigError, RegkitError
+from regkit.files import write_text
+from regkit_plugins.datasets.synthetic import Synthetic
+from regkit_plugins.synthesis.cameras import CAMERAS
+
+TAKES = """\
+kind: synthetic
+defaults:
+  frames: 3
+  motion: {kind: clip, name: walk, way: 0.2}
+  view: {distance: 3.0}
+takes:
+  walk: {}
+  kick: {body: tall, motion: kick, frames: 2, view: {heading_deg: -40}}
+"""
+
+
+@pytest.fixture(autouse=True)
+def cache(tmp_path, monkeypatch):
+    folder = tmp_path / "cache"
+    monkeypatch.setenv("REGKIT_CACHE", str(folder))
+    return folder
+
+
+def dataset(tmp_path, text=TAKES, *settings):
+    write_text(tmp_path / "dataset.yaml", text)
+    return Document.read(tmp_path / "dataset.yaml").overridden(settings).validated(Synthetic)
+
+
+def images(sequence):
+    return np.array([frame.depth for frame in sequence.frames()])
+
+
+def test_takes_have_what_the_defaults_say_and_what_they_say_themselves(tmp_path):
+    walk, kick = dataset(tmp_path).takes.values()
+    assert (walk.body, walk.frames, walk.motion.name, walk.motion.way) == (
+        "average", 3, "walk", 0.2,
+    )  # fmt: skip
+    assert (kick.body, kick.frames, kick.motion.name, kick.motion.way) == ("tall", 2, "kick", 0.2)
+    assert (kick.view.distance, kick.view.heading_deg) == (3.0, -40.0)
+
+
+def test_sequences_are_named_and_have_the_subjects_of_their_bodies(tmp_path):
+    found = dataset(tmp_path).chosen()
+    assert [(s.name, s.subject, s.length, s.fps) for s in found] == [
+        ("walk", "average", 3, 30.0),
+        ("kick", "tall", 2, 30.0),
+    ]
+    assert [s.length for s in dataset(tmp_path, TAKES, "frames=2").chosen()] == [2, 2]
+    own = dataset(tmp_path, TAKES, "takes.walk.subject=anna").chosen()
+    assert own[0].subject == "anna"
+
+
+def test_config_that_is_written_out_reads_the_same(tmp_path):
+    first = dataset(tmp_path)
+    again = Synthetic.model_validate(first.model_dump(mode="json"))
+    assert again == first
+
+
+def test_joints_lie_in_the_body_that_is_seen(tmp_path):
+    (walk,) = dataset(tmp_path, TAKES, "sequences=[walk]", "noise=none").chosen()
+    camera = CAMERAS["sr4000"].camera()
+    truth = walk.truth()
+    for depth, joints in zip(images(walk), truth.positions, strict=True):
+        columns, rows = np.rint(camera.projected(joints)).astype(int).T
+        seen = depth[rows, columns]
+        assert (seen > 0.0).mean() > 0.9
+        # A foot may miss the outline by a pixel, which shows what is behind it.
+        assert (joints[:, 2] > seen - 0.001)[seen > 0.0].mean() > 0.9
+    assert truth.positions[:, :, 2].mean() == pytest.approx(3.0, abs=0.1)
+
+
+def test_truth_is_exact_and_needs_no_image(tmp_path, cache):
+    (walk,) = dataset(tmp_path, TAKES, "sequences=[walk]").chosen()
+    truth = dict(zip(walk.truth().joints, np.moveaxis(walk.truth().positions, 1, 0), strict=True))
+    forearm = np.linalg.norm(truth["left_elbow"] - truth["left_wrist"], axis=1)
+    assert np.ptp(forearm) < 1e-9
+    assert not cache.exists()
+
+
+def test_markers_are_points_of_the_skin(tmp_path):
+    settings = ("sequences=[walk]", "noise=none", "takes.walk.markers={nose: 0, other: 5000}")
+    (walk,) = dataset(tmp_path, TAKES, *settings).chosen()
+    scene = walk.take.scene("walk", walk.dataset.sensor(), 30.0, 3)
+    truth = walk.truth()
+    assert truth.joints[-2:] == ("nose", "other")
+    for index, pose in enumerate(scene.poses()):
+        vertices = scene.mesh.posed(pose)[[0, 5000]]
+        assert np.allclose(truth.positions[index, -2:], vertices, atol=1e-12)
+
+
+def test_whole_body_is_in_the_image_if_the_distance_is_left_open(tmp_path):
+    text = TAKES.replace("distance: 3.0", "elevation_deg: 20")
+    for sequence in dataset(tmp_path, text, "noise=none").chosen():
+        for depth in images(sequence):
+            seen = depth > 0.0
+            assert seen.any()
+            assert not seen[[0, -1]].any()
+            assert not seen[:, [0, -1]].any()
+
+
+def test_heading_turns_the_body_to_the_right_of_the_image(tmp_path):
+    for heading in (0.0, 50.0):
+        setting = f"takes.walk.view.heading_deg={heading}"
+        (walk,) = dataset(tmp_path, TAKES, "sequences=[walk]", setting).chosen()
+        truth = dict(zip(walk.truth().joints, walk.truth().positions[0], strict=True))
+        left = truth["left_hip"] - truth["right_hip"]
+        assert np.degrees(np.arctan2(left[2], left[0])) == pytest.approx(heading, abs=8.0)
+
+
+def test_camera_from_above_sees_the_head_nearer(tmp_path):
+    (walk,) = dataset(
+        tmp_path, TAKES, "sequences=[walk]", "takes.walk.view.elevation_deg=30"
+    ).chosen()
+    truth = dict(zip(walk.truth().joints, walk.truth().positions[0], strict=True))
+    assert truth["head"][2] < truth["pelvis"][2] - 0.2
+
+
+def test_without_noise_the_depth_is_exact_to_half_a_unit(tmp_path):
+    (walk,) = dataset(tmp_path, TAKES, "sequences=[walk]", "noise=none").chosen()
+    scene = walk.take.scene("walk", walk.dataset.sensor(), 30.0, 3)
+    for depth, view in zip(images(walk), scene.views(), strict=True):
+        assert np.abs(depth - view.depth).max() <= 0.0005 + 1e-9
+
+
+def test_another_seed_changes_the_noise_alone(tmp_path):
+    noise = "noise=0.01"
+    first, other = (
+        dataset(tmp_path, TAKES, "sequences=[walk]", noise, f"seed={seed}").chosen()[0]
+        for seed in (0, 1)
+    )
+    assert np.array_equal(first.truth().positions, other.truth().positions)
+    one, two = images(first), images(other)
+    assert np.array_equal(one > 0.0, two > 0.0)
+    assert (one - two)[one > 0.0].std() == pytest.approx(0.01 * np.sqrt(2.0), rel=0.05)
+
+
+def test_noise_of_a_frame_does_not_depend_on_how_many_there_are(tmp_path):
+    long, short = (
+        dataset(tmp_path, TAKES, "sequences=[walk]", f"frames={frames}").chosen()[0]
+        for frames in (3, 2)
+    )
+    assert np.array_equal(images(long)[:2], images(short))
+
+
+def test_noise_differs_between_sequences_and_frames(tmp_path):
+    text = """\
+kind: synthetic
+noise: 0.01
+defaults:
+  frames: 2
+  view: {distance: 3}
+  motion: {kind: keyframes, frames: [{time: 0}, {time: 1}]}
+takes: {a: {}, b: {}}
+"""
+    (a, b) = (images(sequence) for sequence in dataset(tmp_path, text).chosen())
+    assert not np.array_equal(a[0], a[1])
+    assert not np.array_equal(a[0], b[0])
+    assert np.array_equal(a[0] > 0.0, b[1] > 0.0)
+
+
+def test_noise_is_that_of_the_camera_unless_another_is_asked_for(tmp_path):
+    named = dataset(tmp_path, TAKES, "camera=kinect_v1")
+    assert named.sensor().noise.inverse_depth_step is not None
+    given = dataset(tmp_path, TAKES, "camera={width: 100, height: 80, fx: 90}")
+    assert given.sensor().noise.model_dump(exclude_none=True) == {}
+    assert given.sensor().camera == Camera(100, 80, 90.0, 90.0, 49.5, 39.5)
+
+
+def test_camera_may_be_a_file_beside_the_yaml(tmp_path):
+    write_text(tmp_path / "camera.json", Camera(64, 48, 60.0, 60.0, 31.5, 23.5).to_json())
+    text = TAKES.replace("defaults:", "camera: {file: camera.json}\ndefaults:")
+    (walk,) = dataset(tmp_path, text, "sequences=[walk]").chosen()
+    assert images(walk).shape == (3, 48, 64)
+
+
+@pytest.mark.parametrize(
+    ("setting", "expected"),
+    [
+        ("camera=kinect", "camera: input should be 'sr4000', 'kinect_v1'"),
+        ("camera={width: 10}", "camera.height: field required"),
+        ("noise=-1", "noise: input should be greater than or equal to 0"),
+        ("noise={axial: {constnt: 1}}", "noise.axial.constnt: no such field"),
+        ("takes.walk.body=average_one", "takes.walk.body: input should be 'average', 'small'"),
+        ("takes.walk.motion={kind: clip, name: wlk}", "takes.walk.motion: no clip called 'wlk'"),
+        ("takes={}", "takes"),
+        ("takes={'a/b': {}}", "takes.a/b"),
+    ],
+)
+def test_mistake_is_told_at_its_place(tmp_path, setting, expected):
+    with pytest.raises(ConfigError) as caught:
+        dataset(tmp_path, TAKES, setting)
+    assert expected in str(caught.value)
+
+
+def test_take_without_a_motion_is_refused(tmp_path):
+    with pytest.raises(ConfigError, match=r"takes\.lazy: it has no motion of its own"):
+        dataset(tmp_path, "kind: synthetic\ntakes: {lazy: {body: small}}\n")
+
+
+@pytest.mark.parametrize(
+    ("setting", "expected"),
+    [
+        ("takes.walk.motion={kind: clip, path: nowhere.txt}", "nowhere.txt: the file is missing"),
+        (
+            "takes.walk={motion: {name: run, way: 1}, view: {heading_deg: 90, distance: 0.5}}",
+            "nothing of the body is in the image of frame 0",
+        ),
+        ("takes.walk.markers={nose: 99999}", "marker 'nose' is vertex 99999"),
+        ("takes.walk.markers={head: 1}", "a marker cannot be called 'head'"),
+    ],
+)
+def test_take_that_cannot_be_rendered_is_named(tmp_path, setting, expected):
+    (walk,) = dataset(tmp_path, TAKES, "sequences=[walk]", "fps=2", setting).chosen()
+    with pytest.raises(RegkitError) as caught:
+        walk.prepare()
+    assert str(caught.value).startswith("dataset.takes.walk: this take cannot be rendered: ")
+    assert expected in str(caught.value)
