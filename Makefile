@@ -4,7 +4,7 @@ PYTHON ?= python3
 ready := .venv/.ready
 bin := .venv/bin
 
-.PHONY: help demo test lint samples templates schemas lock benchmarks clean
+.PHONY: help demo test lint docs pictures samples templates schemas lock benchmarks clean
 
 help: ## Show this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -26,6 +26,13 @@ lint: $(ready)
 	@$(bin)/lint-imports --no-cache
 	@$(bin)/regkit schema --check --built-in
 	@$(bin)/regkit validate docs/examples/*.yaml plugins/regkit_plugins/templates/*.yaml
+
+docs: $(ready) ## Build the documentation in docs/_build
+	@$(bin)/sphinx-build -q -W --keep-going -n docs docs/_build
+	@echo docs/_build/index.html
+
+pictures: $(ready) ## Make the documentation's pictures again
+	@$(bin)/python docs/pictures.py
 
 samples: $(ready) ## Make the sample sequences again
 	@$(bin)/python -m regkit_plugins.synthesis docs/examples/data

@@ -1,3 +1,54 @@
-"""Articulated and rigid registration of shape models to point clouds and depth frames."""
+"""Articulated and rigid registration of shape models to point clouds and depth frames.
+
+The names below are those of ``regkit.api``, which is imported when the first of them is used, so
+that ``import regkit`` costs nothing.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from regkit.api import (
+        Camera,
+        CloudAlignment,
+        Registration,
+        Tracking,
+        Truth,
+        align,
+        load_sequence,
+        load_template,
+        register,
+        track,
+    )
 
 __version__ = "0.1.0"
+
+__all__ = [
+    "Camera",
+    "CloudAlignment",
+    "Registration",
+    "Tracking",
+    "Truth",
+    "__version__",
+    "align",
+    "load_sequence",
+    "load_template",
+    "register",
+    "track",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """A name of the API, imported when it is first asked for."""
+    if name not in __all__:
+        raise AttributeError(f"module 'regkit' has no attribute '{name}'")
+    value = getattr(importlib.import_module("regkit.api"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    """What a notebook completes."""
+    return sorted({*globals(), *__all__})

@@ -133,7 +133,7 @@ class TangentCoordinates(Coordinates):
 
 @dataclass(frozen=True)
 class QuaternionCoordinates(Coordinates):
-    """The paper's pose parameters [t, r(1), ..., r(L)]: un-normalised quaternions, p = r / |r|.
+    """The paper's pose parameters [t, r(1), ..., r(L)]: un-normalised quaternions, ``p = r / |r|``.
 
     L counts the root's rotation and the ball joints: 4 L + 3 parameters, and one more for each
     hinge that follows no other. Their lengths mean nothing; ``vector`` gives unit ones.
@@ -154,7 +154,7 @@ class QuaternionCoordinates(Coordinates):
         return Pose(rigid(to_matrix(unit[0]), x[:3]), unit[1:], hinges)
 
     def differential(self, x: Array) -> Array:
-        """By the angular rate 2 vec(p* dr) / |r|; the part of dr along r turns nothing."""
+        """By the angular rate ``2 vec(p* dr) / |r|``; the part of dr along r turns nothing."""
         quaternions, _ = self._split(x)
         inverse = conjugate(normalized(quaternions)) * (
             2.0 / np.linalg.norm(quaternions, axis=1, keepdims=True)

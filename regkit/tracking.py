@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from regkit.arrays import Array
 from regkit.body import Body
@@ -119,6 +121,17 @@ class Track:
     def pose(self, index: int) -> Pose:
         """The pose in a frame."""
         return Pose(self.root[index], self.balls[index], self.hinges[index])
+
+    def named_arrays(self, body: Body) -> dict[str, NDArray[Any]]:
+        """What a file holds: these arrays, the names of markers and ball joints, and the size."""
+        skeleton = body.skeleton
+        links = list(skeleton.segment_links)
+        balls = [skeleton.names[links.index(link)] for link in skeleton.ball_links]
+        return {field.name: getattr(self, field.name) for field in fields(self)} | {
+            "marker_names": np.array(body.markers.names, dtype=np.str_),
+            "ball_names": np.array(balls, dtype=np.str_),
+            "size": np.array(body.size),
+        }
 
     @classmethod
     def of(cls, frames: list[TrackedFrame], registrar: Registrar) -> Track:

@@ -17,7 +17,7 @@ from regkit.skeleton import Skeleton
 def correlation(skeleton: Skeleton, gaussians: Gaussians, count: int) -> Any:
     """The correlation of a body's Gaussians with N data points, eqs. 5 and 8, to be made small.
 
-    With S = C_i + sigma_j^2 I it is the energy of the kernel ``correlation``,
+    With S = C_i + sigma_j^2 I it is the energy of the kernel ``correlation``::
 
         - sum_ij w_i w_j sigma_j^3 sqrt(|C_i| / |S|) exp(-1/2 q^T S^-1 q) / sum_j w_j sigma_j^3,
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import traceback
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 from zipfile import BadZipFile
@@ -124,15 +124,7 @@ class Results:
     ) -> None:
         """Write a finished sequence; its figures come last, and with them it counts as finished."""
         folder = self.sequence_folder(method, sequence)
-        arrays: dict[str, Any] = {f.name: getattr(track, f.name) for f in fields(track)}
-        skeleton = body.skeleton
-        links = list(skeleton.segment_links)
-        names = {
-            "marker_names": body.markers.names,
-            "ball_names": [skeleton.names[links.index(link)] for link in skeleton.ball_links],
-        }
-        arrays |= {name: np.array(values, dtype=np.str_) for name, values in names.items()}
-        write_arrays(folder / "poses.npz", arrays | {"size": np.array(body.size)})
+        write_arrays(folder / "poses.npz", track.named_arrays(body))
         write_arrays(folder / "record.npz", record.arrays())
         config = Document.read(self.folder / "config.yaml").data
         colour = method_styles(config, [method])[method].colour

@@ -13,6 +13,7 @@ from regkit.report.record import Record
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 VIEWS = {"from the front": (0, 1), "from its left": (2, 1)}
 """The two axes of the camera's frame that a view shows, to the right and down."""
@@ -23,14 +24,20 @@ BONE, FOUND = "#4D4D4D", "#B00020"
 
 
 def draw_overlay(path: Path, title: str, record: Record, colour: str) -> None:
-    """Draw the first, the worst and the last frame from the front and from the side.
+    """Draw the ``overlay`` to a PNG file."""
+    figure = overlay(title, record, colour)
+    with replacing(path) as temporary:
+        figure.savefig(temporary, dpi=DPI, metadata={"Software": None})
+
+
+def overlay(title: str, record: Record, colour: str) -> Figure:
+    """The first, the worst and the last frame from the front and from the side.
 
     Gaussians are drawn as the outlines of their 2-sigma ellipsoids, capsules and spheres as their
     own, what is a point or one of very many as dots, reference joints as crosses.
 
     Args:
-        path: Where the PNG is written.
-        title: Its title.
+        title: Of the picture.
         record: What was tracked.
         colour: Of the shape model.
     """
@@ -48,8 +55,7 @@ def draw_overlay(path: Path, title: str, record: Record, colour: str) -> None:
         handles, labels, loc="outside lower center", ncols=len(labels), fontsize=8
     )
     inked(legend, LIGHT)
-    with replacing(path) as temporary:
-        figure.savefig(temporary, dpi=DPI, metadata={"Software": None})
+    return figure
 
 
 def _draw(plot: Axes, view: tuple[int, int], look: Look, colour: str) -> None:

@@ -1,0 +1,49 @@
+"""Every command of the command line, from the program itself."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import typer
+
+from regkit.cli.app import app as program
+
+_BRACKETS = re.compile(r"\s*\[((?:default|required|x|[\d.]+<)[^\[\]]*)\]\s*")
+"""What typer adds to a parameter's help: a default, bounds, that it is required."""
+
+
+def commands_text() -> str:
+    """Markdown with a section for each command."""
+    group: Any = typer.main.get_command(program)
+    context = group.context_class(group, info_name="regkit")
+    return "\n\n".join(_commands(group, context))
+
+
+def _commands(group: Any, context: Any) -> Iterator[str]:
+    """The commands of a group, and of the groups in it."""
+    for name, command in group.commands.items():
+        its = command.context_class(command, info_name=name, parent=context)
+        if getattr(command, "commands", None):
+            yield from _commands(command, its)
+            continue
+        yield f"## {its.command_path}"
+        yield inspect.cleandoc(command.help or "")
+        records = [one.get_help_record(its) for one in command.get_params(its)]
+        rows = [_row(*record) for record in records if record and "--help" not in record[0]]
+        if rows:
+            yield "\n".join(
+                ["| parameter | what it is | default, bounds |", "|---|---|---|", *rows]
+            )
+
+
+def _row(name: str, text: str) -> str:
+    notes = [note for found in _BRACKETS.findall(text) for note in found.split("; ")]
+    told = " ".join(_BRACKETS.sub(" ", text).split())
+    return f"| `{name}` | {_plain(told)} | {_plain(', '.join(notes).replace('default: ', ''))} |"
+
+
+def _plain(text: str) -> str:
+    return re.sub(r"([|<*_{}\[\]])", r"\\\1", text)

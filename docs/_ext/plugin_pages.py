@@ -1,0 +1,56 @@
+"""What is installed in a group of plug-ins, its options from the fields themselves."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Iterator
+
+from field_tables import field_table, models_in
+
+from regkit.installed import OWN, only_from
+from regkit.interfaces import SLOTS
+from regkit.model import Model
+from regkit.plugin import Plugin
+from regkit.preset import preset_file, presets_of
+
+
+def plugins_text(group: str) -> str:
+    """Markdown with a section for each plug-in of a group, and for each of its presets.
+
+    What other distributions bring to the machine that builds the pages is left out.
+    """
+    (slot,) = (slot for slot in SLOTS if slot.group == group)
+    with only_from(OWN):
+        return "\n\n".join(_parts(slot))
+
+
+def _parts(slot: type[Plugin]) -> Iterator[str]:
+    yield _prose(slot.__doc__)
+    yield f"The interface is {{py:class}}`regkit.interfaces.{slot.__name__}`."
+    for kind in slot.available():
+        plugin = slot.load(kind)
+        yield f"## {kind}"
+        yield _prose(plugin.__doc__)
+        yield f"`{plugin.__module__}.{plugin.__qualname__}`"
+        yield field_table(plugin, skipped=("kind",))
+        for model in models_in(plugin):
+            yield from _nested(kind, model)
+    yield from _presets(slot)
+
+
+def _nested(kind: str, model: type[Model]) -> Iterator[str]:
+    yield f"### {model.__name__} of {kind}"
+    yield _prose(model.__doc__)
+    yield field_table(model)
+
+
+def _presets(slot: type[Plugin]) -> Iterator[str]:
+    for name in presets_of(slot.group):
+        yield f"## preset {name}"
+        text = preset_file(slot.group, name).read_text(encoding="utf-8")
+        yield f"```yaml\n{text}```"
+
+
+def _prose(docstring: str | None) -> str:
+    """A docstring as Markdown, which shows literals in double backticks as it does in single."""
+    return inspect.cleandoc(docstring or "")

@@ -1,0 +1,82 @@
+"""How Sphinx builds the documentation: ``make docs``, offline, warnings being errors."""
+
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent / "_ext"))
+
+from regkit import __version__
+
+project = "regkit"
+author = "The regkit developers"
+copyright = author
+version = release = __version__
+
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.napoleon",
+    "docstrings",
+    "generated",
+    "mathml",
+]
+exclude_patterns = ["_build", "examples"]
+html_theme = "furo"
+html_title = f"regkit {version}"
+html_static_path = ["_static"]
+html_css_files = ["regkit.css"]
+html_show_sphinx = False
+html_copy_source = False
+
+myst_enable_extensions = ["dollarmath", "colon_fence"]
+myst_heading_anchors = 4
+myst_links_external_new_tab = False
+
+autodoc_member_order = "bysource"
+autodoc_default_options = {
+    "members": True,
+    "no-value": True,
+    "exclude-members": "model_config",
+}
+autodoc_typehints = "signature"
+autodoc_type_aliases = {
+    name: name
+    for name in (
+        "Array",
+        "ArrayLike",
+        "Indices",
+        "Choice",
+        "Cloud",
+        "Frames",
+        "Intrinsics",
+        "Measured",
+        "Reference",
+    )
+}
+napoleon_use_ivar = True
+napoleon_use_rtype = False
+python_use_unqualified_type_names = True
+python_display_short_literal_types = True
+
+nitpicky = True
+nitpick_ignore_regex = [
+    # Other libraries' names: the build has no network to look them up.
+    (
+        r"py:.*",
+        r"(abc|annotated_types|collections|contextlib|importlib|matplotlib|np|numpy|pathlib)\..*",
+    ),
+    (r"py:.*", r"(pydantic|pydantic_core|rich|ruamel|scipy|types|typing)\..*"),
+    # Names that stand for a type, for which there is nothing to link to.
+    (
+        r"py:class",
+        r"TypeAliasForwardRef|ArrayLike|Choice|Cloud|Frames|Intrinsics|Measured|Reference",
+    ),
+    (r"py:class", r"Figure|Field|(dict|tuple)\[str"),
+    # What a YAML file holds is told by tables of fields, not here.
+    (r"py:class", r"(regkit\.(body|skeleton)\..*\.)?\w+Description"),
+    # Parts that are no part of the public interface.
+    (r"py:class", r"regkit\.api\.tables\.Summary|regkit\.calibration\.\w+\.\w+"),
+    (r"py:class", r"regkit\.constraints\._Rows|regkit\.model\._from_its_folder"),
+    (r"py:class", r"regkit\.testing\.conformance\.Conformance"),
+    (r"py:(class|obj)", r"(.*\.)?(P|S|M|P_co|S_co)"),
+]

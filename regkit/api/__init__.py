@@ -1,0 +1,22 @@
+"""The Python API: the few functions that a script or a notebook needs, with arrays in and out."""
+
+from regkit.api.aligning import CloudAlignment, align
+from regkit.api.choices import load_template
+from regkit.api.frames import load_sequence
+from regkit.api.registering import register, track
+from regkit.api.results import Registration, Tracking
+from regkit.camera import Camera
+from regkit.observation import Truth
+
+__all__ = [
+    "Camera",
+    "CloudAlignment",
+    "Registration",
+    "Tracking",
+    "Truth",
+    "align",
+    "load_sequence",
+    "load_template",
+    "register",
+    "track",
+]

@@ -1,0 +1,129 @@
+"""One rigid cloud laid on another."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from numpy.typing import ArrayLike
+
+from regkit.alignment import Alignment
+from regkit.alignment import align as align_clouds
+from regkit.api.choices import Choice, chosen_method, told
+from regkit.api.numbers import checked_numbers
+from regkit.api.tables import Summary
+from regkit.arrays import Array, checked_points
+from regkit.clouds import check_writable, read_cloud, write_cloud
+from regkit.errors import RegkitError
+from regkit.interfaces import Method
+from regkit.rigid import moved
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Cloud = str | Path | ArrayLike
+"""Points (N, 3), or the file of a cloud or a mesh."""
+
+
+@dataclass(frozen=True, repr=False)
+class CloudAlignment(Summary):
+    """A source laid on a target.
+
+    Attributes:
+        source: Points (N, 3) [m] as they were.
+        target: Points (M, 3) [m].
+        method: What the method is called.
+        found: Where it began, how well it fits, and how the method ended.
+    """
+
+    source: Array
+    target: Array
+    method: str
+    found: Alignment
+
+    @property
+    def transform(self) -> Array:
+        """T_target_source, (4, 4) [m]."""
+        return self.found.transform
+
+    @property
+    def aligned(self) -> Array:
+        """The source's points on the target, (N, 3) [m]."""
+        return moved(self.transform, self.source)
+
+    @property
+    def fitness(self) -> float:
+        """The share of the source's points that lie on the target, from 0 to 1."""
+        return self.found.agreement.fitness
+
+    def plot(self) -> Figure:
+        """Both clouds before and after, along two axes."""
+        from regkit.report.before_after import before_after
+
+        return before_after(self.source, self.aligned, self.target)
+
+    def save(self, path: str | Path) -> None:
+        """Write the aligned source as a cloud, of the kind that the name's end says.
+
+        Raises:
+            RegkitError: If there is no such kind, or the file cannot be written.
+        """
+        check_writable(Path(path), place="path")
+        write_cloud(Path(path), self.aligned)
+
+    def rows(self) -> dict[str, str]:
+        """What a table says of it."""
+        fit, before = self.found.agreement, self.found.before
+        rows = {
+            "method": self.method,
+            "fitness": f"{100 * fit.fitness:.1f} % of the source within {fit.distance:.3g} m "
+            f"({100 * before.fitness:.1f} % at the start)",
+            "inlier RMSE": f"{fit.inlier_rmse:.4g} m",
+            "overlap": f"{100 * fit.overlap:.1f} % of the target",
+            "start": self.found.start,
+            "converged": f"{'yes' if self.found.converged else 'no'}: {self.found.message}",
+        }
+        if self.found.hidden is not None:
+            rows["warning"] = f"{self.found.hidden} hardly shows"
+        return rows
+
+
+def align(
+    source: Cloud,
+    target: Cloud,
+    method: Choice[Method] = "rigid",
+    *,
+    voxel: float | None = None,
+    start: str = "nearest",
+) -> CloudAlignment:
+    """Lay a rigid cloud on another, as ``regkit register`` does.
+
+    Args:
+        source: Points (N, 3) [m] to be moved, or a file of a cloud or a mesh.
+        target: Points (M, 3) [m] that rest, or a file.
+        method: The preset ``"rigid"``, a kind such as ``"open3d_icp"`` or ``"small_gicp"``, a
+            mapping such as ``{"kind": "open3d_icp", "estimation": "generalized"}``, or a method.
+        voxel: Side of the cubes to which both are thinned [m]; 0 for not at all. Without it some
+            5000 points are left.
+        start: Where to set out from: ``"nearest"`` of identity and centroids, ``"identity"``,
+            ``"centroids"``, ``"rotations"`` or ``"features"`` for any orientation, or a file with a
+            4x4 matrix.
+
+    Raises:
+        RegkitError: If an argument cannot be, or the clouds cannot be aligned; it says which.
+    """
+    chosen, _, _ = chosen_method(method, place="regkit.align")
+    clouds = [_cloud(source, "source"), _cloud(target, "target")]
+    try:
+        found = align_clouds(clouds[0], clouds[1], chosen, voxel=voxel, start=start)
+    except RegkitError as error:
+        # What is an option on the command line is an argument here.
+        raise type(error)(error.message, place=(error.place or "").removeprefix("--")) from None
+    return CloudAlignment(clouds[0], clouds[1], told(method), found)
+
+
+def _cloud(given: Cloud, place: str) -> Array:
+    if isinstance(given, (str, Path)):
+        return read_cloud(Path(given))
+    return checked_points(checked_numbers(given, place=place, whole=True), place=place)

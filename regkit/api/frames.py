@@ -1,0 +1,180 @@
+"""Frames from arrays: depth images and clouds that a program has already, checked."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from collections.abc import Sequence as Many
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from regkit.api.numbers import checked_numbers
+from regkit.arrays import checked_points
+from regkit.camera import Camera
+from regkit.document import Document
+from regkit.errors import ConfigError, DataError
+from regkit.interfaces import Dataset, Sequence
+from regkit.model import Model
+from regkit.observation import Frame
+
+Measured = Frame | ArrayLike
+"""A depth image (H, W) [m], a cloud (N, 3) [m], or a frame."""
+
+Frames = Sequence | Dataset | str | Path | Many[Measured] | ArrayLike
+"""Depth images (T, H, W) [m], a list of images or clouds, a folder, a dataset or a sequence."""
+
+Intrinsics = Camera | str | Path | ArrayLike
+"""A camera, its ``camera.json``, or its matrix K (3, 3) [px]."""
+
+
+@dataclass(frozen=True)
+class GivenFrames(Sequence):
+    """A sequence of frames that are there already.
+
+    Attributes:
+        given: The frames.
+    """
+
+    given: tuple[Frame, ...]
+
+    def frames(self) -> Iterator[Frame]:
+        """The frames as they are."""
+        yield from self.given
+
+    def truth(self) -> None:
+        """Arrays bring no reference joints."""
+
+
+class _OfDataset(Model):
+    dataset: Dataset
+
+
+def load_sequence(folder: str | Path, *, frames: int | None = None) -> Sequence:
+    """A recorded sequence: a folder with ``depth/`` or ``clouds/`` and a ``sequence.yaml``.
+
+    ``frames()`` yields its frames, ``truth()`` its reference joints if there are any.
+
+    Args:
+        folder: Where it is.
+        frames: Take only so many of its frames.
+
+    Raises:
+        RegkitError: If there is no sequence, or there are several, or it is damaged.
+    """
+    kind = "clouds" if (Path(folder) / "clouds").is_dir() else "depth"
+    data = {"dataset": {"kind": kind, "root": str(folder), "frames": frames}}
+    document = Document(data, {(): "load_sequence"})
+    return _only(document.validated(_OfDataset).dataset)
+
+
+def sequence_of(frames: Frames, camera: Intrinsics | None, fps: float) -> Sequence:
+    """The sequence that was given, or one of the arrays that were.
+
+    Raises:
+        RegkitError: If these are no frames.
+    """
+    if isinstance(frames, (Sequence, Dataset, str, Path)):
+        if camera is not None:
+            raise ConfigError("frames that are read have a camera of their own", place="camera")
+        if isinstance(frames, Sequence):
+            return frames
+        return _only(frames) if isinstance(frames, Dataset) else load_sequence(frames)
+    if isinstance(frames, np.ndarray) and frames.ndim < 3:
+        raise DataError(
+            f"one array of shape {frames.shape}; these must be many: depth images (T, H, W) or a "
+            "list of clouds (N, 3). regkit.register takes one frame",
+            place="frames",
+        )
+    if not isinstance(frames, Iterable):
+        raise ConfigError(f"{frames!r} are no frames", place="frames")
+    many = list(frames)
+    if not many:
+        raise DataError("there is no frame", place="frames")
+    given = [frame_of(one, camera, place=f"frames[{n}]") for n, one in enumerate(many)]
+    return GivenFrames(name="frames", fps=fps, length=len(given), given=tuple(given))
+
+
+def frame_of(measured: Measured, camera: Intrinsics | None, *, place: str) -> Frame:
+    """A frame of a depth image (H, W) [m], or of a cloud (N, 3) [m].
+
+    Args:
+        measured: The image, the cloud, or a frame already.
+        camera: What an image was taken with; a cloud may have one too.
+        place: What the array is called in messages.
+
+    Raises:
+        DataError: If it is neither, or holds what cannot be a measurement.
+    """
+    if isinstance(measured, Frame):
+        return measured
+    values = checked_numbers(measured, place=place)
+    if values.ndim != 2:
+        raise DataError(
+            f"an array of shape {values.shape}; a depth image is (H, W), a cloud (N, 3)",
+            place=place,
+        )
+    if not len(values):
+        raise DataError("the array is empty", place=place)
+    lens = None if camera is None else _camera(camera, values.shape)
+    if values.shape[1] == 3 and (lens is None or (lens.height, lens.width) != values.shape):
+        return Frame(checked_points(values, place=place), lens, place=place)
+    if lens is None:
+        raise ConfigError(
+            f"{place} of shape {values.shape} is a depth image, which needs a camera: its "
+            "camera.json, or its matrix K (3, 3)",
+            place="camera",
+        )
+    bad = ~np.isfinite(values)
+    if bad.any():
+        raise DataError(
+            f"{int(bad.sum())} pixels are NaN or infinite; 0 means that nothing was measured: "
+            "np.nan_to_num(depth, posinf=0.0, neginf=0.0)",
+            place=place,
+        )
+    if (values < 0.0).any():
+        raise DataError(
+            f"{int((values < 0.0).sum())} depths are negative, the least {values.min():.4g}; 0 "
+            "means that nothing was measured",
+            place=place,
+        )
+    try:
+        return Frame(lens.back_projected(values), lens, values, place=place)
+    except DataError as error:
+        raise error.at(place) from None
+
+
+def _only(dataset: Dataset) -> Sequence:
+    sequences = dataset.chosen()
+    if len(sequences) > 1:
+        names = ", ".join(sequence.name for sequence in sequences[:5])
+        raise ConfigError(
+            f"there are {len(sequences)} sequences ({names}{', ...' * (len(sequences) > 5)}); "
+            "name one (sequences), or take one of .chosen()",
+            place="dataset",
+        )
+    return sequences[0]
+
+
+def _camera(camera: Intrinsics, shape: tuple[int, ...]) -> Camera:
+    """The camera of an image of some shape (H, W)."""
+    if isinstance(camera, Camera):
+        return camera
+    if isinstance(camera, (str, Path)):
+        return Camera.read(Path(camera))
+    matrix = checked_numbers(camera, place="camera", whole=True)
+    lens = [matrix[0, 1], *matrix[1:, 0], matrix[2, 1]] if matrix.shape == (3, 3) else [1.0]
+    if any(lens) or matrix[2, 2] != 1.0 or min(matrix[0, 0], matrix[1, 1]) <= 0.0:
+        raise DataError(
+            "neither a regkit.Camera, nor a camera.json, nor a matrix K = [[fx, 0, cx], "
+            f"[0, fy, cy], [0, 0, 1]]: {matrix.tolist()}",
+            place="camera",
+        )
+    height, width = shape
+    if width == 3:
+        raise ConfigError(
+            "a matrix does not tell the image's size; with a cloud give a regkit.Camera",
+            place="camera",
+        )
+    return Camera(width, height, matrix[0, 0], matrix[1, 1], matrix[0, 2], matrix[1, 2])

@@ -1,0 +1,243 @@
+"""What registering and tracking gave, for notebooks: arrays, figures, a table and a picture."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from regkit.api.reference import Reference, truth_of
+from regkit.api.tables import Summary
+from regkit.arrays import Array
+from regkit.body import Body
+from regkit.errors import ConfigError, DataError
+from regkit.files import write_arrays
+from regkit.interfaces import Registrar
+from regkit.metrics import JointErrors, Measure, joint_errors, measured
+from regkit.skeleton import Pose
+from regkit.tracking import Track, TrackedFrame
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True, repr=False)
+class Tracking(Summary):
+    """A tracked sequence of T frames.
+
+    ``len`` is T, and an index gives the ``Registration`` of a frame.
+
+    Attributes:
+        name: What the sequence is called.
+        method: What the method is called.
+        fps: Frames per second at which it was recorded.
+        registrar: What registered the frames.
+        frames: What was measured and found in each of them.
+        track: The same as arrays: root (T, 4, 4) [m], balls (T, n_ball, 4), hinges (T, n_hinge)
+            [rad], markers, seconds and more.
+    """
+
+    name: str
+    method: str
+    fps: float
+    registrar: Registrar
+    frames: tuple[TrackedFrame, ...]
+    track: Track
+
+    @property
+    def body(self) -> Body:
+        """The body at the size that was given or found."""
+        return self.registrar.body
+
+    @property
+    def size(self) -> float:
+        """The body's height, length, or whatever its template names [m]."""
+        return self.body.size
+
+    @property
+    def joint_names(self) -> tuple[str, ...]:
+        """The names of the M markers, by which reference joints are matched."""
+        return self.body.markers.names
+
+    @property
+    def markers(self) -> Array:
+        """Positions of the markers in the camera's frame, (T, M, 3) [m]."""
+        return self.track.markers
+
+    @property
+    def poses(self) -> tuple[Pose, ...]:
+        """The pose in each frame."""
+        return tuple(frame.registered.pose for frame in self.frames)
+
+    @cached_property
+    def segments(self) -> Array:
+        """T_camera_segment of each of S segments, (T, S, 4, 4) [m]; their names are ``body``'s."""
+        return np.array([self.body.place(pose).transforms for pose in self.poses])
+
+    def measure(self, truth: Reference | None = None) -> Measure:
+        """The figures of an experiment's report.
+
+        Args:
+            truth: Reference joints; without them there are no joint errors.
+
+        Raises:
+            RegkitError: If they do not fit the frames or the markers.
+        """
+        return measured(self.track, self.body, self._errors(truth), self.fps)
+
+    def error(self, truth: Reference) -> float:
+        """The mean distance [m] of the markers to reference joints that were seen.
+
+        Raises:
+            RegkitError: If they do not fit the frames or the markers, or none was seen.
+        """
+        known = truth_of(truth, self.body, len(self))
+        distances = joint_errors(self.track, self.body, known, {}).raw
+        if not np.isfinite(distances).any():
+            raise DataError("no joint was seen in any frame", place="truth")
+        return float(np.nanmean(distances))
+
+    def plot(self, truth: Reference | None = None) -> Figure:
+        """The first, the worst and the last frame, from the front and from the side.
+
+        Args:
+            truth: Reference joints, drawn as crosses.
+        """
+        from regkit.report.overlay import overlay
+        from regkit.report.record import Record
+        from regkit.report.style import PALETTE
+
+        known = None if truth is None else truth_of(truth, self.body, len(self))
+        errors = self._errors(truth)
+        record = Record.of(self.frames, self.track, self.registrar, errors, known, self.fps)
+        return overlay(f"{self.method} on {self.name}", record, PALETTE[0])
+
+    def save(self, path: str | Path) -> None:
+        """Write the motion as an ``.npz`` file, with the arrays of a run's ``poses.npz``.
+
+        Raises:
+            ConfigError: If the name does not end with ``.npz``.
+            DataError: If the file cannot be written.
+        """
+        if Path(path).suffix != ".npz":
+            raise ConfigError(f"'{path}' must end with .npz", place="path")
+        write_arrays(Path(path), self.track.named_arrays(self.body))
+
+    def _errors(self, truth: Reference | None) -> JointErrors | None:
+        if truth is None:
+            return None
+        return joint_errors(self.track, self.body, truth_of(truth, self.body, len(self)), {})
+
+    def __len__(self) -> int:
+        """Number of frames."""
+        return len(self.frames)
+
+    def __getitem__(self, index: int) -> Registration:
+        """What was found in a frame."""
+        at = range(len(self))[index]
+        kept = {name: values[at : at + 1] for name, values in vars(self.track).items()}
+        name = f"{self.name}[{at}]" if len(self) > 1 else self.name
+        one = Tracking(
+            name, self.method, self.fps, self.registrar, (self.frames[at],), Track(**kept)
+        )
+        return Registration(one)
+
+    def rows(self) -> dict[str, str]:
+        """What a table says of it."""
+        measure = self.measure()
+        return {
+            "sequence": f"{self.name}, {len(self)} frames",
+            **_rows(self, measure),
+            "converged": f"{len(self) - int(measure.unconverged_frames or 0)} of {len(self)}",
+            "speed": f"{measure.fps:.3g} frames per second",
+        }
+
+
+@dataclass(frozen=True, repr=False)
+class Registration(Summary):
+    """A body's pose in one frame.
+
+    Attributes:
+        tracking: The same as a sequence of one frame.
+    """
+
+    tracking: Tracking
+
+    @property
+    def body(self) -> Body:
+        """The body at the size that was given or found."""
+        return self.tracking.body
+
+    @property
+    def size(self) -> float:
+        """The body's height, length, or whatever its template names [m]."""
+        return self.body.size
+
+    @property
+    def pose(self) -> Pose:
+        """The pose."""
+        return self.tracking.poses[0]
+
+    @property
+    def joint_names(self) -> tuple[str, ...]:
+        """The names of the M markers."""
+        return self.tracking.joint_names
+
+    @property
+    def markers(self) -> Array:
+        """Positions of the markers in the camera's frame, (M, 3) [m]."""
+        return np.asarray(self.tracking.markers[0])
+
+    @property
+    def segments(self) -> Array:
+        """T_camera_segment of each segment, (S, 4, 4) [m]."""
+        return np.asarray(self.tracking.segments[0])
+
+    @property
+    def points(self) -> Array:
+        """The points that the body was registered to, (N, 3) [m]."""
+        return self.tracking.frames[0].observation.points
+
+    def error(self, truth: Mapping[str, ArrayLike] | ArrayLike) -> float:
+        """The mean distance [m] of the markers to reference joints.
+
+        Args:
+            truth: Positions (3,) [m] by name, or (M, 3) [m] of all markers; NaN where unseen.
+
+        Raises:
+            RegkitError: If they do not fit the markers.
+        """
+        if isinstance(truth, Mapping):
+            return self.tracking.error({name: np.asarray(at)[None] for name, at in truth.items()})
+        return self.tracking.error(np.asarray(truth)[None])
+
+    def plot(self) -> Figure:
+        """The frame from the front and from the side."""
+        return self.tracking.plot()
+
+    def save(self, path: str | Path) -> None:
+        """Write the pose as ``Tracking.save`` does a motion, with T = 1."""
+        self.tracking.save(path)
+
+    def rows(self) -> dict[str, str]:
+        """What a table says of it."""
+        registered = self.tracking.frames[0].registered
+        return {
+            "frame": self.tracking.name,
+            **_rows(self.tracking, self.tracking.measure()),
+            "converged": f"{'yes' if registered.converged else 'no'}: {registered.message}",
+        }
+
+
+def _rows(tracking: Tracking, measure: Measure) -> dict[str, str]:
+    surface = measure.surface_distance_mm
+    return {
+        "method": tracking.method,
+        "body": f"{tracking.body.name}, {tracking.size:.3g} m",
+        "surface": "-" if surface is None else f"half of the data within {surface:.3g} mm",
+    }
