@@ -58,6 +58,12 @@ def test_identical_values_have_an_interval_of_no_width():
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("statistic", ["mean", "median"])
+def test_values_that_only_rounding_tells_apart_are_identical(statistic):
+    values = np.array([100.0] * 5 + [np.nextafter(100.0, 0.0)])
+    assert bootstrapped(values, statistic) == (values[-1], 100.0)
+
+
 def test_interval_of_the_mean_covers_it_as_often_as_it_says(random):
     """Of 200 samples of 28 skewed values, 95 % should; a few less is what so few values allow."""
     intervals = [bootstrapped(random.gamma(3.0, size=28), "mean") for _ in range(200)]
