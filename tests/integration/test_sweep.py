@@ -153,6 +153,10 @@ def test_items_of_a_presets_list_are_swept(files):
         ({("terms",): [["a", "b"], []]}, ["m,terms=a_b", "m,terms=v2"]),
         ({("path",): ["a/b", "c d"]}, ["m,path=v1", "m,path=v2"]),
         ({("terms", "0"): ["a"]}, ["m,terms.0=a"]),
+        ({(): ["a", {"kind": "b"}], ("s",): [1]}, ["m,a,s=1", "m,b,s=1"]),
+        ({("joints", "a/b"): [1], ("joints", "c d"): [2]}, ["m,a_b=1,c_d=2"]),
+        ({("joints", "a/b"): [1], ("joints", "a b"): [2]}, ["m,a_b.1=1,a_b.2=2"]),
+        ({("path",): ["v2", "a/b"]}, ["m,path=v1", "m,path=v2"]),
         ({tuple("abcdefgh"): ["x" * 40], tuple("abcdefgi"): ["y" * 40]}, ["m,001"]),
     ],
 )  # fmt: skip

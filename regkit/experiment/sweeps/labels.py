@@ -15,11 +15,12 @@ def variants(head: str, values: Mapping[tuple[str, ...], Sequence[Any]]) -> list
 
     Args:
         head: What every name begins with, such as a method's name, or nothing.
-        values: Lists by the way to the field.
+        values: Lists by the way to the field, which is empty if the whole is swept.
     """
     names = [head] if head else [""]
     for way, texts in zip(_shortest(list(values)), map(_texts, values.values()), strict=True):
-        names = [f"{name}{',' if name else ''}{way}={text}" for name in names for text in texts]
+        names = [",".join(filter(None, (name, f"{way}={text}" if way else text)))
+                 for name in names for text in texts]  # fmt: skip
     if max(map(len, names)) <= LONGEST:
         return names
     return [f"{head or 'setting'},{number:03d}" for number in range(1, len(names) + 1)]
@@ -36,17 +37,21 @@ def _shortest(ways: list[tuple[str, ...]]) -> list[str]:
             way[-length].isdecimal() or any(other[-length:] == way[-length:] for other in others)
         ):
             length += 1
-        ends.append(".".join(way[-length:]))
+        ends.append(re.sub(r"[^A-Za-z0-9_.-]", "_", ".".join(way[-length:])))
+    if len(set(ends)) < len(ends):
+        return [f"{end}.{number}" for number, end in enumerate(ends, 1)]
     return ends
 
 
 def _texts(values: Sequence[Any]) -> list[str]:
     """A text for each value; its number in the list where it has none of its own."""
     texts = [_text(value) for value in values]
-    return [
-        text if text is not None and texts.count(text) == 1 else f"v{number}"
-        for number, text in enumerate(texts, 1)
+    numbers = [f"v{number}" for number in range(1, len(texts) + 1)]
+    found = [
+        text if text is not None and texts.count(text) == 1 else number
+        for text, number in zip(texts, numbers, strict=True)
     ]
+    return found if len(set(found)) == len(found) else numbers
 
 
 def _text(value: Any) -> str | None:

@@ -120,7 +120,7 @@ def _with_variants(document: Document, axes: list[Axis]) -> Document:
     places = {at: place for at, place in document.places.items() if at[:1] != ("methods",)}
     for method in document.data["methods"]:
         own = [axis for axis in axes if axis.keys[:2] == ("methods", method)]
-        names = variants(method, {axis.keys[2:] or ("",): axis.values for axis in own})
+        names = variants(method, {axis.keys[2:]: axis.values for axis in own})
         for name, chosen in zip(names, _choices(own), strict=True):
             one = _changed(document, own, chosen)
             methods[name] = one.data["methods"][method]
