@@ -27,7 +27,8 @@ if TYPE_CHECKING:
     from jinja2 import Environment
 
 PICTURES = 12
-"""So many overlays are on the page, the worst sequences of each method; the others are linked."""
+"""So many overlays are on the page, the worst sequences of each method, or the worst one of the
+first methods; the others are linked."""
 
 ROWS = 40
 """A table of more rows than this is folded up."""
@@ -155,7 +156,7 @@ def _worst(run: Run) -> Iterator[tuple[str, str]]:
         each = len(run.sequences)
     else:
         each = max(1, PICTURES // max(1, len(run.finished)))
-    for method in run.finished:
+    for method in list(run.finished)[:PICTURES]:
         yield from ((method, sequence) for sequence in run.worst(method)[:each])
 
 
@@ -193,6 +194,6 @@ def _embedded(png: bytes) -> str:
 def _markdown(text: object) -> str:
     """Text that Markdown takes as it is, also in a table."""
     flat = " ".join(str(text).split())
-    for special in "\\|*`[<":
+    for special in "\\|*`[]<":
         flat = flat.replace(special, "\\" + special)
     return flat

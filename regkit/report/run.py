@@ -14,6 +14,9 @@ from regkit.metrics.pairs import Pair, compared
 from regkit.report.record import Record
 from regkit.report.style import Style, styles
 
+MOST_DRAWN = 12
+"""Curves or bars of more methods than this in one figure cannot be told apart."""
+
 
 @dataclass(frozen=True)
 class Run:
@@ -57,6 +60,28 @@ class Run:
     def shared(self) -> list[str]:
         """The sequences that every method finished, of those that finished any."""
         return [s for s in self.sequences if all(s in by for by in self.finished.values())]
+
+    @cached_property
+    def drawn(self) -> list[str]:
+        """The methods that share a figure: all that finished a sequence, or the best of many."""
+        names = list(self.finished)
+        if len(names) <= MOST_DRAWN:
+            return names
+
+        def mean(name: str) -> float:
+            values = [self.value(name, sequence) for sequence in self.finished[name]]
+            known = [value for value in values if value is not None]
+            return float(np.mean(known)) if known else np.inf
+
+        chosen = sorted(names, key=mean)[:MOST_DRAWN]
+        return [name for name in names if name in chosen]
+
+    @property
+    def not_drawn(self) -> str:
+        """What a figure's caption says of the methods that are left out of it."""
+        if len(self.drawn) == len(self.finished):
+            return ""
+        return f" Of {len(self.finished)} methods the {len(self.drawn)} best are drawn."
 
     @cached_property
     def compared(self) -> bool:

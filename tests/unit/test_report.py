@@ -170,6 +170,48 @@ def test_large_run_stays_a_page_that_can_be_read(tmp_path):
     assert page.read_text().count('class="card"') == 10
 
 
+def test_figures_of_very_many_can_be_read_and_their_numbers_are_all_there():
+    """Of forty methods on seventy sequences: a picture has the best ones and the worst ones."""
+    methods = {f"m{index}": METHODS["sog"] for index in range(40)}
+    run = made_run(70, methods=methods)
+    by_name = {plot.name: plot for plot in plots(run)}
+    for name in ("thresholds", "over_time", "joints", "sequences"):
+        assert "Of 40 methods the 12 best are drawn." in by_name[name].caption
+        assert by_name[name].draw(LIGHT).get_figheight() < 90.0
+    curves = by_name["thresholds"].draw(LIGHT).axes[0].get_legend_handles_labels()[1]
+    assert curves == [f"m{index}" for index in range(12)]
+    axes = by_name["sequences"].draw(LIGHT).axes[0]
+    largest = {s: max(run.value(method, s) for method in curves) for s in run.sequences}
+    least = sorted(largest.values())[-60]
+    assert [label.get_text() for label in axes.get_yticklabels()] == [
+        sequence for sequence in run.sequences if largest[sequence] >= least
+    ]
+    assert len(by_name["sequences"].rows) == 70
+    assert len(by_name["thresholds"].columns) == 1 + 2 * 40
+
+
+def test_page_of_very_many_methods_has_few_pictures(tmp_path):
+    run = made_run(2, methods={f"m{index}": METHODS["sog"] for index in range(20)})
+    for method, records in run.records.items():
+        for sequence in records:
+            overlay = tmp_path / method / sequence / "overlay.png"
+            overlay.parent.mkdir(parents=True)
+            overlay.write_bytes(b"\x89PNG")
+    write_report(run, tmp_path, figures=False)
+    page = (tmp_path / "report.html").read_text()
+    assert page.count('class="card"') == 12
+    assert "28 other pictures" in page
+
+
+def test_brackets_in_a_name_do_not_end_a_link(tmp_path):
+    run = made_run(1, prefix="walk [2] ")
+    overlay = tmp_path / "sog" / "walk [2] 0" / "overlay.png"
+    overlay.parent.mkdir(parents=True)
+    overlay.write_bytes(b"\x89PNG")
+    write_summary(run, tmp_path)
+    assert r"![sog on walk \[2\] 0](sog/walk" in (tmp_path / "report.md").read_text()
+
+
 @pytest.mark.parametrize("compared", [True, False])
 @pytest.mark.parametrize("kind", ["gaussians", "capsules", "solids", "points"])
 def test_record_is_read_as_it_was_written(random, kind, compared, tmp_path):

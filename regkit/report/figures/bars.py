@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 BAR = 0.13
 """Height of a bar, in inches; thinner where there are many."""
 
+MOST = 60
+"""Of so many sequences bars are drawn: those with the largest figures."""
+
 
 def sequence_bars(run: Run) -> Plot | None:
     """The figure that methods are judged by, of all methods on all sequences."""
@@ -22,11 +25,11 @@ def sequence_bars(run: Run) -> Plot | None:
         return None  # The figure of two shape models shows it all.
     return _bars(
         run,
-        list(run.finished),
+        run.drawn,
         "sequences",
         "Each sequence",
         f"The {NAMES[run.figure]} of every method on every sequence; shorter is better, and where "
-        "a bar is missing the sequence failed or was not done.",
+        f"a bar is missing the sequence failed or was not done.{run.not_drawn}",
     )
 
 
@@ -62,10 +65,15 @@ def _bars(run: Run, methods: Sequence[str], name: str, title: str, caption: str)
     rows = [row for row in rows if any(value is not None for value in row[1:])]
     if not rows:
         return None
-    unit = BY_NAME[run.figure].unit
+    unit, shown = BY_NAME[run.figure].unit, rows
+    if len(rows) > MOST:
+        largest = {row[0]: max(float(one) for one in row[1:] if one is not None) for row in rows}
+        worst = set(sorted(largest, key=lambda name: -largest[name])[:MOST])
+        shown = [row for row in rows if row[0] in worst]
+        caption += f" Of {len(rows)} sequences the {MOST} with the largest are drawn."
 
     def draw(ink: Ink) -> Figure:
-        return _drawn(run, methods, rows, ink)
+        return _drawn(run, methods, shown, ink)
 
     return Plot(
         name=name,

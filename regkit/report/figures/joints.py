@@ -42,7 +42,7 @@ def joint_dots(run: Run) -> Plot | None:
         return None
     caption = (
         "The mean error of each joint over all frames of all sequences, the joint that is worst "
-        "over all methods at the top."
+        f"over all methods at the top.{run.not_drawn}"
     )
     joints.sort(key=lambda name: -float(np.mean([by[name] for by in means.values() if name in by])))
 
@@ -70,6 +70,7 @@ def joint_dots(run: Run) -> Plot | None:
 def _drawn(run: Run, joints: list[str], means: dict[str, dict[str, float]], ink: Ink) -> Figure:
     figure = canvas(ink, 0.9 + 0.17 * len(joints))
     axes = styled(figure.add_subplot(), ink, grid="y")
+    means = {method: means[method] for method in run.drawn if method in means}
     for method, by_joint in means.items():
         style = run.style(method)
         known = [(index, by_joint[name]) for index, name in enumerate(joints) if name in by_joint]

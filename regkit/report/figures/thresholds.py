@@ -39,7 +39,7 @@ def threshold_curves(run: Run) -> Plot | None:
         f"The percent of all joints, in all frames of all sequences, that are within a distance; "
         f"it ends at {100 * WIDEST:.0f} % of the body's size, and the upright line is at "
         f"{100 * NEAR:.0f} % ({near:.3g} cm). Higher and farther to the left is better."
-    )
+    ) + run.not_drawn
 
     def draw(ink: Ink) -> Figure:
         return _drawn(run, thresholds, curves, near, ink)
@@ -80,7 +80,7 @@ def _drawn(
         axes.set_title(KINDS[kind], color=ink.text, fontsize=9)
         axes.axvline(near, color=ink.faint, linewidth=1.0)
         for (method, of), curve in curves.items():
-            if of != kind:
+            if of != kind or method not in run.drawn:
                 continue
             style = run.style(method)
             axes.plot(

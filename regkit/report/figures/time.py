@@ -30,21 +30,30 @@ def errors_over_time(run: Run) -> Plot | None:
                 curves.setdefault(sequence, {})[method] = curve
     if not curves:
         return None
+    drawn = {
+        sequence: shown
+        for sequence, by in curves.items()
+        if (shown := {method: by[method] for method in run.drawn if method in by})
+    }
     worst = sorted(
-        curves, key=lambda name: -max(float(np.nanmean(c)) for c in curves[name].values())
+        drawn, key=lambda name: -max(float(np.nanmean(c)) for c in drawn[name].values())
     )[:MOST]
-    shown = [name for name in run.sequences if name in worst]
+    drawn = {name: drawn[name] for name in run.sequences if name in worst}
     what = "mean joint error" if joints else "median distance of the data to the surface"
     chosen = f", in the {MOST} sequences with the largest" if len(curves) > MOST else ""
-    caption = f"The {what} of each frame{chosen}" + (
-        "; a bar below shows when a method had lost the body (less than half of the joints near)."
-        if joints
-        else "."
+    caption = (
+        f"The {what} of each frame{chosen}"
+        + (
+            "; a bar below shows when a method had lost the body (less than half of the joints near)."
+            if joints
+            else "."
+        )
+        + run.not_drawn
     )
     unit = "cm" if joints else "mm"
 
     def draw(ink: Ink) -> Figure:
-        return _drawn(run, {name: curves[name] for name in shown}, f"error [{unit}]", ink)
+        return _drawn(run, drawn, f"error [{unit}]", ink)
 
     rows: list[list[Value]] = []
     for sequence, by_method in curves.items():
