@@ -35,7 +35,7 @@ def environment(earlier: Path, workers: str) -> dict[str, Any]:
         workers: Who does the work this time; frames per second are theirs, who share the machine.
     """
     told, begun = [], f"{datetime.now().astimezone():%Y-%m-%d %H:%M %z}"
-    with suppress(OSError, ValueError, KeyError):
+    with suppress(OSError, ValueError, KeyError, TypeError):
         before = json.loads(earlier.read_text(encoding="utf-8"))
         told, begun = list(before["workers"]), str(before["date"])
     return {

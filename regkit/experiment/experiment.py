@@ -34,6 +34,19 @@ Name = Annotated[
     WithJsonSchema({"type": "string", "pattern": _FOLDER}),
 ]
 
+RESERVED = (
+    "config.yaml", "environment.json", "metrics.json", "report.html", "report.md",
+    "starts", "figures", "tables",
+)  # fmt: skip
+"""What else is in a results folder, beside the methods' folders."""
+
+
+def _not_reserved(name: str) -> str:
+    # Some file systems do not tell capitals apart.
+    if name.lower() in RESERVED:
+        raise ValueError(f"'{name}' is what a run calls something else in its folder; take another")
+    return name
+
 
 class Experiment(Model):
     """Methods that register one template to the sequences of one dataset, on equal terms."""
@@ -53,7 +66,7 @@ class Experiment(Model):
     start: PoseDescription | None = None
     """Pose in the first frame of every sequence; found from the cloud without it. It needs the
     template's size."""
-    methods: dict[Name, Method] = Field(min_length=1)
+    methods: dict[Annotated[Name, AfterValidator(_not_reserved)], Method] = Field(min_length=1)
     """What is compared, by a name of your own."""
 
     @field_validator("start")

@@ -53,17 +53,14 @@ def held(folder: Path) -> Iterator[Hold]:
         DataError: If it cannot be written to.
     """
     hold, new = Hold(folder.absolute(), uuid4().hex), not folder.exists()
-    try:
+    with _told(folder):
         folder.mkdir(parents=True, exist_ok=True)
         descriptor = _locked(folder)
-    except OSError as error:
-        raise DataError(
-            f"cannot be written: {error.strerror or error}", place=str(folder)
-        ) from None
     try:
         claim = {"run": hold.run, "process": os.getpid(), "machine": platform.node()}
-        os.truncate(descriptor, 0)
-        os.write(descriptor, json.dumps(claim).encode())
+        with _told(folder):
+            os.truncate(descriptor, 0)
+            os.write(descriptor, json.dumps(claim).encode())
         yield hold
     finally:
         with suppress(OSError):
@@ -74,15 +71,30 @@ def held(folder: Path) -> Iterator[Hold]:
                 folder.rmdir()
 
 
+@contextmanager
+def _told(folder: Path) -> Iterator[None]:
+    """An error of the operating system as one that names the folder."""
+    try:
+        yield
+    except OSError as error:
+        raise DataError(
+            f"cannot be written: {error.strerror or error}", place=str(folder)
+        ) from None
+
+
 def _locked(folder: Path) -> int:
     """An open descriptor of the mark, which nobody else has locked."""
     while True:
         descriptor = os.open(folder / MARK, os.O_RDWR | os.O_CREAT, 0o644)
         try:
             _lock(descriptor)
-        except OSError:
+        except (BlockingIOError, PermissionError):
             os.close(descriptor)
             raise _occupied(folder) from None
+        except OSError:
+            # A file system without locks, say; nobody else is there.
+            os.close(descriptor)
+            raise
         # Its last holder may have removed the file between our opening and locking it.
         with suppress(OSError):
             if os.path.samestat(os.fstat(descriptor), (folder / MARK).stat()):

@@ -16,6 +16,9 @@ from regkit.metrics import Measure
 WRITTEN_EVERY = 1.0
 """The figures are written no more often than this [s] while the run goes on."""
 
+WRITING = 0.05
+"""Nor may writing them take more than this part of the time: of a large sweep it takes seconds."""
+
 
 @dataclass(frozen=True)
 class Outcome:
@@ -48,7 +51,7 @@ class Ledger:
     setting: str = ""
     _measures: dict[Track, Measure] = field(default_factory=dict)
     _failures: dict[Track, str] = field(default_factory=dict)
-    _written: float = 0.0
+    _due: float = 0.0
 
     def open(self, workers: str) -> None:
         """Make the folder of an experiment of a sweep, in that of the sweep.
@@ -60,7 +63,11 @@ class Ledger:
         Results.opened(self.results.folder, self.experiment.model_dump(mode="json"), workers)
 
     def read(self) -> Iterator[tuple[str, RegkitError]]:
-        """Take in what the folder holds already; what is damaged there counts as failed."""
+        """Take in what the folder holds already; what is damaged there counts as failed.
+
+        Of methods that are not run now, what failed before is still to be told.
+        """
+        failed = self.results.failures()
         for method in self.experiment.methods:
             for sequence in self.lengths:
                 track = (method, sequence)
@@ -72,6 +79,8 @@ class Ledger:
                 else:
                     if measure is not None:
                         self._measures[track] = measure
+                    elif method not in self.methods and sequence in failed.get(method, {}):
+                        self._failures[track] = failed[method][sequence]
 
     def tracks(self) -> Iterator[tuple[Task, list[Task]]]:
         """For each sequence, the task that makes it ready and those that are still to be done."""
@@ -105,7 +114,7 @@ class Ledger:
             self._failures[track] = str(result)
         else:
             self._measures[track] = result
-        if time.monotonic() - self._written > WRITTEN_EVERY:
+        if time.monotonic() > self._due:
             self.summarise()
 
     @property
@@ -124,9 +133,10 @@ class Ledger:
 
     def summarise(self) -> None:
         """Write the figures so far."""
-        outcome = self.outcome
+        outcome, begun = self.outcome, time.monotonic()
         summarise(self.results.folder, outcome.measures, outcome.failures)
-        self._written = time.monotonic()
+        ended = time.monotonic()
+        self._due = ended + max(WRITTEN_EVERY, (ended - begun) / WRITING)
 
     def report(self, *, figures: bool) -> None:
         """Write the report, with its figures or without."""

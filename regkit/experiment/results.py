@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import traceback
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -57,11 +58,12 @@ class Results:
         file = folder / "config.yaml"
         if file.exists():
             before = file.read_text(encoding="utf-8")
-            if before != text:
+            # A comment in the file, or another order of its fields, is no other configuration.
+            if before != text and (there := yaml_data(before)) != (here := yaml_data(text)):
                 raise ConfigError(
                     f"the folder holds the results of another configuration ({file}): "
-                    f"{differences(yaml_data(before), yaml_data(text))}; choose another folder, or "
-                    "run what it was begun with",
+                    f"{differences(there, here)}; choose another folder, or run what it was begun "
+                    "with",
                     place=f"--out {folder}",
                 )
         elif any(path.name != MARK for path in folder.iterdir()):
@@ -94,6 +96,20 @@ class Results:
                 f"damaged ({error}); delete the file to have the sequence done again",
                 place=str(file),
             ) from None
+
+    def failures(self) -> dict[str, dict[str, str]]:
+        """Why sequences failed before, by method and sequence, if ``metrics.json`` is there."""
+        with suppress(OSError, ValueError, KeyError, TypeError, AttributeError):
+            told = json.loads((self.folder / "metrics.json").read_text(encoding="utf-8"))
+            return {
+                method: {
+                    sequence: str(figures["error"])
+                    for sequence, figures in one["sequences"].items()
+                    if "error" in figures
+                }
+                for method, one in told["methods"].items()
+            }
+        return {}
 
     def record(self, method: str, sequence: str) -> Record | None:
         """What is kept of a finished sequence for the report, or None.

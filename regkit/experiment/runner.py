@@ -35,7 +35,8 @@ def run(
 
     A sequence that fails does not stop the others. The figures are the same to the last bit,
     whoever does the work, but for the frames per second. While the run goes on ``metrics.json``
-    tells what is finished; the report is written when it ends, even by an interrupt.
+    and ``report.md`` tell what is finished, also when it is interrupted; the page and the figures
+    are written when all is done.
 
     Args:
         experiment: What to run; the experiments of a sweep are run into folders of their own.

@@ -1,8 +1,10 @@
 """A run that is begun again does what is missing, and nothing is lost."""
 
+import errno
 import json
 import os
 import signal
+import sys
 from typing import Literal
 
 import pytest
@@ -12,9 +14,11 @@ from small_experiment import (
     Stepping,
     add_method,
     counting,
+    damage,
     figures_but_times,
 )
 
+from regkit.errors import DataError
 from regkit.experiment.hold import held
 from regkit.interfaces import Follower, Tracker
 from regkit.plugin import register
@@ -141,6 +145,24 @@ def test_only_keeps_what_other_methods_have_finished(regkit, files):
     assert set(files.metrics()["sog"]["sequences"]) == {"first"}
 
 
+def test_only_keeps_what_other_methods_have_failed(regkit, files):
+    add_method(files.experiment, "sog", "sog")
+    damage(files.data / "second" / "depth" / "000000.png")
+    assert regkit("run", files.experiment, "--out", files.out, "--no-figures").code == 1
+    before = files.metrics()
+    only = ("--only", "sog", "--no-figures")
+    assert regkit("run", files.experiment, "--out", files.out, *only).code == 1
+    assert "the image is damaged" in before["gsog"]["sequences"]["second"]["error"]
+    assert files.metrics()["gsog"] == before["gsog"]
+
+
+def test_comment_in_the_folders_configuration_is_no_difference(regkit, files):
+    assert regkit("run", files.experiment, "--out", files.out, *QUICK).code == 0
+    with (files.out / "config.yaml").open("a") as stream:
+        stream.write("# Looked at on Monday.\n")
+    assert regkit("run", files.experiment, "--out", files.out, *QUICK).code == 0
+
+
 def test_difference_to_the_folder_is_named(regkit, files):
     regkit("run", files.experiment, "--out", files.out, *QUICK)
     ended = regkit("run", files.experiment, "--out", files.out, "--set",
@@ -176,6 +198,26 @@ def test_two_runs_in_one_folder_are_refused(regkit, files):
         assert f"another run (process {os.getpid()} on " in ended.err
         assert "is writing there" in ended.err
     assert regkit("run", files.experiment, "--out", files.out, *QUICK).code == 0
+
+
+def test_folder_that_cannot_be_claimed_is_told(files, monkeypatch):
+    def full(descriptor: int, data: bytes) -> int:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(os, "write", full)
+    with pytest.raises(DataError, match="cannot be written: No space left"), held(files.out):
+        pass
+    assert not files.out.exists()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="locks are others there")
+def test_file_system_without_locks_is_not_another_run(files, monkeypatch):
+    def unknown(descriptor: int, operation: int) -> None:
+        raise OSError(errno.ENOLCK, "No locks available")
+
+    monkeypatch.setattr("fcntl.flock", unknown)
+    with pytest.raises(DataError, match="No locks available"), held(files.out):
+        pass
 
 
 def test_start_is_found_once(regkit, files):
