@@ -143,9 +143,16 @@ class Run:
 
 
 def method_styles(config: Mapping[str, Any], others: Iterable[str] = ()) -> dict[str, Style]:
-    """How each method of an experiment is drawn, and others that it does not name."""
-    methods: dict[str, Mapping[str, Any]] = dict(config.get("methods", {}))
-    methods.update({name: _configured(config, name) for name in others if name not in methods})
+    """How each method of an experiment is drawn, and others that it does not name.
+
+    A method that a sweep runs as ``SETTING/METHOD`` is not drawn itself, and takes no colour.
+    """
+    names = list(others)
+    swept = {name.rpartition("/")[2] for name in names if "/" in name}
+    methods: dict[str, Mapping[str, Any]] = {
+        name: method for name, method in config.get("methods", {}).items() if name not in swept
+    }
+    methods.update({name: _configured(config, name) for name in names if name not in methods})
     return styles({name: shape_of(method) or name for name, method in methods.items()})
 
 

@@ -64,8 +64,8 @@ def test_valid_experiment_is_read(file):
         ("    shape: gsog\n", "", "FILE:7: methods.gsog.shape: field required"),
         ("name: test", "name: a/b", "FILE:1: name: 'a/b' names a folder: use letters, digits, '-', "
          "'_' and '.', and begin with a letter or digit"),
-        ("  gsog:", "  Figures:", "FILE:7: methods.Figures: 'Figures' is what a run calls something "
-         "else in its folder; take another"),
+        ("  gsog:", "  Figures:", "FILE:7: methods.Figures: 'Figures' is what a run calls "
+         "something else in its folder; take another"),
     ],
 )  # fmt: skip
 def test_experiment_error_names_the_place(file, old, new, expected):

@@ -277,6 +277,19 @@ def test_colours_tell_shape_models_and_shades_their_methods():
     assert found["c"].dash != found["b"].dash
 
 
+def test_methods_of_a_sweep_share_the_colours_of_their_shape_models(tmp_path):
+    """The methods of which settings are made are not drawn, and take no colour from those."""
+    methods = {f"voxel={v}/{name}": METHODS[name] for v in (1, 2, 3) for name in ("sog", "gsog")}
+    run = made_run(1, methods=methods)
+    run = replace(run, config=run.config | {"methods": {m: METHODS[m] for m in ("sog", "gsog")}})
+    assert [run.style(f"voxel=1/{name}").colour.upper() for name in ("sog", "gsog")] == [
+        *PALETTE[:2]
+    ]
+    assert len({style.colour for style in run.styles.values()}) == len(methods)
+    write_report(run, tmp_path, figures=False)
+    assert 'class="swatch"' not in (tmp_path / "report.html").read_text()
+
+
 def test_methods_of_one_shape_model_have_colours_of_their_own():
     found = styles(dict.fromkeys("abcdefghij", "gsog"))
     assert len({style.colour for style in found.values()}) == len(PALETTE)

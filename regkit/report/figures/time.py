@@ -44,7 +44,8 @@ def errors_over_time(run: Run) -> Plot | None:
     caption = (
         f"The {what} of each frame{chosen}"
         + (
-            "; a bar below shows when a method had lost the body (less than half of the joints near)."
+            "; a bar below shows when a method had lost the body (less than half of the joints "
+            "near)."
             if joints
             else "."
         )
