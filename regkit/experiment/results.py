@@ -71,7 +71,8 @@ class Results:
                 "the folder holds other files; choose a new or an empty one",
                 place=f"--out {folder}",
             )
-        remove_unfinished(folder)
+        for place in (folder, folder / "figures", folder / "tables"):
+            remove_unfinished(place)
         write_text(file, text)
         write_json(folder / "environment.json", environment(folder / "environment.json", workers))
         return cls(folder)

@@ -40,14 +40,14 @@ COLUMNS = (
     Column("within_10cm_percent", "in 10 cm", "%", "more"),
     Column("area_percent", "area", "%", "more"),
     Column("lost_frames", "lost", "frames", "less"),
-    Column("recovery_s", "lost for", "s", "less", 2),
+    Column("recovery_s", "lost for", "s", digits=2),
     Column("surface_distance_mm", "surface", "mm"),
     Column("limit_violation_deg", "limits", "°", "less"),
     Column("evaluations_per_frame", "evaluations", "/frame"),
     Column("fps", "speed", "fps", "more"),
 )
 """The figures of the page's tables; what counts as better where a surface distance depends on the
-observer, and evaluations cost differently, is left to the reader."""
+observer, evaluations cost differently, and only who was lost has a time, is left to the reader."""
 
 BY_NAME = {column.figure: column for column in COLUMNS}
 

@@ -163,6 +163,15 @@ def test_comment_in_the_folders_configuration_is_no_difference(regkit, files):
     assert regkit("run", files.experiment, "--out", files.out, *QUICK).code == 0
 
 
+def test_what_a_kill_left_of_a_report_is_removed(regkit, files):
+    assert regkit("run", files.experiment, "--out", files.out, *QUICK).code == 0
+    for name in ("figures/.bars.png.0.tmp.png", "tables/.pairs.csv.0.tmp.csv", ".a.json.0.tmp"):
+        (files.out / name).parent.mkdir(exist_ok=True)
+        (files.out / name).touch()
+    assert regkit("run", files.experiment, "--out", files.out, *QUICK).code == 0
+    assert not list(files.out.rglob(".*"))
+
+
 def test_difference_to_the_folder_is_named(regkit, files):
     regkit("run", files.experiment, "--out", files.out, *QUICK)
     ended = regkit("run", files.experiment, "--out", files.out, "--set",

@@ -297,6 +297,19 @@ def test_methods_of_one_shape_model_have_colours_of_their_own():
     assert len(looks) == 10
 
 
+def test_who_was_hardly_lost_is_not_called_better_than_who_never_was():
+    """Of the methods that were lost, the one with the shortest time need not be a good one."""
+    measures = made_run(1).measures
+    times = {"sog": None, "gsog": 0.1, "icp": 3.0}
+    measures = {
+        method: {s: replace(one, recovery_s=times[method]) for s, one in by.items()}
+        for method, by in measures.items()
+    }
+    table = main_table(measures)
+    column = table.headings.index("lost for [s]")
+    assert not any(row[column].best for row in table.rows)
+
+
 def test_figures_are_drawn_on_either_paper():
     plot = next(plot for plot in plots(made_run(1)) if plot.name == "timing")
     assert plot.png(LIGHT) != plot.png(DARK)
