@@ -59,6 +59,17 @@ NAMES = {
 """The figures that methods are compared in, in full."""
 
 
+LONGEST = 36
+"""A figure has no room for longer names; its numbers and the tables have them in full."""
+
+
+def label(name: str) -> str:
+    """A name as a figure shows it: the middle of a long one left out, and no mathematics in it."""
+    half = (LONGEST - 1) // 2
+    shown = name if len(name) <= LONGEST else f"{name[:half]}…{name[-half:]}"
+    return shown.replace("$", r"\$")
+
+
 def axis_label(figure: str) -> str:
     """A figure with its unit, as an axis is labelled."""
     return f"{NAMES[figure]} [{BY_NAME[figure].unit}]"

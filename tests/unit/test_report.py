@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from made_results import FRAMES, METHODS, form, links, made_run, record
 
+from regkit.metrics import JointErrors
 from regkit.report import Record, write_report, write_summary
 from regkit.report.brief import brief, flow
 from regkit.report.figures import plots
@@ -141,6 +142,31 @@ def test_report_without_references_is_of_the_surface(tmp_path):
     page = (tmp_path / "report.html").read_text()
     assert "median distance of the data to the surface" in page
     assert "raw [cm]" not in page
+
+
+def test_references_without_a_joint_are_none(tmp_path):
+    """Of fewer frames than there are, and nowhere known: the report is of the surface."""
+    run = made_run(2)
+    errors = JointErrors(("head",), np.full((4, 1), np.nan), np.full((4, 1), np.nan))
+    unknown = {"joint_error_raw_cm": None, "joint_error_adjusted_cm": None}
+    run = replace(
+        run,
+        records={m: {s: replace(one, errors=errors) for s, one in by.items()}
+                 for m, by in run.records.items()},
+        measures={m: {s: replace(one, **unknown) for s, one in by.items()}
+                  for m, by in run.measures.items()},
+    )  # fmt: skip
+    write_report(run, tmp_path)
+    rows = cells(tmp_path / "figures" / "over_time.csv")
+    assert len(rows) == 2 * len(METHODS) * FRAMES
+    assert {row["lost"] for row in rows} == {""}
+
+
+def test_long_names_leave_room_for_what_is_drawn():
+    names = ["voxel=0.02,sigma=0.01," * 4 + end for end in ("/sog", "/gsog")]
+    methods = {name: METHODS["sog"] for name in names}
+    for plot in plots(made_run(3, methods=methods, prefix="costs $5, and ${ " + "very " * 20)):
+        plot.png(LIGHT)  # Matplotlib warns where axes have no room.
 
 
 def test_report_of_nothing_but_failures_says_so(tmp_path):

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from regkit.report.plot import Ink, Plot, canvas, legend_above, styled
 from regkit.report.run import Run
-from regkit.report.words import BY_NAME, NAMES, axis_label, many
+from regkit.report.words import BY_NAME, NAMES, axis_label, label, many
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -106,9 +106,9 @@ def _drawn(
             hatch=style.hatch,
             edgecolor=ink.paper,
             linewidth=0.0,
-            label=method,
+            label=label(method),
         )
-    axes.set_yticks(range(len(rows)), [str(row[0]) for row in rows])
+    axes.set_yticks(range(len(rows)), [label(str(row[0])) for row in rows])
     axes.set_ylim(len(rows) - 0.5, -0.5)
     axes.tick_params(axis="y", length=0)
     axes.set_xlabel(axis_label(run.figure))

@@ -9,6 +9,7 @@ import numpy as np
 from regkit.metrics import JointErrors
 from regkit.report.plot import Ink, Plot, canvas, legend_above, styled
 from regkit.report.run import Run
+from regkit.report.words import label
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -82,9 +83,9 @@ def _drawn(run: Run, joints: list[str], means: dict[str, dict[str, float]], ink:
             markersize=5.0,
             color=style.colour,
             alpha=0.9,
-            label=method,
+            label=label(method),
         )
-    axes.set_yticks(range(len(joints)), joints)
+    axes.set_yticks(range(len(joints)), [label(joint) for joint in joints])
     axes.set_ylim(len(joints) - 0.5, -0.5)
     largest = max(value for by_joint in means.values() for value in by_joint.values())
     axes.set_xlim(0.0, 1.04 * largest or 1.0)

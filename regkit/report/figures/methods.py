@@ -10,7 +10,7 @@ from regkit.metrics import Summary, summary
 from regkit.metrics.statistics import FEWEST
 from regkit.report.plot import Ink, Plot, canvas, legend_above, styled
 from regkit.report.run import Run
-from regkit.report.words import NAMES, axis_label
+from regkit.report.words import NAMES, axis_label, label
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -95,10 +95,12 @@ def _drawn(run: Run, figures: list[str], ink: Ink) -> Figure:
         axes.set_xlim(0.0, 1.06 * largest or 1.0)
         axes.set_xlabel(axis_label(name).replace("mean joint", "joint"))
         axes.tick_params(axis="y", length=0)
-    grid[0].set_yticks(list(places.values()), list(places))
+    grid[0].set_yticks(list(places.values()), [label(name) for name in places])
     grid[0].set_ylim(max(places.values()) + 0.5, -0.5)
     if len(families) > 1:
-        handles = [Patch(facecolor=_colour(run, family), label=family) for family in families]
+        handles = [
+            Patch(facecolor=_colour(run, family), label=label(family)) for family in families
+        ]
         legend_above(figure, ink, handles, "shape model")
     return figure
 

@@ -11,6 +11,7 @@ from regkit.metrics import NEAR, share_within
 from regkit.metrics.measure import WIDEST
 from regkit.report.plot import Ink, Plot, canvas, legend_above, styled
 from regkit.report.run import Run
+from regkit.report.words import label
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -92,7 +93,7 @@ def _drawn(
                 marker=style.marker,
                 markersize=4.0,
                 markevery=(3, 12),
-                label=method if kind == kinds[0] else None,
+                label=label(method) if kind == kinds[0] else None,
             )
         axes.set_xlim(0.0, 100.0 * float(thresholds[-1]))
         axes.set_ylim(0.0, 101.0)

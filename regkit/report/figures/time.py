@@ -10,6 +10,7 @@ from regkit.arrays import Array
 from regkit.report.plot import Ink, Plot, Value, canvas, legend_above, styled
 from regkit.report.record import Record
 from regkit.report.run import Run
+from regkit.report.words import label
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -59,7 +60,8 @@ def errors_over_time(run: Run) -> Plot | None:
     rows: list[list[Value]] = []
     for sequence, by_method in curves.items():
         for method, curve in by_method.items():
-            losses = run.records[method][sequence].losses
+            # References may be of fewer frames than there are, and then have no joint at all.
+            losses = run.records[method][sequence].losses if joints else None
             fps = run.records[method][sequence].fps
             rows += [
                 [sequence, method, frame, frame / fps, float(value),
@@ -91,13 +93,13 @@ def _curve(record: Record, joints: bool) -> Array | None:
     )
 
 
-def _drawn(run: Run, curves: dict[str, dict[str, Array]], label: str, ink: Ink) -> Figure:
+def _drawn(run: Run, curves: dict[str, dict[str, Array]], what: str, ink: Ink) -> Figure:
     figure = canvas(ink, 0.7 + 1.45 * len(curves))
     grid = figure.subplots(len(curves), 1, squeeze=False)[:, 0]
     methods = [name for name in run.records if any(name in by for by in curves.values())]
     for axes, (sequence, by_method) in zip(grid, curves.items(), strict=True):
         styled(axes, ink, grid="y")
-        axes.set_title(sequence, loc="left", color=ink.text, fontsize=9)
+        axes.set_title(label(sequence), loc="left", color=ink.text, fontsize=9)
         for method, curve in by_method.items():
             style = run.style(method)
             seconds = np.arange(len(curve)) / run.records[method][sequence].fps
@@ -106,11 +108,11 @@ def _drawn(run: Run, curves: dict[str, dict[str, Array]], label: str, ink: Ink) 
                 marker=style.marker if len(curve) < 4 else None, markersize=4,
             )  # fmt: skip
         _shade(axes, run, sequence, list(by_method))
-        axes.set_ylabel(label)
+        axes.set_ylabel(what)
     grid[-1].set_xlabel("time [s]")
     handles = [
         grid[0].plot([], [], color=run.style(name).colour, linestyle=run.style(name).dash,
-                     label=name)[0]
+                     label=label(name))[0]
         for name in methods
     ]  # fmt: skip
     legend_above(figure, ink, handles)
