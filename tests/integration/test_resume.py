@@ -19,7 +19,11 @@ from small_experiment import (
 )
 
 from regkit.errors import DataError
+from regkit.experiment import Experiment
 from regkit.experiment.hold import held
+from regkit.experiment.ledger import Ledger
+from regkit.experiment.results import Results
+from regkit.experiment.task import Task
 from regkit.interfaces import Follower, Tracker
 from regkit.plugin import register
 
@@ -227,6 +231,25 @@ def test_file_system_without_locks_is_not_another_run(files, monkeypatch):
     monkeypatch.setattr("fcntl.flock", unknown)
     with pytest.raises(DataError, match="No locks available"), held(files.out):
         pass
+
+
+def test_writing_the_figures_takes_little_of_a_runs_time(files, monkeypatch):
+    """Of a large sweep it takes seconds, and may not be done after each track."""
+    experiment, now, written = Experiment.read(files.experiment), [100.0], []
+
+    def slow(*_: object) -> None:
+        written.append(now[0])
+        now[0] += 3.0
+
+    monkeypatch.setattr("regkit.experiment.ledger.summarise", slow)
+    monkeypatch.setattr("regkit.experiment.ledger.time.monotonic", lambda: now[0])
+    ledger = Ledger(experiment, Results(files.out), ["gsog"], {"first": 2})
+    task = Task(experiment, files.out, "first", "gsog")
+    for _ in range(300):
+        now[0] += 2.0
+        ledger.ended(task, DataError("it is dark"))
+    assert len(written) > 1
+    assert 3.0 * len(written) < 0.07 * (now[0] - 100.0)
 
 
 def test_start_is_found_once(regkit, files):

@@ -164,7 +164,7 @@ def test_references_without_a_joint_are_none(tmp_path):
 
 def test_long_names_leave_room_for_what_is_drawn():
     names = ["voxel=0.02,sigma=0.01," * 4 + end for end in ("/sog", "/gsog")]
-    methods = {name: METHODS["sog"] for name in names}
+    methods = dict.fromkeys(names, METHODS["sog"])
     for plot in plots(made_run(3, methods=methods, prefix="costs $5, and ${ " + "very " * 20)):
         plot.png(LIGHT)  # Matplotlib warns where axes have no room.
 
