@@ -17,7 +17,7 @@ demo: $(ready) ## Register a person to a depth sequence with SoG and G-SoG
 	@$(bin)/regkit run docs/examples/demo.yaml
 
 test: $(ready) lint ## Run every check
-	@$(bin)/pytest -q
+	@$(bin)/pytest -q --numprocesses auto --dist loadfile
 
 lint: $(ready)
 	@$(bin)/ruff check .

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
-from importlib.metadata import EntryPoint, entry_points
+from functools import lru_cache
+from importlib.metadata import EntryPoint, distributions
+from pathlib import Path
 from typing import Any
 
 from regkit.errors import PluginError
@@ -71,7 +74,7 @@ def installed(group: str) -> dict[str, Installed]:
     """All entry points of a group by name."""
     only = _ONLY.get()
     found: dict[str, list[EntryPoint]] = {}
-    for point in entry_points(group=group):
+    for point in _points(_path()).get(group, ()):
         if only is not None and not same_distribution(_brought_by(point), only):
             continue
         points = found.setdefault(point.name, [])
@@ -95,8 +98,32 @@ def only_from(distribution: str) -> Iterator[None]:
 
 def same_distribution(name: str, other: str) -> bool:
     """Whether two names are of one distribution, as package indexes compare them."""
-    first, second = (re.sub(r"[-_.]+", "-", each).lower() for each in (name, other))
-    return first == second
+    return _normalized(name) == _normalized(other)
+
+
+def _normalized(name: str) -> str:
+    return re.sub(r"[-_.]+", "-", name).lower()
+
+
+def _path() -> tuple[tuple[str, float], ...]:
+    """Where distributions are looked for, and when something was last installed there."""
+    return tuple((entry, folder.stat().st_mtime) for entry in sys.path
+                 if (folder := Path(entry or ".")).exists())  # fmt: skip
+
+
+@lru_cache(maxsize=1)
+def _points(_: tuple[tuple[str, float], ...]) -> dict[str, list[EntryPoint]]:
+    """Every entry point by its group; to read them takes a moment, and every slot asks for them."""
+    found: dict[str, list[EntryPoint]] = {}
+    names: set[str] = set()
+    for distribution in distributions():
+        name = _normalized(distribution.name)
+        if name in names:
+            continue  # An earlier folder of the path hides it.
+        names.add(name)
+        for point in distribution.entry_points:
+            found.setdefault(point.group, []).append(point)
+    return found
 
 
 def _brought_by(point: EntryPoint) -> str:

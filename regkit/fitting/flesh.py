@@ -6,6 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from regkit.arrays import Array, Indices
@@ -100,12 +102,18 @@ def interior_points(vertices: Array, faces: Indices, spacing: float) -> Array:
 
 
 def closed(vertices: Array, faces: Indices) -> tuple[Array, Indices]:
-    """The mesh with its one hole, if it has one, closed by a fan of triangles around its middle."""
+    """The mesh with each of its holes closed by a fan of triangles around the hole's middle."""
     edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
     reverse = {(int(b), int(a)) for a, b in edges}
     rim = np.array([edge for edge in edges if (int(edge[0]), int(edge[1])) not in reverse])
     if not len(rim):
         return vertices, faces
-    middle = vertices[rim].mean(axis=(0, 1))
-    fan = np.column_stack([rim[:, 1], rim[:, 0], np.full(len(rim), len(vertices))])
-    return np.concatenate([vertices, middle[None]]), np.concatenate([faces, fan])
+    count = len(vertices)
+    ties = coo_array((np.ones(len(rim)), (rim[:, 0], rim[:, 1])), shape=(count, count))
+    _, hole = connected_components(ties, directed=False)
+    holes, hole_of_edge = np.unique(hole[rim[:, 0]], return_inverse=True)
+    middles = [
+        vertices[rim[hole_of_edge == index]].mean(axis=(0, 1)) for index in range(len(holes))
+    ]
+    fans = np.column_stack([rim[:, 1], rim[:, 0], count + hole_of_edge])
+    return np.concatenate([vertices, middles]), np.concatenate([faces, fans])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -29,13 +30,13 @@ def bvh_of(motion: TrackedMotion) -> Bvh:
     # A segment's axes at rest are taken back, so that what is left turns the body's axes.
     rotations = UPRIGHT_CAMERA @ motion.transforms[..., :3, :3] @ rest[:, :3, :3].swapaxes(1, 2)
     joints, columns = [], [motion.transforms[:, 0, :3, 3] @ UPRIGHT_CAMERA.T]
-    for index, name in enumerate(skeleton.names):
+    for index, name in enumerate(_words(skeleton.names)):
         parent = parents[index]
         place = rest[index, :3, 3]
         leaf = index not in parents
         joints.append(
             BvhJoint(
-                name=re.sub(r"\s", "_", name),
+                name=name,
                 parent=parent,
                 offset=read_only(place - rest[parent, :3, 3] if parent >= 0 else np.zeros(3)),
                 channels=(*CHANNELS[:3], *_TURNS) if parent < 0 else _TURNS,
@@ -46,6 +47,17 @@ def bvh_of(motion: TrackedMotion) -> Bvh:
         relative = own if parent < 0 else rotations[:, parent].swapaxes(1, 2) @ own
         columns.append(np.degrees(continuous_zyx(relative)))
     return Bvh(tuple(joints), 1.0 / motion.fps, read_only(np.concatenate(columns, axis=1)))
+
+
+def _words(names: Sequence[str]) -> list[str]:
+    """Names without what the format takes for the end of one, each still unlike all others."""
+    words: list[str] = []
+    for name in names:
+        word = re.sub(r"[\s{}]", "_", name)
+        while word in words or (word != name and word in names):
+            word += "_"
+        words.append(word)
+    return words
 
 
 def _end(body: Body, segment: int) -> Array:

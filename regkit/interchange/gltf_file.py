@@ -74,7 +74,8 @@ class GltfFile:
         """
         numbers = self._numbers(accessor)
         values = numbers.astype(np.float64)
-        if self.content.accessors[accessor].normalized:
+        # Some exporters say normalized of floats too, for which it means nothing.
+        if self.content.accessors[accessor].normalized and numbers.dtype.kind != "f":
             # Section 3.11: a signed integer's most negative value stands for -1 too.
             values = np.maximum(values / np.iinfo(numbers.dtype).max, -1.0)
         if not np.isfinite(values).all():
@@ -90,6 +91,8 @@ class GltfFile:
         return self._numbers(accessor).astype(np.intp)
 
     def _numbers(self, accessor: int) -> np.ndarray[Any, np.dtype[Any]]:
+        if not 0 <= accessor < len(self.content.accessors):
+            raise self.wrong(f"there is no accessor {accessor}")
         try:
             described = self.content.accessors[accessor]
             if described.sparse is not None or described.bufferView is None:

@@ -9,6 +9,7 @@ from regkit.files import replacing
 from regkit.report.look import Look
 from regkit.report.outlines import outlines
 from regkit.report.plot import LIGHT, canvas, inked, styled
+from regkit.report.png import png
 from regkit.report.record import Record
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ def draw_overlay(path: Path, title: str, record: Record, colour: str) -> None:
     """Draw the ``overlay`` to a PNG file."""
     figure = overlay(title, record, colour)
     with replacing(path) as temporary:
-        figure.savefig(temporary, dpi=DPI, metadata={"Software": None})
+        temporary.write_bytes(png(figure, DPI))
 
 
 def overlay(title: str, record: Record, colour: str) -> Figure:

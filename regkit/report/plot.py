@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from regkit.files import replacing, write_text
+from regkit.report.png import png
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -70,9 +71,7 @@ class Plot:
 
     def png(self, ink: Ink) -> bytes:
         """The picture."""
-        stream = io.BytesIO()
-        self.draw(ink).savefig(stream, format="png", dpi=DPI, metadata={"Software": None})
-        return stream.getvalue()
+        return png(self.draw(ink), DPI)
 
     def write(self, folder: Path, picture: bytes) -> None:
         """Write the picture, and the numbers beside it."""

@@ -88,7 +88,7 @@ def test_results_without_a_rate_need_one(regkit, tmp_path, tracked):
 def test_poses_of_another_template_are_refused(regkit, tmp_path, tracked):
     config = tracked.parents[1] / "config.yaml"
     text = config.read_text()
-    config.write_text(text.replace("kind: human\n  height: 1.7", "kind: hand"))
+    config.write_text(text.replace("kind: human\n  build: average\n  height: 1.7", "kind: hand"))
     ended = regkit("export", tracked, "--to", tmp_path / "motion.bvh")
     assert ended.code == 1
     assert "the template is not the one that these poses were found with" in ended.err
@@ -101,12 +101,13 @@ def test_poses_of_another_template_are_refused(regkit, tmp_path, tracked):
 
 def test_the_template_of_a_subject_is_found(regkit, tmp_path, tracked):
     config = tracked.parents[1] / "config.yaml"
-    human = "kind: human\n  height: 1.7"
+    human = "kind: human\n  build: average\n  height: 1.7"
     others = (
         "kind: hand\nsubjects: {her: {kind: human, height: 1.6}, him: {kind: human, height: 1.7}}"
     )
     assert human in config.read_text()
-    config.write_text(config.read_text().replace(human, others))
+    text = config.read_text().replace("subjects: {}\n", "")
+    config.write_text(text.replace(human, others))
     ended = regkit("export", tracked, "--to", tmp_path / "motion.bvh")
     assert ended.code == 0, ended.err
 

@@ -11,6 +11,7 @@ from regkit.body import BodyDescription
 from regkit.document import Document
 from regkit.skinned_mesh import SkinnedMesh
 from regkit_plugins.synthesis import assets
+from regkit_plugins.templates.reading import FOLDER
 
 BODY, HAND = (assets.ASSETS / "anny" / name for name in ("body.npz", "hand_right.npz"))
 BODY_MAP, HAND_MAP = (EXAMPLES / "maps" / f"anny_{name}.yaml" for name in ("body", "hand"))
@@ -41,6 +42,12 @@ def test_a_fitted_body_tracks_as_the_shipped_one_does(regkit, files, out):
         assert ended.code == 0, ended.err
         errors.append(results.metrics()["gsog"]["mean"]["joint_error_raw_cm"])
     assert errors[1] < 1.05 * errors[0]
+
+
+def test_a_body_fitted_to_the_template_s_own_skin_has_the_template_s_size(regkit, out):
+    # The skin, a coarse one, has holes at eyes, ears and fingers.
+    assert regkit("fit", FOLDER / "human_mesh.npz", "--out", out).code == 0
+    assert read(out).size.value == pytest.approx(1.633, abs=0.008)
 
 
 def test_another_shape_of_the_mesh_gives_another_template(regkit, tmp_path, out):

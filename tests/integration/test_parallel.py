@@ -117,7 +117,7 @@ def test_figures_of_a_dask_cluster_are_those_of_one_process(regkit, files, seria
     from distributed import LocalCluster
 
     with LocalCluster(
-        n_workers=2, threads_per_worker=2, dashboard_address=None, silence_logs=50
+        n_workers=2, threads_per_worker=2, dashboard_address="127.0.0.1:0", silence_logs=50
     ) as dask:
         scheme = f"dask:{dask.scheduler_address}"
         whole = regkit("run", files.experiment, "--out", files.out, "--cluster", scheme)

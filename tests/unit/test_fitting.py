@@ -40,6 +40,13 @@ def test_interior_points_of_an_open_mesh_are_those_of_the_closed_one() -> None:
     )
 
 
+def test_interior_points_of_a_mesh_with_several_holes_are_those_of_the_closed_one() -> None:
+    # A tube: the sides x = -1 and x = 1 of the cube are missing.
+    np.testing.assert_array_equal(
+        interior_points(CUBE, FACES[4:], 0.2), interior_points(CUBE, FACES, 0.2)
+    )
+
+
 def test_closed_leaves_a_watertight_mesh_alone() -> None:
     assert len(closed(CUBE, FACES)[1]) == len(FACES)
     assert len(closed(CUBE, FACES[:-2])[1]) == len(FACES) + 2

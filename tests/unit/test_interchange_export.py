@@ -201,3 +201,14 @@ def test_names_with_blanks_are_one_word_in_bvh(motion: TrackedMotion) -> None:
     names = tuple(name.replace("leg", "left leg") for name in skeleton.names)
     body = replace(motion.body, skeleton=replace(skeleton, names=names))
     assert "left_leg" in bvh_of(replace(motion, body=body)).names
+
+
+def test_names_that_bvh_cannot_have_are_read_back_unlike_each_other(
+    tmp_path: Path, motion: TrackedMotion
+) -> None:
+    skeleton = motion.body.skeleton
+    names = ("left {arm}", "left__arm_", "left\tfoot", *skeleton.names[3:])
+    body = replace(motion.body, skeleton=replace(skeleton, names=names))
+    write_motion(replace(motion, body=body), tmp_path / "motion.bvh")
+    again = Bvh.read(tmp_path / "motion.bvh").names
+    assert sorted(again) == sorted(["left__arm__", "left__arm_", "left_foot", *names[3:]])

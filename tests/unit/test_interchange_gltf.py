@@ -293,6 +293,17 @@ def test_small_integers_scaled_rigs_and_several_sets_are_understood(tmp_path: Pa
     np.testing.assert_allclose(mesh.posed(clip.at(1.0))[0], [1.5, 0.5, 1.0], atol=1e-6)
 
 
+def test_floats_that_are_said_to_be_normalized_are_read_as_they_are(tmp_path: Path) -> None:
+    path = _write_arm(tmp_path / "arm.gltf")
+    content = json.loads(path.read_text())
+    for accessor in content["accessors"]:
+        if accessor["componentType"] == 5126:
+            accessor["normalized"] = True
+    plain = RiggedBody.read(path).mesh
+    path.write_text(json.dumps(content))
+    np.testing.assert_array_equal(RiggedBody.read(path).mesh.vertices, plain.vertices)
+
+
 def test_the_tree_of_flat_bones_must_be_named(tmp_path: Path) -> None:
     nodes = [{"children": [1, 3, 4, 2]}, *ARM["nodes"][1:]]
     nodes[1], nodes[2] = {"name": "upper"}, {"name": "between"}
@@ -333,6 +344,7 @@ def _moving(target: dict, sampler: int) -> list[dict]:
         ({"extensionsRequired": ["KHR_draco_mesh_compression"]}, "export it without compression"),
         ({"skins": [{"joints": [3, 9], "inverseBindMatrices": 0}]}, "are not all nodes"),
         ({"skins": [{"joints": [3], "inverseBindMatrices": 0}]}, "1 joints and 2 matrices"),
+        ({"skins": [{"joints": [3, 2], "inverseBindMatrices": -1}]}, "there is no accessor -1"),
         ({"nodes": [*ARM["nodes"][:4], {"mesh": 0}]}, "no mesh follows the skin"),
         ({"buffers": [{"byteLength": 4, "uri": "arm.bin"}]}, "the buffer arm.bin is missing"),
         (

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import re
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -15,6 +16,7 @@ from ruamel.yaml import YAML
 from regkit.camera import Camera
 from regkit.errors import DataError, DependencyError
 from regkit_plugins.synthesis.__main__ import main
+from regkit_plugins.synthesis.assets import ASSETS
 from regkit_plugins.synthesis.raycast import ray_cast
 from regkit_plugins.synthesis.samples import hand_gestures, human_walk
 from regkit_plugins.synthesis.scene import SR4000
@@ -46,6 +48,19 @@ def _tiny():
 
 def _files(folder):
     return {path.relative_to(folder): path.read_bytes() for path in folder.rglob("*.*")}
+
+
+def test_assets_of_others_have_the_licences_beside_them_that_the_table_names():
+    rows = (ASSETS / "README.md").read_text().partition("## ")[0]
+    for folder in sorted(path for path in ASSETS.iterdir() if path.is_dir()):
+        licences = {path.name for path in folder.glob("LICENSE*")}
+        assert licences or folder.name == "keyframes"
+        assert all(f"`{name}`" in rows for name in licences), folder.name
+    for name in re.findall(r"`(LICENSE\S*)`", rows):
+        assert list(ASSETS.glob(f"*/{name}")), name
+    # That of DeepMimic, whose clips pybullet ships, is not pybullet's.
+    clips = {path.name for path in (ASSETS / "humanoid_pybullet").glob("LICENSE*")}
+    assert clips == {"LICENSE.txt", "LICENSE_DeepMimic_MIT"}
 
 
 def test_ray_cast_of_a_slanted_plane_is_exact():

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import time
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
@@ -92,6 +94,16 @@ def test_failed_making_leaves_nothing(cache):
     with pytest.raises(DataError, match="no"):
         cache.entry(KEY, fail)
     assert not cache.folder.exists()
+
+
+def test_what_a_killed_writer_left_is_removed_by_a_later_one_but_no_living_writers(cache):
+    hours = {".new-killed": 25.0, ".new-living": 1.0, "entry": 25.0}
+    for name, age in hours.items():
+        (cache.folder / name / KEY / "depth").mkdir(parents=True)
+        then = time.time() - 3600.0 * age
+        os.utime(cache.folder / name, (then, then))
+    cache.entry(KEY, sequence)
+    assert {path.name for path in cache.folder.iterdir()} == {KEY, ".new-living", "entry"}
 
 
 def test_many_who_want_the_same_entry_find_it_whole(cache):

@@ -202,6 +202,19 @@ def test_mistake_is_told_at_its_place(tmp_path, setting, expected):
     assert expected in str(caught.value)
 
 
+def test_clip_named_alone_is_checked_as_the_file_is_read(tmp_path):
+    with pytest.raises(ConfigError, match=r"takes\.w\.motion: no clip called 'wlk' ships"):
+        dataset(tmp_path, "kind: synthetic\ntakes: {w: {motion: wlk}}\n")
+
+
+def test_camera_that_cannot_see_a_whole_body_is_told(tmp_path):
+    camera = "camera: {width: 60, height: 50, fx: 20, cx: -5}"
+    text = f"kind: synthetic\n{camera}\ntakes: {{w: {{motion: walk, frames: 1}}}}\n"
+    (walk,) = dataset(tmp_path, text).chosen()
+    with pytest.raises(ConfigError, match=r"principal point, \(-5, 24\.5\) px, is at the border"):
+        walk.prepare()
+
+
 def test_take_without_a_motion_is_refused(tmp_path):
     with pytest.raises(ConfigError, match=r"takes\.lazy: it has no motion of its own"):
         dataset(tmp_path, "kind: synthetic\ntakes: {lazy: {body: small}}\n")

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import hashlib
 import json
+import shutil
 import tempfile
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,6 +20,12 @@ _CHECKSUMS = "checksums.json"
 
 _ATTEMPTS = 5
 """How often an entry is put in place while other processes do the same."""
+
+_SCRATCH = ".new-"
+"""How the names of folders begin in which entries are written."""
+
+_ABANDONED = 86400.0
+"""Such a folder as old as this is a killed process's, for writing takes seconds [s]."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +61,8 @@ class SequenceCache:
         sequence = make()
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
-            with tempfile.TemporaryDirectory(dir=self.folder, prefix=".new-") as scratch:
+            _remove_abandoned(self.folder)
+            with tempfile.TemporaryDirectory(dir=self.folder, prefix=_SCRATCH) as scratch:
                 new = Path(scratch) / key
                 sequence.write_into(new)
                 _write_checksums(new)
@@ -83,6 +92,17 @@ def _put(new: Path, entry: Path, scratch: Path) -> None:
                 continue  # Another process has taken it away.
         else:
             return
+
+
+def _remove_abandoned(folder: Path) -> None:
+    """Remove what processes that were killed while they wrote have left; others may do the same."""
+    for scratch in folder.glob(f"{_SCRATCH}*"):
+        try:
+            abandoned = time.time() - scratch.stat().st_mtime > _ABANDONED
+        except FileNotFoundError:
+            continue  # Its process, or another one that removes it, was faster.
+        if abandoned:
+            shutil.rmtree(scratch, ignore_errors=True)
 
 
 def _write_checksums(folder: Path) -> None:

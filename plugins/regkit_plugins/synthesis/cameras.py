@@ -73,7 +73,8 @@ CAMERAS: Mapping[CameraName, CameraNumbers] = {
 }
 """Known cameras; the principal point is in the middle of each.
 
-- ``sr4000``: MESA SR4000, time of flight, 176 x 144 pixels that see 42 by 35 degrees.
+- ``sr4000``: MESA SR4000, time of flight, 176 x 144 pixels that see 42 by 35 degrees; nominal, not
+  checked against its data sheet.
 - ``kinect_v1``: Microsoft's first Kinect, structured light. Calibrations of single ones give focal
   lengths of 571 to 594 px; 585 px is that of Nguyen, Izadi and Lovell, rounded.
 - ``realsense_d435``: Intel RealSense D435, active stereo, in the mode of 848 x 480 in which Intel

@@ -5,13 +5,14 @@ from __future__ import annotations
 from typing import Annotated, Any
 
 import numpy as np
-from pydantic import Discriminator, Field, Tag
+from pydantic import AfterValidator, Discriminator, Field, Tag
 
 from regkit.errors import ConfigError
 from regkit.model import Model
 from regkit_plugins.synthesis.landmarks import Landmark, some_vertices
 from regkit_plugins.synthesis.motion.bodies import AnyBody, BodyConfig, BodyName, ShippedBody
 from regkit_plugins.synthesis.motion.config import AnyMotion, ClipConfig, MotionConfig
+from regkit_plugins.synthesis.motion.shipped import CLIPS
 from regkit_plugins.synthesis.scene import Scene, Sensor
 from regkit_plugins.synthesis.viewpoint import Viewpoint
 
@@ -29,8 +30,16 @@ Body = Annotated[
 ]
 """A body that ships by its name, or any by its ``kind``."""
 
+
+def _clip(name: str) -> str:
+    """The name of a clip that ships."""
+    CLIPS.check_choice(name, None)
+    return name
+
+
 Motion = Annotated[
-    Annotated[str, Tag("name")] | Annotated[AnyMotion, Tag("config")], Discriminator(_form)
+    Annotated[str, AfterValidator(_clip), Tag("name")] | Annotated[AnyMotion, Tag("config")],
+    Discriminator(_form),
 ]
 """A clip that ships by its name, or any motion by its ``kind``."""
 

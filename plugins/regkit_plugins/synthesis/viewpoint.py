@@ -10,6 +10,7 @@ from pydantic import Field
 
 from regkit.arrays import Array
 from regkit.camera import Camera
+from regkit.errors import ConfigError
 from regkit.model import Model
 from regkit.rigid import rigid
 from regkit.rotation import vector_to_matrix
@@ -38,6 +39,9 @@ class Viewpoint(Model):
         Args:
             camera: The camera.
             points: (N, 3) where the body's surface is in the course of time, in ground axes [m].
+
+        Raises:
+            ConfigError: If no distance is given, and from none the whole body is in the image.
         """
         tilt = vector_to_matrix(np.array([radians(self.elevation_deg), 0.0, 0.0]))
         turn = vector_to_matrix(np.array([0.0, 0.0, radians(self.heading_deg)]))
@@ -51,6 +55,12 @@ def _shortest(camera: Camera, points: Array) -> float:
     """How far the camera must step back to see all of ``points`` (N, 3) in its axes [m]."""
     across = min(camera.cx, camera.width - 1.0 - camera.cx) - _MARGIN * camera.width
     along = min(camera.cy, camera.height - 1.0 - camera.cy) - _MARGIN * camera.height
+    if min(across, along) <= 0.0:
+        raise ConfigError(
+            f"the camera's principal point, ({camera.cx:g}, {camera.cy:g}) px, is at the border of "
+            f"its {camera.width} x {camera.height} image or beyond: a body around it is never "
+            "whole in the image; give view.distance"
+        )
     x, y, z = points.T
     needed = np.maximum(camera.fx * np.abs(x) / across, camera.fy * np.abs(y) / along) - z
     return float(needed.max())

@@ -105,7 +105,8 @@ class KeyframedMotion(Motion):
     """A figure that goes through keyframes.
 
     Each angle is interpolated for itself, without going beyond the frames' (monotone cubics), so
-    that a whole turn is a turn. The feet carry the body: the lower one stays on the ground.
+    that a whole turn is a turn. The feet carry the body: the lower one stays on the ground, though
+    it may slide there, for it is the middle between both ankles that is held.
 
     Source: Fritsch, Carlson, Monotone Piecewise Cubic Interpolation, SIAM J. Numer. Anal. 17, 1980.
 

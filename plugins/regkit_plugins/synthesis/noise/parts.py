@@ -32,7 +32,7 @@ class AxialNoise(Model):
     Time-of-Flight Range Camera, IEEE J. Quantum Electronics 2001). The whole of it, without
     ``shading``, is what Nguyen, Izadi and Lovell measured of a Kinect (Modeling Kinect Sensor Noise
     for Improved 3D Reconstruction and Tracking, 3DIMPVT 2012); they leave the last part out below
-    60 degrees, where it is less than 0.4 mm.
+    60 degrees, where it is less than 0.4 mm from a metre on.
     """
 
     constant: NotNegative = 0.0

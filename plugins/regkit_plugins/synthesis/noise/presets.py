@@ -48,15 +48,16 @@ NOISES: Mapping[NoiseName, DepthNoise] = {
 }
 """The noise of each camera.
 
-- ``sr4000``: its maker's usual standard deviation is 4 mm, of a white target at 2 m; the rest is
-  how a time of flight works.
+- ``sr4000``: nominally 4 mm, of a white target at 2 m, which was not checked against its maker's
+  data sheet; the rest is how a time of flight works.
 - ``kinect_v1``: Nguyen, Izadi and Lovell (2012); steps of 1/8 px over 585 px and 7.5 cm, which are
-  the 2.85 mm at 1 m of Khoshelham and Elberink (2012). At half the resolution a pixel is twice as
-  large.
+  the 2.85 mm at 1 m of Khoshelham and Elberink (2012). Nguyen's figures were measured of depths
+  that have these steps, so that both together are a little more than a Kinect's noise. At half
+  the resolution a pixel is twice as large.
 - ``realsense_d435``: Grunnet-Jepsen, Sweetser and Woodfill, Tuning Depth Cameras for Best
   Performance (Intel): the standard deviation is z^2 times the error of the disparity, some 0.08 px,
   over 424 px and 5 cm; the disparity has steps of 1/32 px.
-- ``sr305``: 2 mm, of a hand close before it.
+- ``sr305``: 2 mm, of a hand close before it; a choice.
 
 Which share of pixels is missing or flying, and the D435's lateral noise, are choices.
 """
