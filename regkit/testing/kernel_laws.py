@@ -117,6 +117,30 @@ class KernelLaws(Laws):
             f"after {length:.3g} Gauss-Newton steps", look_at=bound.answer,
         )  # fmt: skip
 
+    def test_kernel_takes_a_point_of_twice_the_weight_for_two(self, bound: Bound) -> None:
+        """Weights say how much data a point stands for, whether the energy is a sum or a mean."""
+        # One variance, since a kernel may take the mean of them.
+        data = replace(bound.data, variances=np.full_like(bound.data.variances, 4e-4))
+        half = np.arange(len(data.points)) % 2 == 0
+        heavy = replace(data, weights=np.where(half, 2.0, 1.0) * data.weights)
+        twice = np.concatenate([np.arange(len(half)), np.flatnonzero(half)])
+        double = replace(
+            data, points=data.points[twice], weights=data.weights[twice],
+            variances=data.variances[twice],
+            normals=None if data.normals is None else data.normals[twice],
+        )  # fmt: skip
+        placed = bound.placed()
+        plain, weighted, counted = (
+            bound.kernel.against(each, placed)(placed).wrenches for each in (data, heavy, double)
+        )
+        # A loss may find its scale among the points alone, so that a part of it may remain.
+        left = np.abs(weighted - counted).max() / max(np.abs(plain - counted).max(), 1e-300)
+        require(
+            left < 0.8, bound.kernel, "does not weigh the data: of what a second point in the same "
+            f"place does to its forces, twice the weight leaves {100 * left:.0f} % undone; use the "
+            "observation's weights", look_at=bound.answer,
+        )  # fmt: skip
+
     @pytest.mark.parametrize("camera", [False, True], ids=["blind", "seen"])
     def test_kernel_is_left_alone_by_a_common_motion(self, bound: Bound, camera: bool) -> None:
         """Body and data moved together: the same energy, and forces that turn with them.
