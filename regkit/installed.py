@@ -64,9 +64,11 @@ class Installed:
             return first.load()
         # A module that ends the interpreter must not end those who never named it.
         except (Exception, SystemExit) as error:
+            # Some libraries go on with advice for whoever wrote the module, in further paragraphs.
+            told = str(error).partition("\n\n")[0]
             raise PluginError(
                 f"{what} '{first.name}' of {_brought_by(first)} cannot be imported: "
-                f"{type(error).__name__}: {error}"
+                f"{type(error).__name__}: {told}"
             ) from error
 
 

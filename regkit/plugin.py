@@ -34,7 +34,7 @@ class Plugin(Model):
     """Entry-point group, set once by each slot."""
 
     declared: ClassVar[tuple[str, ...]] = ()
-    """Class variables that each plug-in of a slot must declare."""
+    """Class variables that each plug-in of a slot must declare; their values are classes."""
 
     kind: str
     """Name of the plug-in, equal to its entry-point name."""
@@ -169,6 +169,9 @@ def _check(plugin: object, slot: type[Plugin], kind: str) -> None:
     for name in plugin.declared:
         if not any(name in vars(base) for base in plugin.__mro__):
             raise PluginError(f"must declare the class variable '{name}' in {plugin.__qualname__}")
+        value = getattr(plugin, name)
+        if not inspect.isclass(value):
+            raise PluginError(f"must set '{name}' to a class in {plugin.__qualname__}: {value!r}")
     own = plugin.model_fields["kind"].default
     if not isinstance(own, str):
         raise PluginError(

@@ -8,13 +8,14 @@ from typing import Annotated, Any
 
 import typer
 from pydantic import BaseModel, TypeAdapter
+from pydantic.errors import PydanticInvalidForJsonSchema
 from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue
 from pydantic_core import core_schema
 
 from regkit.cli.console import PluginFiles, errors, output, run_plugin_files
 from regkit.errors import PluginError
 from regkit.files import write_text
-from regkit.installed import OWN, only_from
+from regkit.installed import OWN, Installed, only_from
 from regkit.interfaces import SLOTS
 from regkit.schema_line import FOLDER, MARK
 
@@ -77,15 +78,25 @@ def _check(folder: Path, texts: dict[str, str]) -> None:
 
 
 def _tell_broken() -> None:
-    """Say which plug-ins the schemas leave out, since they cannot be had."""
+    """Say which plug-ins the schemas leave out, since they cannot be had or described."""
     for slot in SLOTS:
-        for kind in slot.available():
+        for kind, origin in slot.available().items():
             try:
-                slot.load(kind)
+                plugin = slot.load(kind)
+                if not (isinstance(origin, Installed) and OWN in origin.distributions):
+                    _schema_of(plugin)
             except PluginError as error:
-                errors.print(
-                    f"left out: {error}", style="red", markup=False, highlight=False, soft_wrap=True
+                told = str(error)
+            except PydanticInvalidForJsonSchema as error:
+                by = origin.versions if isinstance(origin, Installed) else origin.__module__
+                told = (
+                    f"plug-in '{kind}' of {by} has a field that no YAML can hold: {error.message}"
                 )
+            else:
+                continue
+            errors.print(
+                f"left out: {told}", style="red", markup=False, highlight=False, soft_wrap=True
+            )
 
 
 def schemas() -> dict[str, dict[str, Any]]:

@@ -140,10 +140,12 @@ def _cases_of(slot: type[Plugin], kind: str, own: bool, examples: Examples) -> I
             yield Case(slot, kind, name, own, plugin.model_validate(options))
         except ValidationError as error:
             missing = [str(each["loc"][0]) for each in error.errors() if each["type"] == "missing"]
-            if given is None and missing:
-                yield Case(slot, kind, name, own, missing=tuple(missing))
-                return
-            raise PluginError(f"the example of {group}.{kind} does not fit: {error}") from None
+            if given is not None:
+                raise PluginError(f"the example of {group}.{kind} does not fit: {error}") from None
+            # It may be a partner from elsewhere, which must not end the tests of others.
+            broken = "" if missing else f"{group}.{kind} has defaults that {_misfit(error)}"
+            yield Case(slot, kind, name, own, missing=tuple(missing), broken=broken)
+            return
         for change in _other_choices(plugin, options):
             field, value = next(iter(change.items()))
             try:
@@ -151,6 +153,12 @@ def _cases_of(slot: type[Plugin], kind: str, own: bool, examples: Examples) -> I
             except ValidationError:
                 continue  # The choice needs others, which an example can make.
             yield Case(slot, kind, f"{name}-{field}={value}", own, changed)
+
+
+def _misfit(error: ValidationError) -> str:
+    """What is wrong with the fields, in one line."""
+    wrong = [f"{'.'.join(map(str, each['loc']))}: {each['msg']}" for each in error.errors()]
+    return f"do not fit ({'; '.join(wrong)})"
 
 
 def _other_choices(plugin: type[Plugin], options: Options) -> Iterator[dict[str, Any]]:

@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 from pydantic import ValidationError
+from pydantic_core import PydanticSerializationError
 
 from regkit.document import yaml_text
 from regkit.plugin import Plugin
@@ -58,7 +59,14 @@ class PluginLaws(Laws):
     def test_plugin_round_trips_through_yaml(self, plugin: Case) -> None:
         """What ``model_dump`` writes is read back as the same plug-in."""
         made = _made(plugin)
-        written: dict[str, Any] = made.model_dump(mode="json")
+        try:
+            written: dict[str, Any] = made.model_dump(mode="json")
+        except PydanticSerializationError as error:
+            require(
+                False, made, f"has a field that cannot be written as YAML ({error})",
+                look_at=type(made),
+            )  # fmt: skip
+            raise
         text = yaml_text(written)
         again = type(made).model_validate(_read(text))
         require(

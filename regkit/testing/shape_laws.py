@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
+import pytest
 
 from regkit.body import Body
 from regkit.errors import RegkitError
 from regkit.interfaces import ShapeModel
-from regkit.primitives import Primitives
+from regkit.primitives import Primitives, Volumes
 from regkit.rigid import rigid
 from regkit.rotation import vector_to_matrix
 from regkit.testing.laws import Laws
@@ -16,12 +19,14 @@ from regkit.testing.verdict import copied, require, same
 
 OUTSIDE = 0.05
 """How far a primitive's centre may be outside of its segment, as a part of the body's size."""
+TURNED = 1.5
+"""So many times farther outside with the axes that are given than with their inverse is wrong."""
 
 
 def attached(shape: ShapeModel, body: Body) -> Primitives:
-    """The primitives of a body; a shape model that refuses it fails the test."""
+    """The primitives of a body; a shape model that makes none of them fails the test."""
     try:
-        return shape.attach(body)
+        primitives = shape.attach(body)
     except RegkitError as error:
         require(
             False, shape,
@@ -29,6 +34,12 @@ def attached(shape: ShapeModel, body: Body) -> Primitives:
             look_at=type(shape).attach,
         )  # fmt: skip
         raise
+    require(
+        isinstance(primitives, shape.makes), shape,
+        f"declares makes = {shape.makes.__name__}, but makes {type(primitives).__name__}",
+        look_at=type(shape).attach,
+    )  # fmt: skip
+    return primitives
 
 
 class ShapeLaws(Laws):
@@ -37,11 +48,6 @@ class ShapeLaws(Laws):
     def test_shape_makes_what_it_says(self, shape: ShapeModel, body: Body) -> None:
         """``attach`` gives primitives of the type ``makes``, with arrays of the right shapes."""
         primitives, make = attached(shape, body), type(shape).attach
-        require(
-            isinstance(primitives, shape.makes), shape,
-            f"declares makes = {shape.makes.__name__}, but makes {type(primitives).__name__}",
-            look_at=make,
-        )  # fmt: skip
         count = len(primitives)
         for name, expected in {
             "segments": (count,), "centres": (count, 3), "axes": (count, 3, 3),
@@ -87,6 +93,19 @@ class ShapeLaws(Laws):
                 "the frame of the segment that carries them", look_at=type(shape).attach,
             )  # fmt: skip
 
+    def test_shape_has_its_axes_as_columns(self, shape: ShapeModel, body: Body) -> None:
+        """What fits the flesh is the rotation to the segment's frame, and not its inverse."""
+        primitives = attached(shape, body)
+        if not isinstance(primitives, Volumes):
+            pytest.skip("its primitives have no surface of their own")
+        inverse = replace(primitives, axes=np.swapaxes(primitives.axes, 1, 2))
+        given, turned = _outside(primitives, body), _outside(inverse, body)
+        require(
+            given < TURNED * turned + 1e-3 * body.size, shape, f"has surfaces {given:.2g} m "
+            f"outside of their segments, which were {turned:.2g} m with the axes transposed; the "
+            "columns are a primitive's own axes", look_at=type(shape).attach,
+        )  # fmt: skip
+
     def test_shape_moves_with_the_body(
         self, shape: ShapeModel, body: Body, random: np.random.Generator
     ) -> None:
@@ -126,14 +145,35 @@ class ShapeLaws(Laws):
         )  # fmt: skip
 
     def test_shape_stays_in_its_place_when_scaled(self, shape: ShapeModel, body: Body) -> None:
-        """``scaled`` multiplies all lengths: placed on a larger skeleton, so are the centres."""
+        """``scaled`` multiplies all lengths: centres, scales, and the surface if there is one."""
         primitives = attached(shape, body)
         transforms = body.place(body.skeleton.rest()).transforms.copy()
         before = primitives.place(transforms).centres
         transforms[:, :3, 3] *= 1.5
-        after = primitives.scaled(1.5).place(transforms).centres
-        by = np.abs(after - 1.5 * before).max()
-        require(
-            by < 1e-9, shape, f"has primitives whose scaled() leaves centres behind, by {by:.2g} m",
-            look_at=type(primitives).scaled,
-        )  # fmt: skip
+        larger = primitives.scaled(1.5)
+        lengths = {
+            "centres": (larger.place(transforms).centres, before),
+            "scales": (larger.scales, primitives.scales),
+        }
+        if isinstance(primitives, Volumes) and isinstance(larger, Volumes):
+            lengths["surface points"] = larger.surface_points(), primitives.surface_points()
+        for name, (after, own) in lengths.items():
+            by = np.abs(after - 1.5 * own).max()
+            require(
+                by < 1e-9, shape, f"has primitives whose scaled() leaves {name} behind, by "
+                f"{by:.2g} m", look_at=type(primitives).scaled,
+            )  # fmt: skip
+
+
+def _outside(volumes: Volumes, body: Body) -> float:
+    """How far the surfaces are outside of the flesh of their segments, on average [m]."""
+    transforms = body.place(body.skeleton.rest()).transforms
+    placed, flesh = volumes.place(transforms), body.capsules.place(transforms)
+    surfaces = volumes.surface_points() @ np.swapaxes(placed.axes, 1, 2) + placed.centres[:, None]
+    distances = [
+        flesh.some(flesh.segments == segment).surface_distance(
+            surfaces[volumes.segments == segment].reshape(-1, 3)
+        )
+        for segment in np.intersect1d(volumes.segments, flesh.segments)
+    ]
+    return float(np.maximum(np.concatenate(distances), 0.0).mean())

@@ -32,6 +32,7 @@ SUPERQUADRIC = (
 )  # fmt: skip
 
 SHAPE = '''
+from collections.abc import Callable
 from typing import ClassVar, Literal
 
 import numpy as np
@@ -39,6 +40,7 @@ import numpy as np
 from regkit.interfaces import ShapeModel
 from regkit.plugin import register
 from regkit.primitives import Gaussians, Primitives
+from regkit.rotation import between
 
 
 @register
@@ -93,6 +95,42 @@ SHAPE_FAULTS = {
         "np.tile(np.diag([1.0, 1.0, -1.0]),",
         "test_shape_makes_what_it_says",
         "shape 'faulty' makes axes that are no rotations",
+    ),
+    "transposed": (
+        "axes=np.tile(np.eye(3), (len(radii), 1, 1)),\n"
+        "            scales=np.tile(self.width * radii[:, None], (1, 3)),",
+        "axes=np.array([between(np.eye(3)[1], b - a).T for a, b in capsules.ends]),\n"
+        "            scales=[0.5, 1.5, 0.5] * radii[:, None],",
+        "test_shape_has_its_axes_as_columns",
+        "with the axes transposed; the columns are a primitive's own axes",
+    ),
+    "scaled": (
+        "@register\nclass Faulty",
+        '''class Gaussians(Gaussians):
+    """Gaussians that do not grow."""
+
+    def scaled(self, factor):
+        from dataclasses import replace
+
+        return replace(self, centres=factor * self.centres)
+
+
+@register
+class Faulty''',
+        "test_shape_stays_in_its_place_when_scaled",
+        "shape 'faulty' has primitives whose scaled() leaves scales behind, by",
+    ),
+    "not written": (
+        "width: float = 0.5",
+        "width: float = 0.5\n    how: Callable[[int], int] = abs",
+        "test_plugin_round_trips_through_yaml",
+        "shape 'faulty' has a field that cannot be written as YAML (Unable to serialize",
+    ),
+    "other type": (
+        "return Gaussians(",
+        "return dict(",
+        "test_shape_covers_every_segment",
+        "shape 'faulty' declares makes = Gaussians, but makes dict; look at",
     ),
     "class docstring": (
         '    """A ball about each capsule."""\n',
@@ -168,6 +206,13 @@ KERNEL_FAULTS = {
         "energy = placed.centres[0, 0] + 0.5 * float(",
         "test_kernel_is_left_alone_by_a_common_motion",
         "when body and data are moved together",
+    ),
+    "unweighted": (
+        "observation.weights / observation.weights.sum()",
+        "np.full(len(self._points), 1.0 / len(self._points))",
+        "test_kernel_takes_a_point_of_twice_the_weight_for_two",
+        "does not weigh the data: of what a second point in the same place does to its forces, "
+        "twice the weight leaves 100 % undone",
     ),
     "maximum": (
         "return Response(energy, wrenches,",
@@ -293,6 +338,15 @@ def test_registered_class_has_a_suite_of_its_own(tmp_path):
     assert all(pair.shape.kind == "faulty" for pair in suite.parameters["pair"])
     assert "solver" not in suite.parameters
     assert not any(name.startswith("test_solver") for name in dir(suite))
+
+
+def test_partner_whose_defaults_do_not_fit_does_not_end_the_tests_of_others(tmp_path):
+    loaded(tmp_path, SHAPE, "width: float = 0.5", 'width: float = "wide"')
+    suite = conformance("regkit-superquadric")
+    assert [case.name for case in suite.parameters["shape"]] == ["superquadric"]
+    (case,) = conformance(plugin._REGISTERED["regkit.shapes"]["faulty"]).parameters["plugin"]
+    with pytest.raises(pytest.fail.Exception, match=r"do not fit \(width: Input should"):
+        PluginLaws().test_plugin_can_be_loaded(case)
 
 
 def test_example_that_does_not_fit_is_told():

@@ -36,6 +36,8 @@ MODULES = {
     "no_kind": HEAD.replace('    kind: Literal["odd"] = "odd"\n', ""),
     "other_kind": HEAD.replace('"odd"', '"ev" "en"'),
     "no_makes": HEAD.replace("    makes: ClassVar[type[Primitives]] = Gaussians\n", ""),
+    "makes_text": HEAD.replace("] = Gaussians\n", "] = 'Gaussians'\n"),
+    "advised": "raise TypeError('nothing\\n\\nHow to mend it: not here')\n",
     "abstract": HEAD.replace("def attach", "def attached"),
     "syntax": "class Odd(\n",
 }
@@ -49,6 +51,8 @@ EXPECTED = {
     "no_kind": 'must declare its name in Odd: kind: Literal["name"] = "name"',
     "other_kind": "calls itself 'even': Odd.kind must default to its entry-point name",
     "no_makes": "must declare the class variable 'makes' in Odd",
+    "makes_text": "must set 'makes' to a class in Odd: 'Gaussians'",
+    "advised": "cannot be imported: TypeError: nothing",
     "abstract": "is not a concrete ShapeModel: Odd does not define attach",
     "syntax": "cannot be imported: SyntaxError",
     "other_slot": "is not a concrete ShapeModel: <class 'regkit_plugins.solvers.lbfgs.LBFGS'>",
@@ -121,7 +125,9 @@ def test_field_without_a_schema_leaves_out_its_plugin_alone(regkit, distribution
         HEAD.replace('"odd"\n    makes', field)
     )
     assert ShapeModel.load("odd")().how is abs
-    assert regkit("schema", tmp_path / "schemas").code == 0
+    written = regkit("schema", tmp_path / "schemas")
+    assert written.code == 0
+    assert "left out: plug-in 'odd' of odd-things 1.0 has a field that no YAML" in written.err
     schema = json.loads((tmp_path / "schemas" / "experiment.json").read_text())
     assert '"gsog"' in json.dumps(schema)
     assert '"odd"' not in json.dumps(schema)

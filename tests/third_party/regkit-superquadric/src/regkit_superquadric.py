@@ -135,6 +135,8 @@ class RadialDistances(Similarity):
         solids, each = placed.primitives, np.arange(len(self._points))
         offsets = self._points[:, None] - placed.centres
         local = np.einsum("kji,nkj->nki", placed.axes, offsets)
+        # No ray leads from a centre to itself; there the one along the first axis is taken.
+        local[~local.any(axis=2), 0] = 1e-9
         gauges, slopes = gauge(local, solids.scales, solids.exponents)
         lengths = np.linalg.norm(local, axis=2)
         distances = lengths * (1.0 - 1.0 / gauges)

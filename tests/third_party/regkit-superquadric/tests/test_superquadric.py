@@ -38,6 +38,15 @@ def test_ball_stays_a_ball_and_its_radial_distance_is_the_distance():
         assert energy == pytest.approx(0.5 * np.log1p((distance / 0.1) ** 2))
 
 
+def test_point_at_a_centre_is_as_deep_as_the_solid_is_wide():
+    solid = of([0.1, 0.0, 0.0], [0.4, 0.0, 0.0], 0.2)
+    placed = solid.place(np.eye(4)[None])
+    data = Observation(placed.centres.copy(), np.ones(1), np.full(1, 1e-4))
+    answer = RadialDistance(width=0.1).against(data, placed)(placed, curvature=True)
+    assert answer.energy == pytest.approx(0.5 * np.log1p(2.0**2))
+    assert np.isfinite(answer.wrenches).all()
+
+
 @pytest.mark.parametrize("length", [0.05, 0.2, 0.6])
 def test_volume_is_that_of_the_capsule(length, random):
     solid = of([0.0, 0.0, 0.0], [length, 0.0, 0.0], 0.1)
