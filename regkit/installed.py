@@ -76,7 +76,7 @@ def installed(group: str) -> dict[str, Installed]:
     """All entry points of a group by name."""
     only = _ONLY.get()
     found: dict[str, list[EntryPoint]] = {}
-    for point in _points(_path()).get(group, ()):
+    for point in entry_points(group):
         if only is not None and not same_distribution(_brought_by(point), only):
             continue
         points = found.setdefault(point.name, [])
@@ -86,6 +86,11 @@ def installed(group: str) -> dict[str, Installed]:
     return {
         name: Installed(tuple(sorted(points, key=_brought_by))) for name, points in found.items()
     }
+
+
+def entry_points(group: str) -> list[EntryPoint]:
+    """The entry points of a group, whoever brings them."""
+    return _points(_path()).get(group, [])
 
 
 @contextmanager

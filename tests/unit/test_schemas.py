@@ -81,14 +81,6 @@ def shortened(template: dict[str, Any]) -> dict[str, Any]:
     return {**template, "segments": segments, "gaussians": gaussians}
 
 
-@pytest.fixture(scope="module", autouse=True)
-def _quick_look_at_what_is_installed() -> Iterator[None]:
-    """The distributions are read once, not for each name in each mutant."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(regkit.installed, "entry_points", cache(regkit.installed.entry_points))
-        yield
-
-
 def complaints(model: type[BaseModel], data: Any) -> list[str]:
     try:
         TypeAdapter(model).validate_python(data)
@@ -306,7 +298,7 @@ def with_entry_points(monkeypatch: pytest.MonkeyPatch, *points: EntryPoint) -> N
     before = regkit.installed.entry_points
 
     def entry_points(group: str) -> list[EntryPoint]:
-        return [*before(group=group), *(point for point in points if point.group == group)]
+        return [*before(group), *(point for point in points if point.group == group)]
 
     monkeypatch.setattr(regkit.installed, "entry_points", entry_points)
 
