@@ -82,7 +82,8 @@ def run(
             soft_wrap=True,
         )
         raise typer.Exit(130) from None
-    output.print(_table(outcome.measures))
+    if any(outcome.measures.values()):
+        output.print(_table(outcome.measures))
     output.print(f"results: {folder}", highlight=False, soft_wrap=True)
     output.print(f"report: {folder / 'report.html'}", highlight=False, soft_wrap=True)
     if any(outcome.failures.values()):
