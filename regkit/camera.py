@@ -94,7 +94,8 @@ class Camera:
             raise DataError(
                 "width, height and both focal lengths must be positive", place=str(path)
             )
-        return cls(width, height, matrix[0, 0], matrix[1, 1], matrix[0, 2], matrix[1, 2])
+        fx, fy, cx, cy = matrix[[0, 1, 0, 1], [0, 1, 2, 2]].tolist()
+        return cls(width, height, fx, fy, cx, cy)
 
     def to_json(self) -> str:
         """The text that ``read`` reads."""

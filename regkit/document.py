@@ -46,6 +46,8 @@ class Document:
             text = path.read_text(encoding="utf-8")
         except FileNotFoundError:
             raise DataError("there is no such file", place=str(path)) from None
+        except IsADirectoryError:
+            raise DataError("this is a folder; name a YAML file", place=str(path)) from None
         except (OSError, UnicodeDecodeError) as error:
             raise DataError(f"cannot be read as text: {error}", place=str(path)) from None
         tree = _parsed(text, str(path))

@@ -17,6 +17,9 @@ from regkit.interfaces import Observer, Registered, Registrar, Sequence, Tracker
 from regkit.observation import Observation
 from regkit.skeleton import Placement, Pose
 
+SUSPICIOUS = 10.0
+"""Data spread over so many times a body's size are more likely to be in another unit."""
+
 
 @dataclass(frozen=True)
 class TrackedFrame:
@@ -71,9 +74,12 @@ def _check_near(body: Body, pose: Pose, observation: Observation) -> None:
     placed = body.capsules.place(body.place(pose).transforms)
     distance = float(placed.surface_distance(some).min())
     if distance > body.size:
+        extent = float(np.linalg.norm(np.ptp(some, axis=0)))
+        hint = f"; the points are spread over {extent:.4g} m: are they in metres (depth_scale)?"
         raise DataError(
             f"the registered body is {distance:.3g} m away from the data; the start or the "
             "template's size is wrong, or the body was lost"
+            + (hint if extent > SUSPICIOUS * body.size else "")
         )
 
 

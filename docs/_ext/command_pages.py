@@ -42,7 +42,8 @@ def _commands(group: Any, context: Any) -> Iterator[str]:
 def _row(name: str, text: str) -> str:
     notes = [note for found in _BRACKETS.findall(text) for note in found.split("; ")]
     told = " ".join(_BRACKETS.sub(" ", text).split())
-    return f"| `{name}` | {_plain(told)} | {_plain(', '.join(notes).replace('default: ', ''))} |"
+    code = name.replace("|", r"\|")  # A table ends its cell there, even within code.
+    return f"| `{code}` | {_plain(told)} | {_plain(', '.join(notes).replace('default: ', ''))} |"
 
 
 def _plain(text: str) -> str:

@@ -95,7 +95,7 @@ def _constraints(part: Any) -> list[Any]:
 def _bounds(part: Any) -> Iterator[str]:
     for name, sign in _BOUNDS.items():
         if getattr(part, name, None) is not None:
-            yield f"{sign} {getattr(part, name):g}"
+            yield f"{sign}\N{NO-BREAK SPACE}{getattr(part, name):g}"
 
 
 def _default(field: FieldInfo) -> str:

@@ -177,4 +177,5 @@ def _camera(camera: Intrinsics, shape: tuple[int, ...]) -> Camera:
             "a matrix does not tell the image's size; with a cloud give a regkit.Camera",
             place="camera",
         )
-    return Camera(width, height, matrix[0, 0], matrix[1, 1], matrix[0, 2], matrix[1, 2])
+    fx, fy, cx, cy = matrix[[0, 1, 0, 1], [0, 1, 2, 2]].tolist()
+    return Camera(width, height, fx, fy, cx, cy)

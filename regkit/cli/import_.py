@@ -20,6 +20,9 @@ template: {{kind: file, path: {file}}}
 Lengths are in metres and angles in degrees. In the rest pose all segments are parallel: y up, z to
 the front, x to the body's left."""
 
+LARGE = 10.0
+"""Bodies larger than this [m] are more often centimetres that were taken for metres."""
+
 UNSHAPED = """\
 
 Where the file has no shape that could be read, a segment has a capsule along each of its bones,
@@ -108,6 +111,14 @@ def _tell(imported: ImportedSkeleton) -> None:
         markup=False,
         soft_wrap=True,
     )
+    if description.size.value > LARGE:
+        output.print(
+            "that is large; if the file is not in metres, name its unit: --scale 0.01 for "
+            "centimetres",
+            highlight=False,
+            markup=False,
+            soft_wrap=True,
+        )
     if imported.shaped:
         output.print(
             f"segments that had no shape and got one along their bones: {imported.shaped}; look at "

@@ -82,7 +82,8 @@ def run(
             soft_wrap=True,
         )
         raise typer.Exit(130) from None
-    output.print(_table(outcome.measures))
+    if any(outcome.measures.values()):
+        output.print(_table(outcome.measures))
     output.print(f"results: {folder}", highlight=False, soft_wrap=True)
     output.print(f"report: {folder / 'report.html'}", highlight=False, soft_wrap=True)
     if any(outcome.failures.values()):
@@ -91,13 +92,15 @@ def run(
 
 def _table(measures: dict[str, dict[str, Measure]]) -> Table:
     from regkit.report.tables import TERMINAL, rows
+    from regkit.report.words import broken
 
-    # A terminal of 80 characters holds all figures: titles may break there, names may not.
+    # A terminal of 80 characters holds all figures: titles may break there, names
+    # only where a sweep joined them.
     table = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
     table.add_column("method", no_wrap=True)
     table.add_column("seq.")
     for title in TERMINAL.values():
         table.add_column(escape(title), justify="right")
-    for row in rows(measures):
-        table.add_row(*row)
+    for name, *figures in rows(measures):
+        table.add_row(broken(name, 22), *figures)
     return table

@@ -25,6 +25,12 @@ WIDTH = 5.4
 
 DPI = 160
 
+LINE = 0.19
+"""Height of a legend's row, in inches."""
+
+NAME = 30
+"""So many letters of a name stand in one line beside an axis."""
+
 Value = str | float | int | None
 
 
@@ -134,6 +140,8 @@ def legend_above(
     fitting = max(1, int(figure.get_figwidth() / (0.6 + 0.075 * widest)))
     # As even as may be: five are three and two, not four and one.
     rows = -(-len(handles) // fitting)
+    # The axes keep their height, however many rows there are above them.
+    figure.set_figheight(figure.get_figheight() + LINE * (rows - 1))
     legend = figure.legend(
         handles=handles,
         title=title,

@@ -147,8 +147,9 @@ class Record:
 def _chosen(track: Track, errors: JointErrors | None) -> dict[int, str]:
     """The frames to be looked at, and why; the worst by joint error, or by surface distance."""
     last = len(track.seconds) - 1
-    chosen = {0: "first"}
-    chosen[last] = "first and last" if last == 0 else "last"
+    if last == 0:
+        return {0: "the only one"}
+    chosen = {0: "first", last: "last"}
     badness = track.surface_distances
     if errors is not None and np.isfinite(errors.raw).any():
         known = np.isfinite(errors.raw)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 
@@ -78,3 +79,16 @@ def axis_label(figure: str) -> str:
 def many(count: int, what: str) -> str:
     """A number of things: ``1 frame``, ``2 frames``."""
     return f"{count} {what}" if count == 1 else f"{count} {what}s"
+
+
+def broken(name: str, most: int) -> str:
+    """A name in lines of at most so many letters, where its commas and slashes let it be broken.
+
+    Those are what the names of a sweep's variants are made with.
+    """
+    lines = [""]
+    for part in re.findall(r"[^,/]*[,/]|[^,/]+$", name):
+        if lines[-1] and len(lines[-1]) + len(part) > most:
+            lines.append("")
+        lines[-1] += part
+    return "\n".join(lines)

@@ -38,7 +38,9 @@ def read(path: Path) -> BodyDescription:
 
 
 def test_an_imported_skeleton_is_registered(regkit, files, out):
+    assert "that is large; if the file is not in metres" in regkit("import", BVH, "--out", out).out
     ended = regkit("import", BVH, "--scale", 0.01, "--out", out, "--name", "A dancer")
+    assert "that is large" not in ended.out
     assert ended.code == 0, ended.err
     assert "segments: 19 (18 ball); capsules: 21; height: 1.673 m" in ended.out
     assert "segments that had no shape and got one along their bones: 19" in ended.out

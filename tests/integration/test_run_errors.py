@@ -1,5 +1,6 @@
 """What goes wrong in a run is told, and stops nothing else."""
 
+import re
 from typing import Literal
 
 from small_experiment import QUICK, Stepping, add_method, counting, damage
@@ -139,6 +140,13 @@ def test_start_that_does_not_fit_the_template_is_told_before_the_run(regkit, fil
 def test_damaged_sequence_that_is_not_used_is_not_read(regkit, files):
     (files.data / "second" / "sequence.yaml").write_text("fsp: 3\n")
     assert regkit("run", files.experiment, "--out", files.out, *QUICK).code == 0
+
+
+def test_depth_in_another_unit_is_suspected(regkit, files):
+    (files.data / "first" / "sequence.yaml").write_text("fps: 30\ndepth_scale: 1\n")
+    ended = regkit("run", files.experiment, "--out", files.out, *QUICK)
+    assert ended.code == 1
+    assert re.search(r"spread over \d+ m: are they in metres \(depth_scale\)\?", ended.err)
 
 
 def test_start_far_from_the_data_is_an_error_and_no_result(regkit, files):

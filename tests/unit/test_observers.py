@@ -12,6 +12,8 @@ from regkit_plugins.observers.crop import Crop
 from regkit_plugins.observers.octree import OctreeObserver
 from regkit_plugins.observers.points import PointsObserver
 
+ANY = Crop(min_points=1)
+
 OBSERVERS = [Observer.load(kind)() for kind in Observer.available()]
 
 
@@ -51,12 +53,21 @@ def test_points_of_a_voxel_become_their_mean(cloud):
 
 def test_points_larger_voxels_leave_fewer_points(cloud):
     counts = [
-        len(PointsObserver(voxel=voxel).observe(frame(cloud)).points)
+        len(PointsObserver(voxel=voxel, crop=ANY).observe(frame(cloud)).points)
         for voxel in (0.01, 0.03, 0.1, 100.0)
     ]
     assert counts == sorted(counts, reverse=True)
     assert counts[0] > counts[-1]
     assert counts[-1] <= 8  # The planes through the origin may cut a cloud that lies across them.
+
+
+@pytest.mark.parametrize(
+    ("observer", "field"), [(PointsObserver(voxel=30), "voxel"), (OctreeObserver(leaf=45), "leaf")]
+)
+def test_millimetres_for_metres_are_told(cloud, observer, field):
+    shifted = cloud + 100.0  # The planes through the origin cut nothing here.
+    with pytest.raises(DataError, match=rf"m is too large: .* 705 .*observer\.{field}, in metres"):
+        observer.observe(frame(shifted))
 
 
 def test_crop_keeps_what_lies_between_near_and_far(cloud):
@@ -178,7 +189,7 @@ def test_octree_leaves_are_cubes_that_hold_their_points(cloud):
 
 def test_octree_coarser_leaves_are_fewer(cloud):
     counts = [
-        len(OctreeObserver(leaf=leaf, largest=0).observe(frame(cloud)).points)
+        len(OctreeObserver(leaf=leaf, largest=0, crop=ANY).observe(frame(cloud)).points)
         for leaf in (0.02, 0.04, 0.08, 0.16, 10.0)
     ]
     assert counts == sorted(counts, reverse=True)
@@ -186,7 +197,8 @@ def test_octree_coarser_leaves_are_fewer(cloud):
 
 
 def test_octree_with_room_for_all_points_is_their_mean(cloud):
-    seen = OctreeObserver(leaf=1.0, few=len(cloud), largest=5).observe(frame(cloud))
+    observer = OctreeObserver(leaf=1.0, few=len(cloud), largest=5, crop=ANY)
+    seen = observer.observe(frame(cloud))
     np.testing.assert_allclose(seen.points, [cloud.mean(axis=0)], atol=1e-12)
     np.testing.assert_array_equal(seen.variances, [(0.5 * 1.0 * 2**5) ** 2])
 

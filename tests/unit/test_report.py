@@ -19,6 +19,7 @@ from regkit.report.outlines import outlines
 from regkit.report.plot import DARK, LIGHT
 from regkit.report.style import PALETTE, styles
 from regkit.report.tables import main_table, p_text
+from regkit.report.words import broken
 
 
 @pytest.fixture(scope="module")
@@ -339,6 +340,31 @@ def test_who_was_hardly_lost_is_not_called_better_than_who_never_was():
 def test_figures_are_drawn_on_either_paper():
     plot = next(plot for plot in plots(made_run(1)) if plot.name == "timing")
     assert plot.png(LIGHT) != plot.png(DARK)
+
+
+def axes_height(plot) -> float:
+    """The height of a figure's first axes when it is laid out, in inches."""
+    figure = plot.draw(LIGHT)
+    figure.draw_without_rendering()
+    return figure.axes[0].get_position().height * figure.get_figheight()
+
+
+@pytest.mark.parametrize("name", ["methods", "sequences", "thresholds", "joints", "over_time"])
+def test_figures_have_room_for_a_sweep_beside_its_names(name):
+    parts = "outliers=0.05,max_iterations"
+    sweep = {f"voxel=0.03/best,{parts}={n}": METHODS["sog"] for n in range(10)}
+    few, many = (
+        next(plot for plot in plots(made_run(1, methods=methods)) if plot.name == name)
+        for methods in ({"a": METHODS["sog"], "b": METHODS["sog"]}, sweep)
+    )
+    assert axes_height(many) > 0.9 * axes_height(few)
+
+
+def test_long_name_is_broken_where_a_sweep_joined_it():
+    assert broken("icp_of_the_textbook_and_no_other", 10) == "icp_of_the_textbook_and_no_other"
+    name = "voxel=0.03/best,outliers=0.05,steps=3"
+    assert broken(name, 16).split("\n") == ["voxel=0.03/best,", "outliers=0.05,", "steps=3"]
+    assert broken(name, 80) == name
 
 
 def test_method_is_told_by_its_kinds_and_by_what_others_have_otherwise():

@@ -16,6 +16,9 @@ from regkit.observation import Frame
 
 Distance = Annotated[float, Field(gt=0.0)]
 
+LEAST = 4
+"""Fewer points than this after thinning tell that the cubes are larger than the body."""
+
 
 class Crop(Model):
     """Keeps the points of the object and drops what lies before and behind it."""
@@ -62,6 +65,26 @@ class Crop(Model):
             depth = np.zeros_like(depth)
             depth.flat[pixels] = points[kept, 2]
         return replace(frame, points=points[kept], depth=depth)
+
+    def check_thinned(self, left: int, frame: Frame, field: str, side: float) -> None:
+        """Refuse cubes so large that hardly a point is left, as of millimetres given for metres.
+
+        Args:
+            left: How many points there are after thinning.
+            frame: What was thinned.
+            field: The observer's field that says how large the cubes are.
+            side: Its value [m].
+
+        Raises:
+            DataError: If fewer than ``LEAST`` are left, or ``min_points`` where that is less.
+        """
+        least = min(LEAST, self.min_points)
+        if left < least:
+            raise DataError(
+                f"{side:g} m is too large: the frame's {len(frame.points)} points become {left}; "
+                f"at least {least} are needed (observer.{field}, in metres)",
+                place=frame.place,
+            )
 
     def _kept(self, points: Array) -> Indices:
         """Which of the points (N, 3) are kept, in their order."""

@@ -52,6 +52,7 @@ class OctreeObserver(Observer):
             if not len(pending):
                 break
         variances = np.concatenate(deviations) ** 2
+        self.crop.check_thinned(len(variances), frame, "leaf", self.leaf)
         return Observation(
             np.concatenate(means), np.concatenate(weights), variances, frame.camera, frame.depth
         )

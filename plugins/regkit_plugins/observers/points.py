@@ -39,6 +39,7 @@ class PointsObserver(Observer):
         points = frame.points
         if self.voxel is not None:
             points = thinned(points, self.voxel)
+            self.crop.check_thinned(len(points), frame, "voxel", self.voxel)
         ones = np.ones(len(points))
         return Observation(
             points,

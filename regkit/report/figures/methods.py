@@ -8,9 +8,9 @@ import numpy as np
 
 from regkit.metrics import Summary, summary
 from regkit.metrics.statistics import FEWEST
-from regkit.report.plot import Ink, Plot, canvas, legend_above, styled
+from regkit.report.plot import NAME, Ink, Plot, canvas, legend_above, styled
 from regkit.report.run import Run
-from regkit.report.words import NAMES, axis_label, label
+from regkit.report.words import NAMES, axis_label, broken, label
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -95,7 +95,7 @@ def _drawn(run: Run, figures: list[str], ink: Ink) -> Figure:
         axes.set_xlim(0.0, 1.06 * largest or 1.0)
         axes.set_xlabel(axis_label(name).replace("mean joint", "joint"))
         axes.tick_params(axis="y", length=0)
-    grid[0].set_yticks(list(places.values()), [label(name) for name in places])
+    grid[0].set_yticks(list(places.values()), [broken(label(name), NAME) for name in places])
     grid[0].set_ylim(max(places.values()) + 0.5, -0.5)
     if len(families) > 1:
         handles = [

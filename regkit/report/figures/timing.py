@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from regkit.report.plot import Ink, Plot, canvas, legend_above, styled
+from regkit.report.plot import NAME, Ink, Plot, canvas, legend_above, styled
 from regkit.report.run import Run
-from regkit.report.words import label
+from regkit.report.words import broken, label
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -73,7 +73,7 @@ def _drawn(run: Run, rows: list[tuple[str, float, float, float]], ink: Ink) -> F
         axes.text(
             total + 0.01 * widest, place, told, va="center", color=ink.text, fontsize=8.5
         )  # fmt: skip
-    axes.set_yticks(range(len(rows)), [label(method) for method, *_ in rows])
+    axes.set_yticks(range(len(rows)), [broken(label(method), NAME) for method, *_ in rows])
     axes.set_ylim(len(rows) - 0.5, -0.5)
     axes.set_xlim(0.0, 1.5 * widest)
     axes.tick_params(axis="y", length=0)
