@@ -1,5 +1,6 @@
 """Fixtures that many tests share: a linkage with every type of joint, and the reference data."""
 
+import os
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -12,6 +13,9 @@ from regkit.testing.samples import LINKAGE
 
 ROOT = Path(__file__).parent.parent
 REFERENCE_DATA = ROOT.parent / "shared" / "data"
+
+# A console keeps the width that it is told when it is made; without it, it asks each time.
+os.environ.pop("COLUMNS", None)
 
 
 @pytest.fixture(scope="session")

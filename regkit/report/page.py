@@ -120,6 +120,7 @@ def _text(template: str, run: Run, folder: Path, drawn: list[Drawn]) -> str:
         sequences=sequence_table(run.measures),
         folded=ROWS,
         failures=[(m, s, why) for m, by in run.failures.items() for s, why in by.items()],
+        tracks=sum(len(by) for all_of in (run.measures, run.failures) for by in all_of.values()),
         figures=drawn,
         pictures=shown,
         others=[one for one in pictures if one not in shown and one.file.exists()],
@@ -129,7 +130,7 @@ def _text(template: str, run: Run, folder: Path, drawn: list[Drawn]) -> str:
 
 def _finding(run: Run) -> str:
     """The comparison in one sentence."""
-    counts = f"{many(len(run.finished), 'method')} on {many(len(run.sequences), 'sequence')}"
+    counts = f"{many(len(run.measures), 'method')} on {many(len(run.sequences), 'sequence')}"
     first = best(run.finished, run.figure)
     if first is None:
         return f"{counts}."

@@ -173,7 +173,7 @@ def test_long_names_leave_room_for_what_is_drawn():
 def test_report_of_nothing_but_failures_says_so(tmp_path):
     run = made_run(0, failures={"sog": {"first": "it is dark"}, "icp": {"first": "it is dark"}})
     write_report(run, tmp_path)
-    assert "2 sequences failed" in (tmp_path / "report.html").read_text()
+    assert "2 of 2 tracks (a method on a sequence) failed" in (tmp_path / "report.html").read_text()
     assert "- **sog** on first: it is dark" in (tmp_path / "report.md").read_text()
 
 
