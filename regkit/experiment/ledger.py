@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from regkit.errors import RegkitError
 from regkit.experiment.experiment import Experiment
 from regkit.experiment.reporting import report, summarise
+from regkit.experiment.resolved import resolved
 from regkit.experiment.results import Results
 from regkit.experiment.task import Task
 from regkit.metrics import Measure
@@ -60,7 +61,7 @@ class Ledger:
             RegkitError: If it holds something else.
         """
         self.results.folder.mkdir(exist_ok=True)
-        Results.opened(self.results.folder, self.experiment.model_dump(mode="json"), workers)
+        Results.opened(self.results.folder, resolved(self.experiment), workers)
 
     def read(self) -> Iterator[tuple[str, RegkitError]]:
         """Take in what the folder holds already; what is damaged there counts as failed.

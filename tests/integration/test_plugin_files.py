@@ -156,3 +156,13 @@ def test_hand_of_the_how_to_page_touches_the_table(capsys):
     # Without the constraint the data, which show no index finger, do not bring it there.
     assert abs(distances["free"]) > 0.005
     assert capsys.readouterr().out.count("Solve_Succeeded") == 2
+
+
+def test_field_that_no_yaml_can_hold_is_named_before_anything_is_run(regkit, files, tmp_path):
+    file = tmp_path / "beads.py"
+    file.write_text(SHAPE.replace("factor: float = 0.5", "factor: __import__('typing').Any = abs"))
+    files.experiment.write_text(files.experiment.read_text().replace("gsog,", "beads,"))
+    ended = regkit("run", files.experiment, "--out", files.out, "--plugin", file, *QUICK)
+    assert ended.code == 1
+    assert ended.err.startswith("error: methods.gsog.shape.factor: it cannot be written to config")
+    assert not (files.out / "config.yaml").exists()

@@ -10,6 +10,7 @@ from typing import Any
 from regkit.document import Document
 from regkit.errors import ConfigError
 from regkit.experiment.experiment import Experiment
+from regkit.experiment.resolved import resolved
 from regkit.experiment.sweeps.sweep import combinations
 
 TOLD = 5
@@ -77,14 +78,14 @@ class Study:
         lists: dict[str, list[Any]] = {".".join(keys): [] for keys in made[0].fields}
         for one in made:
             for keys in one.fields:
-                value = _at(experiments[one.name].model_dump(mode="json"), keys)
+                value = _at(resolved(experiments[one.name]), keys)
                 if value not in lists[".".join(keys)]:
                     lists[".".join(keys)].append(value)
         return cls(experiments, lists)
 
     def config(self) -> dict[str, Any]:
         """What can be run again, as JSON: the first experiment, and the lists of all of them."""
-        return self._first.model_dump(mode="json") | ({"sweep": self.lists} if self.lists else {})
+        return resolved(self._first) | ({"sweep": self.lists} if self.lists else {})
 
 
 def _at(value: Any, keys: tuple[str, ...]) -> Any:

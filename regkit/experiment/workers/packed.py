@@ -18,6 +18,7 @@ from regkit.document import Document
 from regkit.errors import ConfigError, DataError, DependencyError, RegkitError
 from regkit.experiment.experiment import Experiment
 from regkit.experiment.hold import Hold
+from regkit.experiment.resolved import resolved
 from regkit.experiment.task import Result, Task
 from regkit.plugin import Plugin, from_file, plugin_files, run_plugin_file
 
@@ -54,7 +55,7 @@ class Packed:
     def of(cls, task: Task, hold: Hold) -> Packed:
         """A task of the run that holds the results folder."""
         return cls(
-            task.experiment.model_dump(mode="json"),
+            resolved(task.experiment),
             plugin_files(),
             hold,
             __version__,
