@@ -1,0 +1,202 @@
+"""Faults that are put into a right shape and a right kernel, each with the law that it breaks.
+
+A fault is a text, what stands instead of it, the name of the law, and what the law then says.
+"""
+
+from pathlib import Path
+
+SUPERQUADRIC = (
+    Path(__file__).parents[1]
+    / "third_party" / "regkit-superquadric" / "src" / "regkit_superquadric.py"
+)  # fmt: skip
+
+SHAPE = '''
+from collections.abc import Callable
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from regkit.interfaces import ShapeModel
+from regkit.plugin import register
+from regkit.primitives import Gaussians, Primitives
+from regkit.rotation import between
+
+
+@register
+class Faulty(ShapeModel):
+    """A ball about each capsule."""
+
+    kind: Literal["faulty"] = "faulty"
+    makes: ClassVar[type[Primitives]] = Gaussians
+
+    width: float = 0.5
+    """A part of the radius."""
+
+    def attach(self, body):
+        capsules = body.capsules
+        radii = capsules.radii.mean(axis=1)
+        return Gaussians(
+            segments=capsules.segments,
+            centres=capsules.ends.mean(axis=1),
+            axes=np.tile(np.eye(3), (len(radii), 1, 1)),
+            scales=np.tile(self.width * radii[:, None], (1, 3)),
+            weights=np.ones(len(radii)),
+        )
+'''
+
+SHAPE_FAULTS = {
+    "covers": (
+        "capsules = body.capsules\n",
+        "capsules = body.capsules.some(body.capsules.segments != 1)\n",
+        "test_shape_covers_every_segment",
+        "shape 'faulty' leaves segments without a primitive: arm; look at",
+    ),
+    "place": (
+        "centres=capsules.ends.mean(axis=1)",
+        "centres=capsules.ends.mean(axis=1)[::-1]",
+        "test_shape_lies_where_its_segments_are",
+        "m outside of its segment 'base'; centres are given in the frame of the segment",
+    ),
+    "random": (
+        "centres=capsules.ends.mean(axis=1)",
+        "centres=capsules.ends.mean(axis=1) + 0.01 * np.random.default_rng().normal(size=(1, 3))",
+        "test_shape_is_deterministic_and_leaves_the_body_alone",
+        "shape 'faulty' makes something else when it is attached again",
+    ),
+    "writes": (
+        "radii = capsules.radii.mean(axis=1)",
+        "capsules.radii[:] *= 1.01; radii = capsules.radii.mean(axis=1)",
+        "test_shape_is_deterministic_and_leaves_the_body_alone",
+        "shape 'faulty' ",
+    ),
+    "axes": (
+        "np.tile(np.eye(3),",
+        "np.tile(np.diag([1.0, 1.0, -1.0]),",
+        "test_shape_makes_what_it_says",
+        "shape 'faulty' makes axes that are no rotations",
+    ),
+    "transposed": (
+        "axes=np.tile(np.eye(3), (len(radii), 1, 1)),\n"
+        "            scales=np.tile(self.width * radii[:, None], (1, 3)),",
+        "axes=np.array([between(np.eye(3)[1], b - a).T for a, b in capsules.ends]),\n"
+        "            scales=[0.5, 1.5, 0.5] * radii[:, None],",
+        "test_shape_has_its_axes_as_columns",
+        "with the axes transposed; the columns are a primitive's own axes",
+    ),
+    "scaled": (
+        "@register\nclass Faulty",
+        '''class Gaussians(Gaussians):
+    """Gaussians that do not grow."""
+
+    def scaled(self, factor):
+        from dataclasses import replace
+
+        return replace(self, centres=factor * self.centres)
+
+
+@register
+class Faulty''',
+        "test_shape_stays_in_its_place_when_scaled",
+        "shape 'faulty' has primitives whose scaled() leaves scales behind, by",
+    ),
+    "not written": (
+        "width: float = 0.5",
+        "width: float = 0.5\n    how: Callable[[int], int] = abs",
+        "test_plugin_round_trips_through_yaml",
+        "shape 'faulty' has a field that cannot be written as YAML (Unable to serialize",
+    ),
+    "other type": (
+        "return Gaussians(",
+        "return dict(",
+        "test_shape_covers_every_segment",
+        "shape 'faulty' declares makes = Gaussians, but makes dict; look at",
+    ),
+    "class docstring": (
+        '    """A ball about each capsule."""\n',
+        "",
+        "test_plugin_is_documented",
+        "shape 'faulty' has no docstring",
+    ),
+    "field docstring": (
+        '    """A part of the radius."""\n',
+        "",
+        "test_plugin_is_documented",
+        "shape 'faulty' has fields without a docstring below them: width",
+    ),
+    "world": (
+        "@register\nclass Faulty",
+        '''class Gaussians(Gaussians):
+    """Gaussians that forget to turn."""
+
+    def place(self, transforms):
+        from dataclasses import replace
+
+        return replace(super().place(transforms), axes=self.axes)
+
+
+@register
+class Faulty''',
+        "test_shape_moves_with_the_body",
+        "shape 'faulty' does not turn with the body: place(G T) differs from G place(T) by",
+    ),
+}  # fmt: skip
+
+KERNEL = (
+    SUPERQUADRIC.read_text()
+    .replace('"superquadric"', '"faulty"')
+    .replace('"radial_distance"', '"radial_faulty"')
+    .replace("class RadialDistance(", "@register\nclass RadialDistance(")
+    .replace("from regkit.primitives", "from regkit.plugin import register\nfrom regkit.primitives")
+)
+
+KERNEL_FAULTS = {
+    "torque": (
+        "-np.concatenate([normals, turns]",
+        "-np.concatenate([normals, -turns]",
+        "test_kernel_gradient_is_the_derivative_of_its_energy",
+        "(the forces are right, so it is the torques)",
+    ),
+    "sign": (
+        "-np.concatenate([normals, turns]",
+        "np.concatenate([normals, turns]",
+        "test_kernel_gradient_is_the_derivative_of_its_energy",
+        "(all signs are wrong: it must point uphill)",
+    ),
+    "blocks": (
+        "pulls[:, None, None] * rows",
+        "1e-3 * pulls[:, None, None] * rows",
+        "test_kernel_blocks_fit_its_forces",
+        "has blocks that are too soft",
+    ),
+    "stiff": (
+        "pulls[:, None, None] * rows",
+        "1e3 * pulls[:, None, None] * rows",
+        "test_kernel_blocks_fit_its_forces",
+        "has blocks that are too stiff",
+    ),
+    "negative": (
+        "pulls[:, None, None] * rows",
+        "-pulls[:, None, None] * rows",
+        "test_kernel_blocks_are_symmetric_and_semidefinite",
+        "clip the weights of residuals at zero",
+    ),
+    "where": (
+        "energy = 0.5 * float(",
+        "energy = placed.centres[0, 0] + 0.5 * float(",
+        "test_kernel_is_left_alone_by_a_common_motion",
+        "when body and data are moved together",
+    ),
+    "unweighted": (
+        "observation.weights / observation.weights.sum()",
+        "np.full(len(self._points), 1.0 / len(self._points))",
+        "test_kernel_takes_a_point_of_twice_the_weight_for_two",
+        "does not weigh the data: of what a second point in the same place does to its forces, "
+        "twice the weight leaves 100 % undone",
+    ),
+    "maximum": (
+        "return Response(energy, wrenches,",
+        "return Response(-energy, -wrenches,",
+        "test_kernel_prefers_the_body_where_the_data_are",
+        "prefers a body 0.1 m beside its data",
+    ),
+}
