@@ -39,7 +39,7 @@ def calibrate(
         typer.Option(
             metavar="TEMPLATE",
             help="What is seen: a name such as hand, a template's YAML file, or a mapping such as "
-            "'{kind: hand, side: left}'. [default: the experiment's, or human]",
+            "'{kind: hand, side: left}'. (default: the experiment's, or human)",
             show_default=False,
         ),
     ] = None,

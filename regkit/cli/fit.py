@@ -46,7 +46,7 @@ def fit(
             "--map",
             metavar="FILE",
             help="YAML file that names the segment of each bone, or null for that of its parent. "
-            "[default: the segment of the bone's own name]",
+            "(default: the segment of the bone's own name)",
             show_default=False,
         ),
     ] = None,

@@ -40,7 +40,7 @@ def register(
         typer.Option(
             min=0.0,
             help="Side [m] of the cubes to which both clouds are thinned; 0 for not at all. "
-            "[default: about 5000 points are left]",
+            "(default: about 5000 points are left)",
             show_default=False,
         ),
     ] = None,

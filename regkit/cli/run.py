@@ -23,7 +23,7 @@ def run(
         Path | None,
         typer.Option(
             help="Results folder; one that was begun before is completed. "
-            "[default: results/NAME/DATE-TIME]",
+            "(default: results/NAME/DATE-TIME)",
             show_default=False,
         ),
     ] = None,
