@@ -35,11 +35,11 @@ pictures: $(ready) ## Make the documentation's pictures again
 	@$(bin)/python docs/pictures.py
 
 samples: $(ready) ## Make the sample sequences again
-	@$(bin)/python -m regkit_plugins.synthesis docs/examples/data
-	@$(bin)/python -m regkit_plugins.synthesis.mannequin docs/examples/data/mannequin
+	@$(bin)/python -m regkit_synthesis docs/examples/data
+	@$(bin)/python -m regkit_synthesis.mannequin docs/examples/data/mannequin
 
 templates: $(ready) ## Fit the templates to the meshes again
-	@$(bin)/python -m regkit_plugins.fitting plugins/regkit_plugins/templates
+	@$(bin)/python -m regkit_synthesis.templates plugins/regkit_plugins/templates
 
 schemas: $(ready) ## Write the JSON Schemas again
 	@$(bin)/regkit schema --built-in

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from regkit.arrays import Array
-from regkit.rigid import inverse, moved, rigid
-from regkit.rotation import from_matrix, to_vector, vector_to_matrix
+from regkit.geometry.rigid import inverse, moved, rigid
+from regkit.geometry.rotation import from_matrix, to_vector, vector_to_matrix
+from regkit.system.arrays import Array
 
 
 @dataclass(frozen=True)

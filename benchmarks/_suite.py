@@ -10,7 +10,7 @@ from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from regkit.document import Document
+from regkit.config.document import Document
 from regkit.experiment import Experiment, Outcome, run
 from regkit.metrics import Measure
 
@@ -36,7 +36,7 @@ methods: {{method: {method}}}
 def bodies(kind: str) -> list[Path]:
     """The folders of the sequences of each ``human`` or ``hand``, or of one; made if need be."""
     if not FOLDER.is_dir():
-        command = [sys.executable, "-m", "regkit_plugins.synthesis", str(FOLDER), "--suite"]
+        command = [sys.executable, "-m", "regkit_synthesis", str(FOLDER), "--suite"]
         subprocess.run(command, check=True, stdout=sys.stderr)
     return sorted(folder for folder in FOLDER.absolute().glob(f"{kind}*") if folder.is_dir())
 

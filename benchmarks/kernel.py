@@ -15,7 +15,7 @@ from collections.abc import Callable
 import numpy as np
 
 from regkit.observation import Observation
-from regkit.optional import one_blas_thread
+from regkit.system.optional import one_blas_thread
 from regkit_plugins.kernels.correlation import Correlation
 from regkit_plugins.shapes.gsog import GeneralizedSumOfGaussians
 from regkit_plugins.templates.human import Human

@@ -26,8 +26,8 @@ from rich.table import Table
 from regkit.body import Body
 from regkit.interfaces import Method, Registered, Template
 from regkit.observation import Observation
-from regkit.optional import one_blas_thread
 from regkit.skeleton import Pose
+from regkit.system.optional import one_blas_thread
 
 SIZES = {"human": 1.75, "hand": 0.186}
 POINTS = 300

@@ -25,10 +25,10 @@ from _rigid_pairs import Pair, bunny
 from threadpoolctl import threadpool_limits
 
 from regkit.alignment import align, read_transform
-from regkit.arrays import Array
 from regkit.clouds import read_cloud
-from regkit.errors import DependencyError, RegkitError
 from regkit.interfaces import Method
+from regkit.system.arrays import Array
+from regkit.system.errors import DependencyError, RegkitError
 
 DATA = Path(__file__).parents[2] / "shared" / "data"
 SEEDS, ANGLES = 10, (10, 30, 60, 90)

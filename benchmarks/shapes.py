@@ -18,7 +18,7 @@ from _suite import HEADER, last_line, row, tracked, tracked_utd
 from tracking import ROUNDS, Bench
 
 from regkit.metrics import Measure
-from regkit.optional import one_blas_thread
+from regkit.system.optional import one_blas_thread
 
 METHODS = {
     "SoG": "{preset: best, shape: {kind: sog, surface: visible}}",

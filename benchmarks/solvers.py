@@ -22,10 +22,10 @@ from regkit.body import Body
 from regkit.experiment import Experiment
 from regkit.interfaces import Method, Registered, Solver
 from regkit.observation import Observation
-from regkit.optional import one_blas_thread
-from regkit.problem import RegistrationProblem
+from regkit.registration.problem import RegistrationProblem
 from regkit.skeleton import Pose
 from regkit.start import found_start
+from regkit.system.optional import one_blas_thread
 
 DEMO = Path(__file__).parent.parent / "docs" / "examples" / "demo.yaml"
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 from _suite import HEADER, last_line, row, tracked
 from tracking import Bench
 
-from regkit.optional import one_blas_thread
+from regkit.system.optional import one_blas_thread
 
 CONTINUITY = "{kind: continuity, weight: 0.003}"
 METHODS = {

@@ -20,8 +20,8 @@ from pathlib import Path
 from regkit.experiment import Experiment
 from regkit.interfaces import Follower, Registered
 from regkit.observation import Frame
-from regkit.optional import one_blas_thread
 from regkit.start import found_start
+from regkit.system.optional import one_blas_thread
 
 EXAMPLES = Path(__file__).parent.parent / "docs" / "examples"
 ROUNDS = 5

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from regkit.body import Body, BodyDescription
-from regkit.document import Document
+from regkit.config.document import Document
 from regkit.testing.samples import LINKAGE
 
 ROOT = Path(__file__).parent.parent

@@ -10,7 +10,7 @@ from typing import Any
 
 from sphinx.application import Sphinx
 
-from regkit.model import Model
+from regkit.config.model import Model
 
 PROSE = ("attribute", "data", "property")
 

@@ -13,8 +13,8 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
-from regkit.model import Model
-from regkit.plugin import Plugin
+from regkit.config.model import Model
+from regkit.config.plugin import Plugin
 
 _BOUNDS = {"ge": "≥", "gt": ">", "le": "≤", "lt": "<", "min_length": "length ≥"}
 _NAMES = {str: "text", float: "number", int: "integer", bool: "true or false", Path: "path"}

@@ -7,11 +7,11 @@ from collections.abc import Iterator
 
 from field_tables import field_table, models_in
 
-from regkit.installed import OWN, only_from
+from regkit.config.installed import OWN, only_from
+from regkit.config.model import Model
+from regkit.config.plugin import Plugin
+from regkit.config.preset import preset_file, presets_of
 from regkit.interfaces import SLOTS
-from regkit.model import Model
-from regkit.plugin import Plugin
-from regkit.preset import preset_file, presets_of
 
 
 def plugins_text(group: str) -> str:

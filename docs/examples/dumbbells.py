@@ -5,8 +5,8 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from regkit.body import Body
+from regkit.config.plugin import register
 from regkit.interfaces import ShapeModel
-from regkit.plugin import register
 from regkit.primitives import Gaussians, Primitives
 
 

@@ -9,9 +9,9 @@ import casadi
 import numpy as np
 
 from regkit.casadi import configuration, correlation, joint_limits, marker_positions, retract
+from regkit.geometry.rigid import rigid
+from regkit.geometry.rotation import vector_to_matrix
 from regkit.interfaces import Template
-from regkit.rigid import rigid
-from regkit.rotation import vector_to_matrix
 from regkit.skeleton import PoseDescription
 
 

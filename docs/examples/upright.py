@@ -8,8 +8,8 @@ from typing import Literal
 
 import numpy as np
 
+from regkit.config.plugin import register
 from regkit.interfaces import JointEnergy, Scene, Strain, Term
-from regkit.plugin import register
 from regkit.skeleton import Pose
 
 

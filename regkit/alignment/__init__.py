@@ -1,9 +1,9 @@
 """Rigid alignment: one cloud laid on another, by any method that registers a rigid body."""
 
 from regkit.alignment.alignment import Alignment, align
-from regkit.alignment.body import cloud_body, cloud_description
-from regkit.alignment.evaluation import Agreement, agreement
 from regkit.alignment.starts import STARTS, read_transform
+from regkit.body.cloud import cloud_body, cloud_description
+from regkit.clouds.agreement import Agreement, agreement
 
 __all__ = [
     "STARTS",

@@ -7,18 +7,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from regkit.alignment.body import cloud_body
 from regkit.alignment.determined import hidden_motion
-from regkit.alignment.evaluation import Agreement, agreement
 from regkit.alignment.starts import beginning
-from regkit.arrays import Array
+from regkit.body.cloud import cloud_body
 from regkit.clouds import spacing, thinned, voxel_for
+from regkit.clouds.agreement import Agreement, agreement
 from regkit.clouds.checks import check_shape, check_sizes
-from regkit.errors import DataError
+from regkit.geometry.rigid import rigid
 from regkit.interfaces import Method
 from regkit.observation import Observation
-from regkit.optional import one_blas_thread
-from regkit.rigid import rigid
+from regkit.system.arrays import Array
+from regkit.system.errors import DataError
+from regkit.system.optional import one_blas_thread
 
 POINTS = 5000
 """Without a voxel, clouds are thinned to about so many points."""

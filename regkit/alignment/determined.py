@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from regkit.arrays import Array
 from regkit.clouds import normals
+from regkit.system.arrays import Array
 
 SLACK = 0.01
 """A motion hardly shows if the surface gives way by less than this mean square part of it; the

@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from regkit.arrays import Array
-from regkit.clouds import thinned, voxel_for
-from regkit.errors import DataError
-from regkit.optional import open3d
+from regkit.clouds import spacing, thinned, voxel_for
+from regkit.system.arrays import Array
+from regkit.system.errors import DataError
+from regkit.system.optional import open3d
 
 SKETCH = 3000
 """So many points have features."""
@@ -68,6 +68,4 @@ def _matched(library: Any, clouds: list[Any], features: list[Any], distance: flo
 
 def _typical(points: Array) -> float:
     """A voxel [m] that leaves a sparse cloud as it is."""
-    from regkit.clouds import spacing
-
     return spacing(points)

@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 
 from regkit.alignment.features import by_features
-from regkit.alignment.rotations import by_rotations
-from regkit.arrays import Array
 from regkit.clouds import thinned, voxel_for
-from regkit.errors import ConfigError, DataError
+from regkit.config.model import did_you_mean
+from regkit.geometry.rigid import moved
 from regkit.interfaces import Method
-from regkit.model import did_you_mean
-from regkit.rigid import moved
+from regkit.search.rotations import by_rotations
+from regkit.system.arrays import Array
+from regkit.system.errors import ConfigError, DataError
 
 STARTS = ("nearest", "identity", "centroids", "rotations", "features")
 """The names of the ways to begin; anything else is a file."""

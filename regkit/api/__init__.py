@@ -5,7 +5,7 @@ from regkit.api.choices import load_template
 from regkit.api.frames import load_sequence
 from regkit.api.registering import register, track
 from regkit.api.results import Registration, Tracking
-from regkit.camera import Camera
+from regkit.geometry.camera import Camera
 from regkit.observation import Truth
 
 __all__ = [

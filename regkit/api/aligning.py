@@ -13,11 +13,11 @@ from regkit.alignment import align as align_clouds
 from regkit.api.choices import Choice, chosen_method, told
 from regkit.api.numbers import checked_numbers
 from regkit.api.tables import Summary
-from regkit.arrays import Array, checked_points
 from regkit.clouds import check_writable, read_cloud, write_cloud
-from regkit.errors import RegkitError
+from regkit.geometry.rigid import moved
 from regkit.interfaces import Method
-from regkit.rigid import moved
+from regkit.system.arrays import Array, checked_points
+from regkit.system.errors import RegkitError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

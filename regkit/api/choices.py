@@ -9,13 +9,13 @@ from typing import Any, TypeAlias, TypeVar
 from pydantic import Field
 
 from regkit.clouds.reading import READABLE
-from regkit.document import Document
-from regkit.errors import ConfigError
+from regkit.config.document import Document
+from regkit.config.model import Model, did_you_mean
+from regkit.config.plugin import Plugin
+from regkit.config.preset import presets_of
 from regkit.interfaces import Method, Observer, Template, Tracker
-from regkit.model import Model, did_you_mean
-from regkit.plugin import Plugin
-from regkit.preset import presets_of
 from regkit.skeleton import PoseDescription
+from regkit.system.errors import ConfigError
 
 P = TypeVar("P", bound=Plugin)
 

@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from regkit.api.numbers import checked_numbers
-from regkit.arrays import checked_points
-from regkit.camera import Camera
-from regkit.document import Document
-from regkit.errors import ConfigError, DataError
+from regkit.config.document import Document
+from regkit.config.model import Model
+from regkit.geometry.camera import Camera
 from regkit.interfaces import Dataset, Sequence
-from regkit.model import Model
 from regkit.observation import Frame
+from regkit.system.arrays import checked_points
+from regkit.system.errors import ConfigError, DataError
 
 Measured = Frame | ArrayLike
 """A depth image (H, W) [m], a cloud (N, 3) [m], or a frame."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from regkit.arrays import Array
-from regkit.errors import DataError
+from regkit.system.arrays import Array
+from regkit.system.errors import DataError
 
 TOO_LARGE, TOO_SMALL = 200.0, 0.02
 """Data that are so many times as large as a body are not in metres."""

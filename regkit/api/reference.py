@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from regkit.api.numbers import checked_numbers
-from regkit.arrays import Array
 from regkit.body import Body
-from regkit.errors import ConfigError, DataError
 from regkit.observation import Truth
+from regkit.system.arrays import Array
+from regkit.system.errors import ConfigError, DataError
 
 Reference = Truth | Mapping[str, ArrayLike] | ArrayLike
 """Reference joints: a ``Truth``, arrays (T, 3) [m] by name, or one (T, M, 3) [m] for all markers;

@@ -14,12 +14,12 @@ from regkit.api.numbers import check_metres
 from regkit.api.results import Registration, Tracking
 from regkit.body import Body
 from regkit.clouds import spacing, voxel_for
-from regkit.errors import ConfigError, DataError, RegkitError
 from regkit.interfaces import Method, Observer, Sequence, Template, Tracker
 from regkit.observation import Frame, Observation
-from regkit.optional import one_thread
 from regkit.skeleton import Pose
 from regkit.start import Start, found_start, given_start
+from regkit.system.errors import ConfigError, DataError, RegkitError
+from regkit.system.optional import one_thread
 from regkit.tracking import Track, TrackedFrame, tracked
 
 POINTS = 900

@@ -13,13 +13,13 @@ from numpy.typing import ArrayLike
 
 from regkit.api.reference import Reference, truth_of
 from regkit.api.tables import Summary
-from regkit.arrays import Array
 from regkit.body import Body
-from regkit.errors import ConfigError, DataError
-from regkit.files import write_arrays
 from regkit.interfaces import Registrar
 from regkit.metrics import JointErrors, Measure, joint_errors, measured
 from regkit.skeleton import Pose
+from regkit.system.arrays import Array
+from regkit.system.errors import ConfigError, DataError
+from regkit.system.files import write_arrays
 from regkit.tracking import Track, TrackedFrame
 
 if TYPE_CHECKING:

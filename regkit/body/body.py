@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from regkit.arrays import Array, Indices
-from regkit.capsules import Capsules
+from regkit.geometry.capsules import Capsules
+from regkit.geometry.surface import SkinnedSurface
 from regkit.primitives import Gaussians
 from regkit.skeleton import Placement, Pose, Skeleton
-from regkit.surface import SkinnedSurface
+from regkit.system.arrays import Array, Indices
 
 
 @dataclass(frozen=True)

@@ -7,17 +7,17 @@ from typing import Annotated
 import numpy as np
 from pydantic import AfterValidator, Field, model_validator
 
-from regkit.arrays import read_only
 from regkit.body.body import Body, Markers, Stance
-from regkit.capsules import Capsules
-from regkit.errors import ConfigError
-from regkit.model import InputPath, Model, did_you_mean, misplaced
+from regkit.config.model import InputPath, Model, did_you_mean, misplaced
+from regkit.geometry.capsules import Capsules
+from regkit.geometry.rotation import vector_to_matrix
+from regkit.geometry.surface import SkinnedSurface, surface_in
 from regkit.primitives import Gaussians
-from regkit.rotation import vector_to_matrix
 from regkit.skeleton import PoseDescription, SkeletonDescription
 from regkit.skeleton.compile import compiled
 from regkit.skeleton.joints import Range, Vector
-from regkit.surface import SkinnedSurface, surface_in
+from regkit.system.arrays import read_only
+from regkit.system.errors import ConfigError
 
 Deviation = Annotated[float, Field(gt=1e-6)]
 

@@ -10,17 +10,17 @@ from typing import Annotated, Protocol
 import numpy as np
 from pydantic import Field, TypeAdapter
 
-from regkit.arrays import Array
 from regkit.calibration.frames import Looks, spread
 from regkit.calibration.problem import SubjectProblem
 from regkit.calibration.shape import Shape
 from regkit.calibration.subject import Subject
-from regkit.errors import ConfigError, RegkitError
+from regkit.config.model import Model
 from regkit.interfaces import Method, Observer, Sequence, Solver, Template, Tracker
-from regkit.model import Model
-from regkit.optional import one_blas_thread
 from regkit.skeleton import PoseDescription
 from regkit.start import Start, found_start, given_start
+from regkit.system.arrays import Array
+from regkit.system.errors import ConfigError, RegkitError
+from regkit.system.optional import one_blas_thread
 from regkit.tracking import TrackedFrame, tracked
 
 SOLVER = {"kind": "gauss_newton", "max_iterations": 30, "value_tolerance": 1e-4}

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from regkit.arrays import Array
 from regkit.body import Body
 from regkit.calibration.gaps import Cloud
 from regkit.skeleton import Pose
+from regkit.system.arrays import Array
 from regkit.tracking import TrackedFrame
 
 

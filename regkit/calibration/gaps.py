@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import KDTree
 
-from regkit.arrays import Array, Indices
-from regkit.capsules import Capsules
+from regkit.geometry.capsules import Capsules
 from regkit.observation import Observation
+from regkit.system.arrays import Array, Indices
 
 MOST_POINTS = 500
 """So many points of a frame tell its proportions as well as all of them do."""

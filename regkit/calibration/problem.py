@@ -6,14 +6,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from regkit.arrays import Array, Indices
 from regkit.body import Body
 from regkit.calibration.gaps import Cloud
 from regkit.calibration.shape import Shape
 from regkit.calibration.slopes import Slopes
-from regkit.coordinates import TangentCoordinates
 from regkit.interfaces import Problem
+from regkit.registration.coordinates import TangentCoordinates
 from regkit.skeleton import Pose
+from regkit.system.arrays import Array, Indices
 
 REACH = 2.0
 """Gaps beyond so many times the usual one count ever less; the usual one is the median, which holds

@@ -7,10 +7,10 @@ from functools import cached_property
 
 import numpy as np
 
-from regkit.arrays import Array
 from regkit.body import Body, BodyDescription
-from regkit.calibration.groups import Groups
-from regkit.calibration.proportions import Proportions
+from regkit.body.groups import Groups
+from regkit.body.proportions import Proportions
+from regkit.system.arrays import Array
 
 USUAL_LENGTH, USUAL_GIRTH = 0.05, 0.07
 """By how much the logarithms of a person's lengths and girths usually differ from those of a

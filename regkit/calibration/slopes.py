@@ -7,12 +7,12 @@ from functools import cached_property
 
 import numpy as np
 
-from regkit.arrays import Array, Indices
 from regkit.body import Body
+from regkit.body.groups import Groups
 from regkit.calibration.gaps import Gaps
-from regkit.calibration.groups import Groups
-from regkit.rotation import cross
+from regkit.geometry.rotation import cross
 from regkit.skeleton import Placement
+from regkit.system.arrays import Array, Indices
 
 
 @dataclass(frozen=True)

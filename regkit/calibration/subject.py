@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from regkit.arrays import Array
 from regkit.body import BodyDescription
+from regkit.body.proportions import Proportions
 from regkit.calibration.frames import Looks, distances
-from regkit.calibration.proportions import Proportions
 from regkit.calibration.shape import Shape
-from regkit.errors import DataError
+from regkit.system.arrays import Array
+from regkit.system.errors import DataError
 
 FARTHEST = 0.015
 """A body whose surface is farther from most data, as a part of its size, was not found."""

@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from regkit.arrays import Array
 from regkit.casadi import rotations
-from regkit.errors import ConfigError
-from regkit.optional import casadi
-from regkit.rigid import rigid
-from regkit.rotation import from_matrix, to_matrix
+from regkit.geometry.rigid import rigid
+from regkit.geometry.rotation import from_matrix, to_matrix
 from regkit.skeleton import Pose, Skeleton
+from regkit.system.arrays import Array
+from regkit.system.errors import ConfigError
+from regkit.system.optional import casadi
 
 
 def configuration(skeleton: Skeleton, pose: Pose) -> Array:

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from regkit.arrays import Array
-from regkit.optional import casadi
+from regkit.system.arrays import Array
+from regkit.system.optional import casadi
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from regkit.arrays import Array
+from regkit.system.arrays import Array
 
 
 class Evaluation:

@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from regkit.arrays import Array
 from regkit.casadi.configuration import length
 from regkit.casadi.kinematics import forward_kinematics
-from regkit.optional import casadi
 from regkit.primitives import Gaussians
 from regkit.skeleton import Skeleton
+from regkit.system.arrays import Array
+from regkit.system.optional import casadi
 
 
 def correlation(skeleton: Skeleton, gaussians: Gaussians, count: int) -> Any:

@@ -18,13 +18,13 @@ from typing import Any
 
 import numpy as np
 
-from regkit.arrays import Array
 from regkit.casadi import rotations
 from regkit.casadi.configuration import length, split
 from regkit.casadi.constraint_rows import ConstraintRows, Row, gathered
-from regkit.optional import casadi
-from regkit.rotation import conjugate, cross
+from regkit.geometry.rotation import conjugate, cross
 from regkit.skeleton import Skeleton
+from regkit.system.arrays import Array
+from regkit.system.optional import casadi
 
 NOWHERE = 1e-30
 """Added to squares that vanish at a swing of half a turn, where the twist is not defined."""

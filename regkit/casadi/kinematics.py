@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from regkit.arrays import Array
 from regkit.body import Markers
 from regkit.casadi import rotations
 from regkit.casadi.configuration import length, split
-from regkit.optional import casadi
 from regkit.skeleton import Skeleton
+from regkit.system.arrays import Array
+from regkit.system.optional import casadi
 
 
 @lru_cache(maxsize=16)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from regkit.optional import casadi
+from regkit.system.optional import casadi
 
 SMALL = 1e-4
 """Below this square of an angle, or of its sine, series take the place of quotients."""

@@ -19,7 +19,7 @@ from regkit.cli.report import report
 from regkit.cli.run import run
 from regkit.cli.schema import schema
 from regkit.cli.validate import validate
-from regkit.errors import RegkitError
+from regkit.system.errors import RegkitError
 
 app = typer.Typer(
     help="Register articulated and rigid shape models to point clouds and depth frames.",

@@ -6,12 +6,12 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from regkit.calibration import Calibration
-from regkit.document import Document
-from regkit.errors import ConfigError
+from regkit.config.document import Document
+from regkit.config.model import Model
 from regkit.experiment import Experiment
 from regkit.interfaces import Dataset, Observer, Sequence, Template
-from regkit.model import Model
 from regkit.skeleton import PoseDescription
+from regkit.system.errors import ConfigError
 
 SHOWN = 5
 """So many sequences are named to a user who has to choose one."""

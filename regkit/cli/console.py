@@ -9,8 +9,8 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from regkit.errors import RegkitError
-from regkit.plugin import run_plugin_file
+from regkit.config.plugin import run_plugin_file
+from regkit.system.errors import RegkitError
 
 # What a user wrote between two colons is no emoji.
 output = Console(emoji=False)

@@ -13,12 +13,12 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
-from regkit import optional
-from regkit.cache import cache_folder
 from regkit.cli.console import output
-from regkit.errors import RegkitError
+from regkit.config.preset import preset, presets_of
 from regkit.interfaces import SLOTS
-from regkit.preset import preset, presets_of
+from regkit.system import optional
+from regkit.system.cache import cache_folder
+from regkit.system.errors import RegkitError
 
 
 def doctor() -> None:

@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from regkit.cli.console import PluginFiles, output, run_plugin_files
-from regkit.errors import ConfigError
+from regkit.system.errors import ConfigError
 
 
 class Unit(StrEnum):

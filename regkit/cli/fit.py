@@ -10,7 +10,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from regkit.cli.console import PluginFiles, output, run_plugin_files
-from regkit.errors import RegkitError
+from regkit.system.errors import RegkitError
 
 if TYPE_CHECKING:
     from regkit.body import BodyDescription

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from regkit.cli.console import output
-from regkit.errors import ConfigError
+from regkit.system.errors import ConfigError
 
 if TYPE_CHECKING:
     from regkit.interchange.imported import ImportedSkeleton

@@ -10,13 +10,13 @@ from rich.markup import escape
 from rich.table import Table
 
 from regkit.cli.console import PluginFiles, output, run_plugin_files
-from regkit.errors import PluginError, RegkitError
-from regkit.installed import Installed
+from regkit.config.installed import Installed
+from regkit.config.model import did_you_mean
+from regkit.config.plugin import Plugin
+from regkit.config.preset import preset_file, presets_of
+from regkit.config.schema_line import MARK
 from regkit.interfaces import SLOTS, Solver
-from regkit.model import did_you_mean
-from regkit.plugin import Plugin
-from regkit.preset import preset_file, presets_of
-from regkit.schema_line import MARK
+from regkit.system.errors import PluginError, RegkitError
 
 
 def plugins(

@@ -68,7 +68,7 @@ def register(
     """Lay a rigid cloud or mesh on another: T_target_source, and how well they agree."""
     from regkit.alignment import align
     from regkit.clouds import check_writable, read_cloud, write_cloud
-    from regkit.rigid import moved
+    from regkit.geometry.rigid import moved
 
     run_plugin_files(plugin)
     if out is not None:
@@ -118,11 +118,11 @@ def named_method(text: str) -> Method:
     Raises:
         ConfigError: If there is none, or a field of it is wrong.
     """
-    from regkit.document import Document
-    from regkit.errors import ConfigError
+    from regkit.config.document import Document
+    from regkit.config.model import Model
+    from regkit.config.preset import presets_of
     from regkit.interfaces import Method
-    from regkit.model import Model
-    from regkit.preset import presets_of
+    from regkit.system.errors import ConfigError
 
     class Named(Model):
         """A method, as the command line names it."""

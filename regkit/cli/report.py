@@ -33,8 +33,8 @@ def _pair(text: str, methods: list[str]) -> tuple[str, str]:
     Raises:
         ConfigError: If they are not two that there are.
     """
-    from regkit.errors import ConfigError
-    from regkit.model import did_you_mean
+    from regkit.config.model import did_you_mean
+    from regkit.system.errors import ConfigError
 
     place = f"--compare {text}"
     parts = text.split(",")

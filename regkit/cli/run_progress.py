@@ -17,7 +17,7 @@ from rich.text import Text
 
 from regkit.cli.console import errors
 from regkit.cli.interrupt import Interrupt
-from regkit.errors import RegkitError
+from regkit.system.errors import RegkitError
 
 SHOWN = 8
 """Of so many things that are being done at once a line is shown."""

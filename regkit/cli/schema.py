@@ -13,11 +13,11 @@ from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue
 from pydantic_core import core_schema
 
 from regkit.cli.console import PluginFiles, errors, output, run_plugin_files
-from regkit.errors import PluginError
-from regkit.files import write_text
-from regkit.installed import OWN, Installed, only_from
+from regkit.config.installed import OWN, Installed, only_from
+from regkit.config.schema_line import FOLDER, MARK
 from regkit.interfaces import SLOTS
-from regkit.schema_line import FOLDER, MARK
+from regkit.system.errors import PluginError
+from regkit.system.files import write_text
 
 
 def schema(

@@ -7,11 +7,11 @@ from pathlib import Path
 
 from regkit.body import BodyDescription
 from regkit.body.writing import template_text
-from regkit.document import Document
-from regkit.errors import ConfigError, RegkitError
-from regkit.files import write_text
-from regkit.schema_line import schema_line
-from regkit.skinned_mesh import SkinnedMesh
+from regkit.config.document import Document
+from regkit.config.schema_line import schema_line
+from regkit.geometry.skinned_mesh import SkinnedMesh
+from regkit.system.errors import ConfigError, RegkitError
+from regkit.system.files import write_text
 
 
 def check_replaceable(out: Path) -> None:

@@ -8,8 +8,8 @@ from typing import Annotated
 import typer
 
 from regkit.cli.console import PluginFiles, output, print_error, run_plugin_files
-from regkit.document import Document
-from regkit.errors import ConfigError, RegkitError
+from regkit.config.document import Document
+from regkit.system.errors import ConfigError, RegkitError
 
 
 def validate(

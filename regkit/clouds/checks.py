@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from regkit.arrays import Array
-from regkit.errors import DataError
+from regkit.system.arrays import Array
+from regkit.system.errors import DataError
 
 FEWEST = 10
 """So many different points are needed, which leaves some over after six degrees of freedom."""

@@ -6,8 +6,8 @@ from math import sqrt
 
 import numpy as np
 
-from regkit.arrays import Array, Indices
-from regkit.optional import compiled
+from regkit.system.arrays import Array, Indices
+from regkit.system.compiled import compiled
 
 
 @compiled

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from regkit.arrays import Array
+from regkit.clouds.compiled_normals import least_directions
+from regkit.system.arrays import Array
 
 NEIGHBOURS = 10
 """So many points, a point itself among them, tell the plane of its surface."""
@@ -29,10 +30,7 @@ def normals(points: Array, neighbours: int = NEIGHBOURS) -> Array:
 
     The normal is the direction in which the nearest points vary least.
     """
-    # Imported when first used, for Numba takes its time to load.
     from scipy.spatial import KDTree
-
-    from regkit.clouds.compiled_normals import least_directions
 
     near = min(neighbours, len(points))
     _, indices = KDTree(points).query(points, near)

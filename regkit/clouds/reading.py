@@ -13,9 +13,9 @@ from zipfile import BadZipFile
 
 import numpy as np
 
-from regkit.arrays import Array, checked_points
-from regkit.errors import DataError
-from regkit.optional import open3d
+from regkit.system.arrays import Array, checked_points
+from regkit.system.errors import DataError
+from regkit.system.optional import open3d
 
 TEXT = (".txt", ".csv", ".xyz")
 """Files of numbers in rows, x y z first; what follows on a row is left out."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from regkit.arrays import Array, Indices
+from regkit.system.arrays import Array, Indices
 
 FINEST = 1e-6
 """Voxels smaller than this part of a cloud's extent are not tried."""

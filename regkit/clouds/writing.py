@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 
-from regkit.arrays import Array
-from regkit.errors import ConfigError, DataError
-from regkit.files import replacing, write_arrays
-from regkit.optional import open3d
+from regkit.system.arrays import Array
+from regkit.system.errors import ConfigError, DataError
+from regkit.system.files import replacing, write_arrays
+from regkit.system.optional import open3d
 
 TEXT = {".txt": " ", ".xyz": " ", ".csv": ","}
 """What parts the numbers of a row."""

@@ -9,12 +9,12 @@ from typing import Annotated
 
 from pydantic import AfterValidator, Field, ValidationInfo, WithJsonSchema, field_validator
 
-from regkit.document import Document
-from regkit.errors import ConfigError
+from regkit.config.document import Document
+from regkit.config.model import Model
 from regkit.interfaces import Dataset, Method, Observer, Sequence, Template, Tracker
-from regkit.model import Model
 from regkit.skeleton import PoseDescription
 from regkit.start import given_start
+from regkit.system.errors import ConfigError
 
 _FOLDER = r"^[A-Za-z0-9][A-Za-z0-9_.,=-]*$"
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from uuid import uuid4
 
-from regkit.errors import ConfigError, DataError
+from regkit.system.errors import ConfigError, DataError
 
 MARK = ".running"
 """The file that is locked; it is gone when the run has ended, and stale if it was killed."""

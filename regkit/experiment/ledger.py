@@ -6,13 +6,13 @@ import time
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from regkit.errors import RegkitError
 from regkit.experiment.experiment import Experiment
 from regkit.experiment.reporting import report, summarise
 from regkit.experiment.resolved import resolved
 from regkit.experiment.results import Results
 from regkit.experiment.task import Task
 from regkit.metrics import Measure
+from regkit.system.errors import RegkitError
 
 WRITTEN_EVERY = 1.0
 """The figures are written no more often than this [s] while the run goes on."""

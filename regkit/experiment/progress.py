@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from regkit.errors import RegkitError
+from regkit.system.errors import RegkitError
 
 
 class Progress(Protocol):

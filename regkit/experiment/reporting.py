@@ -8,11 +8,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from regkit.document import Document
-from regkit.errors import DataError
+from regkit.config.document import Document
 from regkit.experiment.results import Results
 from regkit.metrics import Measure
 from regkit.report import Run, write_report, write_summary
+from regkit.system.errors import DataError
 
 Measures = Mapping[str, Mapping[str, Measure]]
 """Figures by method and sequence; a method of a sweep is called ``SETTING/METHOD``."""

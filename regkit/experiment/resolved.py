@@ -7,8 +7,8 @@ from typing import Any
 from pydantic import BaseModel
 from pydantic_core import PydanticSerializationError, to_jsonable_python
 
-from regkit.errors import ConfigError
 from regkit.experiment.experiment import Experiment
+from regkit.system.errors import ConfigError
 
 
 def resolved(experiment: Experiment) -> dict[str, Any]:

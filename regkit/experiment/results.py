@@ -13,14 +13,14 @@ from zipfile import BadZipFile
 import numpy as np
 
 from regkit.body import Body
-from regkit.document import Document, yaml_data, yaml_text
-from regkit.errors import ConfigError, DataError, PluginError, RegkitError
+from regkit.config.document import Document, yaml_data, yaml_text
 from regkit.experiment.differences import differences
 from regkit.experiment.environment import environment
 from regkit.experiment.hold import MARK
-from regkit.files import remove_unfinished, write_arrays, write_json, write_text
 from regkit.metrics import Measure
 from regkit.report import Record, draw_overlay, method_styles
+from regkit.system.errors import ConfigError, DataError, PluginError, RegkitError
+from regkit.system.files import remove_unfinished, write_arrays, write_json, write_text
 from regkit.tracking import Track
 
 

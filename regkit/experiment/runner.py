@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
-from regkit.errors import ConfigError
+from regkit.config.model import did_you_mean
 from regkit.experiment.experiment import Experiment
 from regkit.experiment.hold import held
 from regkit.experiment.ledger import Ledger, Outcome
@@ -16,7 +16,7 @@ from regkit.experiment.sweeps.study import Study
 from regkit.experiment.workers.packed import check_shared
 from regkit.experiment.workers.team import ThisProcess, Workers
 from regkit.experiment.workers.working import work
-from regkit.model import did_you_mean
+from regkit.system.errors import ConfigError
 
 REPORTING = "writing the report"
 """What is begun last."""

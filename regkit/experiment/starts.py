@@ -9,13 +9,13 @@ from pathlib import Path
 
 import numpy as np
 
-from regkit.errors import DataError, RegkitError
 from regkit.experiment.experiment import Experiment
-from regkit.files import write_json
 from regkit.interfaces import Sequence
 from regkit.observation import Observation
 from regkit.skeleton import Pose
 from regkit.start import Start, found_start, given_start
+from regkit.system.errors import DataError, RegkitError
+from regkit.system.files import write_json
 
 
 def start_file(folder: Path, sequence: str) -> Path:

@@ -7,16 +7,16 @@ from dataclasses import dataclass
 from glob import escape
 from pathlib import Path
 
-from regkit.errors import RegkitError
 from regkit.experiment.experiment import Experiment
 from regkit.experiment.results import Results
 from regkit.experiment.starts import start_file, start_of
-from regkit.files import remove_unfinished
 from regkit.interfaces import Registrar, Sequence
 from regkit.metrics import Measure, joint_errors, matched, measured
 from regkit.observation import Truth
-from regkit.optional import one_thread
 from regkit.report import Record
+from regkit.system.errors import RegkitError
+from regkit.system.files import remove_unfinished
+from regkit.system.optional import one_thread
 from regkit.tracking import Track, TrackedFrame, tracked
 
 Result = Measure | RegkitError | None

@@ -12,16 +12,16 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from regkit.arrays import Array
 from regkit.body import Body
-from regkit.document import Document
-from regkit.errors import ConfigError, DataError
+from regkit.config.document import Document
+from regkit.config.model import Model
+from regkit.geometry.rigid import rigid
+from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.interchange.motion import TrackedMotion
 from regkit.interfaces import Template
-from regkit.model import Model
-from regkit.rigid import rigid
 from regkit.skeleton import Pose
-from regkit.skinned_mesh import SkinnedMesh
+from regkit.system.arrays import Array
+from regkit.system.errors import ConfigError, DataError
 
 NEEDED = ("root", "balls", "hinges", "markers", "size")
 """The arrays of ``poses.npz`` that make a motion."""

@@ -8,10 +8,10 @@ from pathlib import Path
 from pydantic import RootModel
 
 from regkit.body import BodyDescription
-from regkit.document import Document
-from regkit.errors import ConfigError
-from regkit.model import did_you_mean
-from regkit.skinned_mesh import SkinnedMesh
+from regkit.config.document import Document
+from regkit.config.model import did_you_mean
+from regkit.geometry.skinned_mesh import SkinnedMesh
+from regkit.system.errors import ConfigError
 
 
 class BoneMap(RootModel[dict[str, str | None]]):

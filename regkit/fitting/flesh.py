@@ -10,11 +10,11 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from regkit.arrays import Array, Indices
 from regkit.fitting.layout import Layout, SegmentFrame
-from regkit.optional import open3d
-from regkit.rigid import moved
-from regkit.skinned_mesh import SkinnedMesh
+from regkit.geometry.rigid import moved
+from regkit.geometry.skinned_mesh import SkinnedMesh
+from regkit.system.arrays import Array, Indices
+from regkit.system.optional import open3d
 
 
 @dataclass(frozen=True)

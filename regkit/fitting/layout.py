@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from regkit.arrays import Array
-from regkit.rigid import moved
-from regkit.skinned_mesh import SkinnedMesh
+from regkit.geometry.rigid import moved
+from regkit.geometry.skinned_mesh import SkinnedMesh
+from regkit.system.arrays import Array
 
 
 @dataclass(frozen=True)

@@ -9,17 +9,17 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial import cKDTree
 
-from regkit.arrays import Array
 from regkit.body import BodyDescription
 from regkit.body.description import GaussianDescription
-from regkit.calibration.groups import Groups
-from regkit.calibration.proportions import Proportions
+from regkit.body.groups import Groups
+from regkit.body.proportions import Proportions
 from regkit.fitting.flesh import Flesh
 from regkit.fitting.layout import Layout
 from regkit.fitting.moments import ball, clusters, gaussian, mixture, vector
 from regkit.skeleton import SegmentDescription
 from regkit.skeleton.description import parents_first
 from regkit.skeleton.joints import FixedJoint
+from regkit.system.arrays import Array
 
 
 @dataclass(frozen=True)

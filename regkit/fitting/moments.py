@@ -7,10 +7,10 @@ from itertools import permutations, product
 
 import numpy as np
 
-from regkit.arrays import Array, Indices
 from regkit.body.description import GaussianDescription
-from regkit.rotation import from_matrix, to_vector, vector_to_matrix
+from regkit.geometry.rotation import from_matrix, to_vector, vector_to_matrix
 from regkit.skeleton.joints import Vector
+from regkit.system.arrays import Array, Indices
 
 _TURNS = np.array(
     [

@@ -8,15 +8,15 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import nnls
 
-from regkit.arrays import Array
 from regkit.body import BodyDescription
-from regkit.errors import DataError
 from regkit.fitting.flesh import Flesh
 from regkit.fitting.layout import SegmentFrame
-from regkit.rotation import vector_to_matrix
+from regkit.geometry.rotation import vector_to_matrix
 from regkit.skeleton import SegmentDescription
 from regkit.skeleton.description import parents_first
 from regkit.skeleton.joints import FixedJoint, HingeJoint
+from regkit.system.arrays import Array
+from regkit.system.errors import DataError
 
 BENT = np.radians(15.0)
 """A joint that is bent so far shows its axis [rad]."""

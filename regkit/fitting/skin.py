@@ -9,13 +9,13 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from regkit.arrays import Indices
 from regkit.body import BodyDescription
 from regkit.fitting.layout import Layout
 from regkit.fitting.moments import spread
-from regkit.rigid import moved, rigid
-from regkit.skinned_mesh import SkinnedMesh
-from regkit.surface import vertex_normals
+from regkit.geometry.rigid import moved, rigid
+from regkit.geometry.skinned_mesh import SkinnedMesh
+from regkit.geometry.surface import vertex_normals
+from regkit.system.arrays import Indices
 
 
 def on_segments(mesh: SkinnedMesh, layout: Layout, template: BodyDescription) -> SkinnedMesh:

@@ -7,19 +7,19 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from regkit.arrays import Array
 from regkit.body import BodyDescription
-from regkit.calibration.proportions import Proportions, height
-from regkit.errors import DataError
+from regkit.body.proportions import Proportions, height
 from regkit.fitting.bones import first_bones, owners_of_bones
 from regkit.fitting.flesh import Flesh, divided
 from regkit.fitting.layout import Layout
 from regkit.fitting.mesh_shape import MeshShape
 from regkit.fitting.posture import Posture
 from regkit.fitting.skin import decimated, on_segments
-from regkit.rigid import inverse, moved, rigid
+from regkit.geometry.rigid import inverse, moved, rigid
+from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.skeleton.description import parents_first
-from regkit.skinned_mesh import SkinnedMesh
+from regkit.system.arrays import Array
+from regkit.system.errors import DataError
 
 FINENESS = 150
 """So many points of the grid inside the mesh lie along the template's size."""

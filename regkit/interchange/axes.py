@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from regkit.arrays import Array
-from regkit.errors import ConfigError
+from regkit.system.arrays import Array
+from regkit.system.errors import ConfigError
 
 _DIRECTIONS = {
     sign + letter: float(f"{sign}1") * axis

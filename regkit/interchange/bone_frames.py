@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from regkit.arrays import Array
-from regkit.rigid import rigid
-from regkit.rotation import between
+from regkit.geometry.rigid import rigid
+from regkit.geometry.rotation import between
+from regkit.system.arrays import Array
 
 CANCELLED = 0.2
 """Ways to several children whose mean is shorter than this part of their lengths point nowhere."""

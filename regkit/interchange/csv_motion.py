@@ -6,9 +6,9 @@ import csv
 from io import StringIO
 from pathlib import Path
 
-from regkit.files import write_text
+from regkit.geometry.rotation import from_matrix
 from regkit.interchange.motion import TrackedMotion
-from regkit.rotation import from_matrix
+from regkit.system.files import write_text
 
 COLUMNS = ("frame", "time", "kind", "name", "x", "y", "z", "qx", "qy", "qz", "qw")
 """Times are in seconds, positions in metres in the camera's frame: x right, y down, z forward."""

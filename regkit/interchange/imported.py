@@ -9,13 +9,13 @@ from pathlib import Path
 import numpy as np
 from pydantic import ValidationError
 
-from regkit.arrays import Array
 from regkit.body import BodyDescription
 from regkit.body.description import SizeDescription
-from regkit.errors import DataError
 from regkit.skeleton import SegmentDescription
 from regkit.skeleton.description import CapsuleDescription
 from regkit.skeleton.joints import BallJoint, Joint, Vector
+from regkit.system.arrays import Array
+from regkit.system.errors import DataError
 
 THICKNESS = 0.15
 """A bone without a shape gets a capsule whose radius is this part of its length."""

@@ -6,11 +6,11 @@ from pathlib import Path
 
 from pydantic import RootModel
 
-from regkit.document import Document
-from regkit.errors import ConfigError
-from regkit.interchange.gltf import RiggedBody
-from regkit.interchange.gltf_file import SUFFIXES
-from regkit.skinned_mesh import SkinnedMesh
+from regkit.config.document import Document
+from regkit.geometry.skinned_mesh import SkinnedMesh
+from regkit.interchange.gltf.file import SUFFIXES
+from regkit.interchange.gltf.gltf import RiggedBody
+from regkit.system.errors import ConfigError
 
 
 class BoneParents(RootModel[dict[str, str | None]]):

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from regkit.arrays import Array
 from regkit.body import Body
-from regkit.skinned_mesh import SkinnedMesh
+from regkit.geometry.skinned_mesh import SkinnedMesh
+from regkit.system.arrays import Array
 
 UPRIGHT_CAMERA = np.diag([1.0, -1.0, -1.0])
 """``R_scene_camera``: a camera's y points down and z forward, a scene's y up and z backward."""

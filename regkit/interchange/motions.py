@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from regkit.errors import ConfigError
-from regkit.interchange.bvh_motion import bvh_of
+from regkit.interchange.bvh.motion import bvh_of
 from regkit.interchange.csv_motion import write_csv
-from regkit.interchange.gltf_motion import write_gltf
+from regkit.interchange.gltf.motion import write_gltf
+from regkit.interchange.gltf.shown_mesh import shown_mesh
 from regkit.interchange.motion import UPRIGHT_CAMERA, TrackedMotion
-from regkit.interchange.shown_mesh import shown_mesh
+from regkit.system.errors import ConfigError
 
 FORMATS = (".bvh", ".csv", ".glb")
 """How the names of the files end."""

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from regkit.errors import ConfigError
 from regkit.interchange.axes import body_axes
-from regkit.interchange.bvh import Bvh
-from regkit.interchange.bvh_template import bvh_template
+from regkit.interchange.bvh.bvh import Bvh
+from regkit.interchange.bvh.template import bvh_template
 from regkit.interchange.imported import ImportedSkeleton
-from regkit.interchange.urdf import Urdf
-from regkit.interchange.urdf_template import urdf_template
+from regkit.interchange.urdf.template import urdf_template
+from regkit.interchange.urdf.urdf import Urdf
+from regkit.system.errors import ConfigError
 
 
 def read_skeleton(

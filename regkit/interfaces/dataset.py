@@ -9,10 +9,10 @@ from typing import Annotated
 
 from pydantic import Field
 
-from regkit.errors import ConfigError, DataError
-from regkit.model import did_you_mean
+from regkit.config.model import did_you_mean
+from regkit.config.plugin import Plugin
 from regkit.observation import Frame, Truth
-from regkit.plugin import Plugin
+from regkit.system.errors import ConfigError, DataError
 
 
 @dataclass(frozen=True)

@@ -6,11 +6,11 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from regkit.arrays import Array
+from regkit.config.plugin import Plugin
 from regkit.interfaces.shape import ShapeModel
 from regkit.observation import Observation
-from regkit.plugin import Plugin
 from regkit.primitives import Placed, Primitives
+from regkit.system.arrays import Array
 
 
 @dataclass(frozen=True)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 
 from regkit.body import Body
+from regkit.config.plugin import Plugin
 from regkit.interfaces.registrar import Registrar
 from regkit.interfaces.tracker import Tracker
-from regkit.plugin import Plugin
 
 
 class Method(Plugin, ABC):

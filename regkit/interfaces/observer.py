@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 
+from regkit.config.plugin import Plugin
 from regkit.observation import Frame, Observation
-from regkit.plugin import Plugin
 
 
 class Observer(Plugin, ABC):

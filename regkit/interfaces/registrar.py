@@ -8,12 +8,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from regkit.arrays import Array
 from regkit.body import Body
 from regkit.interfaces.solver import Multipliers
 from regkit.observation import Observation
 from regkit.primitives import Primitives
 from regkit.skeleton import Pose
+from regkit.system.arrays import Array
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from typing import ClassVar
 
 from regkit.body import Body
-from regkit.plugin import Plugin
+from regkit.config.plugin import Plugin
 from regkit.primitives import Primitives
 
 

@@ -8,9 +8,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from regkit.arrays import Array
-from regkit.errors import PluginError
-from regkit.plugin import Plugin
+from regkit.config.plugin import Plugin
+from regkit.system.arrays import Array
+from regkit.system.errors import PluginError
 
 
 class Constraints(ABC):

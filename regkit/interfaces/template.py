@@ -7,7 +7,7 @@ from abc import ABC, abstractmethod
 import numpy as np
 
 from regkit.body import Body, BodyDescription
-from regkit.plugin import Plugin
+from regkit.config.plugin import Plugin
 
 
 class Template(Plugin, ABC):

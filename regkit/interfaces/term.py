@@ -6,13 +6,13 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from regkit.arrays import Array
 from regkit.body import Body
+from regkit.config.plugin import Plugin
 from regkit.interfaces.kernel import Similarity
 from regkit.observation import Observation
-from regkit.plugin import Plugin
 from regkit.primitives import Placed, Primitives
 from regkit.skeleton import Pose
+from regkit.system.arrays import Array
 
 
 @dataclass(frozen=True)

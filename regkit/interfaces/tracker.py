@@ -5,9 +5,9 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 
+from regkit.config.plugin import Plugin
 from regkit.interfaces.registrar import Registered, Registrar
 from regkit.observation import Observation
-from regkit.plugin import Plugin
 
 
 class Follower(ABC):

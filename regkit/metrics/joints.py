@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from regkit.arrays import Array
 from regkit.body import Body
-from regkit.errors import ConfigError
-from regkit.model import did_you_mean
+from regkit.config.model import did_you_mean
 from regkit.observation import Truth
+from regkit.system.arrays import Array
+from regkit.system.errors import ConfigError
 from regkit.tracking import Track
 
 

@@ -8,8 +8,8 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from regkit.arrays import Array
 from regkit.metrics.thresholds import share_within
+from regkit.system.arrays import Array
 
 HALF = 0.5
 """A frame is lost when less than this part of its known joints is near."""

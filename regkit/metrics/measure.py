@@ -7,11 +7,11 @@ from dataclasses import asdict, dataclass, fields
 
 import numpy as np
 
-from regkit.arrays import Array
 from regkit.body import Body
 from regkit.metrics.joints import JointErrors
 from regkit.metrics.losses import Losses
 from regkit.metrics.thresholds import area_under, share_within
+from regkit.system.arrays import Array
 from regkit.tracking import Track
 
 TEN_CM = 0.10

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from regkit.arrays import Array
+from regkit.system.arrays import Array
 
 FEWEST = 6
 """So many sequences allow an interval or a test: of five pairs, none can be significant at 5 %."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from regkit.arrays import Array
+from regkit.system.arrays import Array
 
 
 def share_within(distances: Array, threshold: float, axis: int | None = None) -> Array:

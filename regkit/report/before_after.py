@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from regkit.arrays import Array
+from regkit.system.arrays import Array
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -8,11 +8,11 @@ from typing import Any, Self
 
 import numpy as np
 
-from regkit.arrays import Array
 from regkit.body import Body
 from regkit.interfaces import Registrar
 from regkit.primitives import Gaussians, Primitives, TaperedCapsules, Volumes
 from regkit.skeleton import Placement
+from regkit.system.arrays import Array
 from regkit.tracking import TrackedFrame
 
 MOST_POINTS = 1500

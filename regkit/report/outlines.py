@@ -7,8 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 from scipy.spatial import ConvexHull
 
-from regkit.arrays import Array
 from regkit.report.look import Form
+from regkit.system.arrays import Array
 
 _CIRCLE = np.array([np.cos(np.linspace(0, 2 * np.pi, 49)), np.sin(np.linspace(0, 2 * np.pi, 49))])
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from regkit.files import replacing
 from regkit.report.look import Look
 from regkit.report.outlines import outlines
 from regkit.report.plot import LIGHT, canvas, inked, styled
 from regkit.report.png import png
 from regkit.report.record import Record
+from regkit.system.files import replacing
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
-from regkit.files import write_json, write_text
 from regkit.metrics import mean_of
 from regkit.metrics.pairs import best
 from regkit.report.brief import brief, flow
@@ -22,6 +21,7 @@ from regkit.report.run import Run
 from regkit.report.summary import metrics, write_tables
 from regkit.report.tables import main_table, pair_table, sequence_table
 from regkit.report.words import BY_NAME, NAMES, many
+from regkit.system.files import write_json, write_text
 
 if TYPE_CHECKING:
     from jinja2 import Environment

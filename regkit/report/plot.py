@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from regkit.files import replacing, write_text
 from regkit.report.png import png
+from regkit.system.files import replacing, write_text
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist

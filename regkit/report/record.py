@@ -8,11 +8,11 @@ from typing import Any, Self
 
 import numpy as np
 
-from regkit.arrays import Array
 from regkit.interfaces import Registrar
 from regkit.metrics import NEAR, JointErrors, Losses
 from regkit.observation import Truth
 from regkit.report.look import Look
+from regkit.system.arrays import Array
 from regkit.tracking import Track, TrackedFrame
 
 Arrays = dict[str, np.ndarray[Any, Any]]

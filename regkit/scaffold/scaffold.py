@@ -12,10 +12,10 @@ from typing import Self
 
 import jinja2
 
-from regkit.errors import ConfigError, DataError
-from regkit.installed import Installed
+from regkit.config.installed import Installed
+from regkit.config.plugin import Plugin
 from regkit.interfaces import Dataset, Kernel, ShapeModel, Solver, Template
-from regkit.plugin import Plugin
+from regkit.system.errors import ConfigError, DataError
 
 FOLDER = Path(__file__).parent
 SUFFIX = ".jinja"

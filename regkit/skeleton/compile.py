@@ -6,9 +6,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from regkit.arrays import Array, Indices, read_only
-from regkit.rigid import rigid
-from regkit.rotation import from_vector, vector_to_matrix
+from regkit.geometry.rigid import rigid
+from regkit.geometry.rotation import from_vector, vector_to_matrix
 from regkit.skeleton.couplings import Couplings
 from regkit.skeleton.description import SkeletonDescription, parents_first
 from regkit.skeleton.joints import (
@@ -22,6 +21,7 @@ from regkit.skeleton.joints import (
 )
 from regkit.skeleton.limits import Limits
 from regkit.skeleton.skeleton import Skeleton
+from regkit.system.arrays import Array, Indices, read_only
 
 _UNLIMITED = (-np.inf, np.inf)
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from regkit.arrays import Array, Indices
-from regkit.optional import compiled
 from regkit.skeleton.compiled_rotation import exponential, set_rotation
+from regkit.system.arrays import Array, Indices
+from regkit.system.compiled import compiled
 
 
 @compiled

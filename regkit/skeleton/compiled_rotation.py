@@ -1,11 +1,11 @@
-"""Single rotations in compiled loops; the formulas are those of ``regkit.rotation``."""
+"""Single rotations in compiled loops; the formulas are those of ``regkit.geometry.rotation``."""
 
 from __future__ import annotations
 
 from math import cos, sin, sqrt
 
-from regkit.arrays import Array
-from regkit.optional import compiled
+from regkit.system.arrays import Array
+from regkit.system.compiled import compiled
 
 
 @compiled

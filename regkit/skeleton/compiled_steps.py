@@ -6,9 +6,9 @@ from math import atan2, ceil, cos, hypot, pi, sin, sqrt
 
 import numpy as np
 
-from regkit.arrays import Array
-from regkit.optional import compiled
 from regkit.skeleton.compiled_rotation import exponential, hamilton_product, set_rotation
+from regkit.system.arrays import Array
+from regkit.system.compiled import compiled
 
 
 @compiled

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from regkit.arrays import Array, Indices
+from regkit.system.arrays import Array, Indices
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from typing import Annotated
 import numpy as np
 from pydantic import Field, ValidationError, model_validator
 
-from regkit.model import Model, did_you_mean, misplaced
+from regkit.config.model import Model, did_you_mean, misplaced
 from regkit.skeleton.joints import FreeJoint, HingeJoint, Joint, Vector
 
 Radius = Annotated[float, Field(gt=0.0)]

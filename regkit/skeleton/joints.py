@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
-from regkit.model import Model
+from regkit.config.model import Model
 
 Vector = tuple[float, float, float]
 

@@ -7,8 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from regkit.arrays import Array
-from regkit.rotation import (
+from regkit.geometry.rotation import (
     conjugate,
     cross,
     from_vector,
@@ -17,8 +16,10 @@ from regkit.rotation import (
     swing_twist,
     to_matrix,
 )
+from regkit.skeleton.compiled_steps import within_limits
 from regkit.skeleton.couplings import Couplings
 from regkit.skeleton.pose import Pose
+from regkit.system.arrays import Array
 
 
 @dataclass(frozen=True)
@@ -104,9 +105,6 @@ class Limits:
 
         A swing is shortened towards the middle of its cone; a hinge follows its leader.
         """
-        # Imported when first used, for Numba takes its time to load.
-        from regkit.skeleton.compiled_steps import within_limits
-
         balls, turned = within_limits(
             pose.balls, self.centre, self.twist_axis, self._cone, self.twist
         )

@@ -7,9 +7,10 @@ from functools import cached_property
 
 import numpy as np
 
-from regkit.arrays import Array
+from regkit.skeleton.compiled_placement import joint_twists, place_links, segment_jacobian
 from regkit.skeleton.pose import Pose
 from regkit.skeleton.skeleton import Skeleton
+from regkit.system.arrays import Array
 
 
 @dataclass(frozen=True)
@@ -37,9 +38,6 @@ class Placement:
         The joints of the pose may have leading dimensions, for many poses at once; so have then the
         links and the transforms.
         """
-        # Imported when first used, for Numba takes its time to load.
-        from regkit.skeleton.compiled_placement import place_links
-
         many = pose.hinges.shape[:-1]
         count = int(np.prod(many))
         links = place_links(
@@ -62,8 +60,6 @@ class Placement:
 
     def twists(self) -> Array:
         """The world twist about the reference of each degree of freedom at unit rate, (n, 6)."""
-        from regkit.skeleton.compiled_placement import joint_twists
-
         bones = self.skeleton
         return joint_twists(
             self.links,
@@ -93,8 +89,6 @@ class Placement:
     @cached_property
     def jacobian(self) -> Array:
         """The twist about its own origin of each segment, by each degree of freedom, (S, 6, n)."""
-        from regkit.skeleton.compiled_placement import segment_jacobian
-
         return segment_jacobian(self.twists(), self.skeleton.moves, self._arms)
 
     @property

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 from pydantic import Field
 
-from regkit.arrays import Array
-from regkit.model import Model
+from regkit.config.model import Model
 from regkit.skeleton.joints import Vector
+from regkit.system.arrays import Array
 
 
 @dataclass(frozen=True)

@@ -9,19 +9,20 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from regkit.arrays import Array, Indices
-from regkit.errors import ConfigError
-from regkit.model import did_you_mean
-from regkit.rigid import rigid
-from regkit.rotation import (
+from regkit.config.model import did_you_mean
+from regkit.geometry.rigid import rigid
+from regkit.geometry.rotation import (
     conjugate,
     from_matrix,
     product,
     to_vector,
     vector_to_matrix,
 )
+from regkit.skeleton.compiled_steps import moved_root, turned_balls
 from regkit.skeleton.limits import Limits
 from regkit.skeleton.pose import Pose, PoseDescription
+from regkit.system.arrays import Array, Indices
+from regkit.system.errors import ConfigError
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,9 +103,6 @@ class Skeleton:
         The root's translation is in the world; its rotation and those of the ball joints are
         rotation vectors in the frames that they turn, R exp(w); hinge angles add.
         """
-        # Imported when first used, for Numba takes its time to load.
-        from regkit.skeleton.compiled_steps import moved_root, turned_balls
-
         root = moved_root(pose.root, step) if self.free else pose.root
         balls = turned_balls(pose.balls, step[self.ball_freedoms].reshape(-1, 3))
         return Pose(root, balls, pose.hinges + step[self.hinge_freedoms])

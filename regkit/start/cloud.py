@@ -8,14 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
-from regkit.alignment.rotations import icosahedral
-from regkit.arrays import Array, Indices
 from regkit.body import Body
 from regkit.clouds import normals
+from regkit.geometry.rigid import exp, inverse, moved, rigid
+from regkit.geometry.surface import SkinnedSurface
 from regkit.observation import Observation
-from regkit.rigid import exp, inverse, moved, rigid
+from regkit.search.rotations import icosahedral
 from regkit.skeleton import Pose
-from regkit.surface import SkinnedSurface
+from regkit.system.arrays import Array, Indices
 
 SKETCH = 300
 """So many points of the data are fitted from every rotation."""

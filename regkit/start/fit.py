@@ -8,12 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import least_squares
 
-from regkit.arrays import Array
 from regkit.body import Body
-from regkit.coordinates import TangentCoordinates
-from regkit.rotation import cross
+from regkit.geometry.rotation import cross
+from regkit.registration.coordinates import TangentCoordinates
 from regkit.skeleton import Placement, Pose
 from regkit.start.scan import Gaps, Scan
+from regkit.system.arrays import Array
 
 STIFFNESS = 0.05
 """Weight of a joint's turn [rad] against a gap [reach]: what nothing pulls keeps its stance."""

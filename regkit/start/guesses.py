@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from regkit.arrays import Array
 from regkit.body import Body, Stance
-from regkit.rigid import rigid
-from regkit.rotation import vector_to_matrix
+from regkit.geometry.rigid import rigid
+from regkit.geometry.rotation import vector_to_matrix
 from regkit.skeleton import Pose
 from regkit.start.scan import SPACING, Scan
+from regkit.system.arrays import Array
 
 FACING_CAMERA = np.diag([1.0, -1.0, -1.0])
 """R_camera_body of a body that faces the camera: its left on the image's right, its y up."""

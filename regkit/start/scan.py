@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import KDTree
 
-from regkit.arrays import Array, Indices
 from regkit.body import Body
 from regkit.skeleton import Placement
+from regkit.system.arrays import Array, Indices
 
 MOST_POINTS = 400
 """So many points tell a pose as well as all of them do, and sooner."""

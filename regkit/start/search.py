@@ -7,15 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from regkit.body import Body
-from regkit.errors import ConfigError
 from regkit.interfaces import Template
 from regkit.observation import Observation
-from regkit.optional import one_blas_thread
 from regkit.skeleton import Pose, PoseDescription
 from regkit.start.cloud import cloud_pose
 from regkit.start.fit import STIFFNESS, Stage, fitted
 from regkit.start.guesses import Candidate, guesses
 from regkit.start.scan import Scan
+from regkit.system.errors import ConfigError
+from regkit.system.optional import one_blas_thread
 
 REACH = 0.06
 """Gaps beyond this part of the body's size count no more: an arm's width on a person."""

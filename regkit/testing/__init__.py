@@ -9,7 +9,7 @@ pytest then collects one test for each law and plug-in, such as
 :func:`regkit.testing.conformance.conformance` for plug-ins that need an example of their options.
 """
 
-from regkit.optional import library
+from regkit.system.optional import library
 
 library("pytest", install="pip install 'regkit[testing]'")
 

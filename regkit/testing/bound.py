@@ -7,14 +7,14 @@ from typing import cast
 
 import numpy as np
 
-from regkit.arrays import Array
 from regkit.body import Body
-from regkit.coordinates import TangentCoordinates
 from regkit.interfaces import Kernel, Similarity
 from regkit.observation import Observation
 from regkit.primitives import Placed, Primitives
-from regkit.problem import RegistrationProblem
+from regkit.registration.coordinates import TangentCoordinates
+from regkit.registration.problem import RegistrationProblem
 from regkit.skeleton import Pose
+from regkit.system.arrays import Array
 from regkit.testing.cases import Pair
 from regkit.testing.samples import data_of, moved_data, moved_pose, posed
 from regkit.testing.shape_laws import attached

@@ -10,10 +10,10 @@ from typing import Any, Literal
 
 from pydantic import ValidationError
 
-from regkit.errors import PluginError
-from regkit.installed import Installed, same_distribution
+from regkit.config.installed import Installed, same_distribution
+from regkit.config.plugin import Plugin
 from regkit.interfaces import SLOTS, Kernel, ShapeModel, Term
-from regkit.plugin import Plugin
+from regkit.system.errors import PluginError
 
 Options = Mapping[str, Any]
 """A plug-in's fields, as they stand in YAML, without its kind."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from regkit.config.plugin import Plugin
 from regkit.interfaces import Kernel, Term
-from regkit.plugin import Plugin
 from regkit.testing.cases import Case, Examples, Pair, cases, pairs
 from regkit.testing.dataset_laws import DatasetLaws
 from regkit.testing.kernel_laws import KernelLaws

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from regkit.arrays import Array
 from regkit.body import Body
 from regkit.interfaces import Problem
+from regkit.system.arrays import Array
 
 STEP = 1e-6
 SLOPE_TOLERANCE = 1e-4

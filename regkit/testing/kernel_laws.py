@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from regkit.body import Body
+from regkit.geometry.rigid import rigid
 from regkit.observation import Observation
-from regkit.rigid import rigid
 from regkit.testing.block_laws import BlockLaws
 from regkit.testing.bound import Bound
 from regkit.testing.cases import Pair

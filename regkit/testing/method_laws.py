@@ -9,12 +9,12 @@ from contextlib import contextmanager
 import numpy as np
 import pytest
 
-from regkit.arrays import Array
 from regkit.body import Body
-from regkit.errors import DependencyError, RegkitError
 from regkit.interfaces import Method, Registered, Registrar
 from regkit.observation import Observation
 from regkit.skeleton import Pose
+from regkit.system.arrays import Array
+from regkit.system.errors import DependencyError, RegkitError
 from regkit.testing.laws import Laws
 from regkit.testing.samples import posed, surface_data
 from regkit.testing.verdict import copied, require, same

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from regkit.errors import DataError
+from regkit.geometry.rigid import moved, rigid
+from regkit.geometry.rotation import vector_to_matrix
 from regkit.interfaces import Observer
 from regkit.observation import Frame
-from regkit.rigid import moved, rigid
-from regkit.rotation import vector_to_matrix
+from regkit.system.errors import DataError
 from regkit.testing.laws import Laws
 from regkit.testing.samples import CAMERA, lump_points
 from regkit.testing.verdict import copied, require, same
@@ -90,7 +90,7 @@ class ObserverLaws(Laws):
             refused = True
         require(
             refused, observer, f"takes a frame whose points are {points}; it must raise a "
-            "DataError, as regkit.arrays.checked_points does", look_at=type(observer).observe,
+            "DataError, as regkit.system.arrays.checked_points", look_at=type(observer).observe,
         )  # fmt: skip
 
     def test_observer_is_deterministic_and_changes_nothing(

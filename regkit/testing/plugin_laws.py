@@ -9,8 +9,8 @@ import pytest
 from pydantic import ValidationError
 from pydantic_core import PydanticSerializationError
 
-from regkit.document import yaml_text
-from regkit.plugin import Plugin
+from regkit.config.document import yaml_text
+from regkit.config.plugin import Plugin
 from regkit.testing.cases import Case
 from regkit.testing.laws import Laws
 from regkit.testing.verdict import require, same

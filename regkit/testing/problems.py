@@ -7,8 +7,8 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from regkit.arrays import Array
 from regkit.interfaces import Problem
+from regkit.system.arrays import Array
 
 Function = Callable[[Array], tuple[float, Array]]
 """A value and its gradient (m,) at x (m,)."""

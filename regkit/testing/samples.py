@@ -9,16 +9,16 @@ from pathlib import Path
 import numpy as np
 
 from regkit.alignment import cloud_body
-from regkit.arrays import Array
 from regkit.body import Body, BodyDescription
-from regkit.camera import Camera
 from regkit.clouds import normals as fitted_normals
-from regkit.document import Document
+from regkit.config.document import Document
+from regkit.geometry.camera import Camera
+from regkit.geometry.rigid import moved, rigid
+from regkit.geometry.rotation import vector_to_matrix
+from regkit.geometry.surface import SkinnedSurface
 from regkit.observation import Observation
-from regkit.rigid import moved, rigid
-from regkit.rotation import vector_to_matrix
 from regkit.skeleton import Pose
-from regkit.surface import SkinnedSurface
+from regkit.system.arrays import Array
 
 LINKAGE = Path(__file__).with_name("linkage.yaml")
 CAMERA = Camera(width=176, height=144, fx=230.0, fy=230.0, cx=87.5, cy=71.5)

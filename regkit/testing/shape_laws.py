@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from regkit.body import Body
-from regkit.errors import RegkitError
+from regkit.geometry.rigid import rigid
+from regkit.geometry.rotation import vector_to_matrix
 from regkit.interfaces import ShapeModel
 from regkit.primitives import Primitives, Volumes
-from regkit.rigid import rigid
-from regkit.rotation import vector_to_matrix
+from regkit.system.errors import RegkitError
 from regkit.testing.laws import Laws
 from regkit.testing.samples import posed
 from regkit.testing.verdict import copied, require, same

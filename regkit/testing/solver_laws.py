@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from regkit.arrays import Array
 from regkit.body import Body
-from regkit.coordinates import COORDINATES, CoordinatesName
-from regkit.errors import DataError
 from regkit.interfaces import Response, Similarity, Solver
 from regkit.primitives import Placed, Primitives
-from regkit.problem import RegistrationProblem
+from regkit.registration.coordinates import COORDINATES, CoordinatesName
+from regkit.registration.problem import RegistrationProblem
 from regkit.skeleton import Pose
+from regkit.system.arrays import Array
+from regkit.system.errors import DataError
 from regkit.testing.laws import Laws
 from regkit.testing.problems import HARD, TARGET, Function, Watched, bowl, bumpy, constant
 from regkit.testing.verdict import copied, require, same

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from regkit.body import Body
+from regkit.geometry.rigid import rigid
 from regkit.interfaces import Template
-from regkit.rigid import rigid
 from regkit.testing.laws import Laws
 from regkit.testing.verdict import require, same
 

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from regkit.body import Body
-from regkit.coordinates import TangentCoordinates
-from regkit.errors import RegkitError
 from regkit.interfaces import JointEnergy, Response, Scene, Shares, Similarity, Term
 from regkit.interfaces.term import Effect
 from regkit.primitives import Placed, Primitives
-from regkit.problem import RegistrationProblem
+from regkit.registration.coordinates import TangentCoordinates
+from regkit.registration.problem import RegistrationProblem
+from regkit.system.errors import RegkitError
 from regkit.testing.cases import Pair
 from regkit.testing.differences import Slopes
 from regkit.testing.laws import Laws

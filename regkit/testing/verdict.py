@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from regkit.plugin import Plugin
+from regkit.config.plugin import Plugin
 
 
 def require(kept: bool | np.bool_, plugin: Plugin, broken: str, *, look_at: object) -> None:

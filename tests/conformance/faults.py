@@ -17,9 +17,9 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from regkit.interfaces import ShapeModel
-from regkit.plugin import register
+from regkit.config.plugin import register
 from regkit.primitives import Gaussians, Primitives
-from regkit.rotation import between
+from regkit.geometry.rotation import between
 
 
 @register
@@ -146,7 +146,10 @@ KERNEL = (
     .replace('"superquadric"', '"faulty"')
     .replace('"radial_distance"', '"radial_faulty"')
     .replace("class RadialDistance(", "@register\nclass RadialDistance(")
-    .replace("from regkit.primitives", "from regkit.plugin import register\nfrom regkit.primitives")
+    .replace(
+        "from regkit.primitives",
+        "from regkit.config.plugin import register\nfrom regkit.primitives",
+    )
 )
 
 KERNEL_FAULTS = {

@@ -8,7 +8,7 @@ from public_layouts import SMALL, write_itop, write_pdt13, write_records
 
 from regkit.testing import conformance
 from regkit.testing.samples import LINKAGE
-from regkit_plugins.datasets.record import Record
+from regkit_plugins.datasets.formats.record import Record
 
 DATA = Path(__file__).parents[2] / "docs" / "examples" / "data"
 

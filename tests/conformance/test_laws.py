@@ -14,10 +14,10 @@ import numpy as np
 import pytest
 from faults import KERNEL, KERNEL_FAULTS, SHAPE, SHAPE_FAULTS, SUPERQUADRIC
 
-from regkit import plugin
-from regkit.errors import PluginError
+from regkit.config import plugin
+from regkit.config.plugin import run_plugin_file
 from regkit.interfaces import ShapeModel
-from regkit.plugin import run_plugin_file
+from regkit.system.errors import PluginError
 from regkit.testing import conformance
 from regkit.testing.bound import Bound
 from regkit.testing.cases import Case, Pair
@@ -201,7 +201,7 @@ def test_shape_that_no_kernel_takes_is_told(tmp_path):
 def test_suite_without_pytest_says_what_to_install():
     program = (
         "import sys; sys.modules['pytest'] = None\n"
-        "from regkit.errors import DependencyError\n"
+        "from regkit.system.errors import DependencyError\n"
         "try:\n    import regkit.testing\nexcept DependencyError as error:\n    print(error)\n"
     )
     ended = subprocess.run(

@@ -8,8 +8,8 @@ from typing import NamedTuple
 import pytest
 from small_experiment import Files, Started, small
 
-from regkit import plugin
 from regkit.cli import main
+from regkit.config import plugin
 
 
 class Ended(NamedTuple):

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, NamedTuple
 
+from regkit.config.plugin import register
 from regkit.interfaces import Follower, Registered, Registrar, Tracker
-from regkit.plugin import register
 
 EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
 FRAMES = 2

@@ -65,7 +65,7 @@ def broken(distribution, tmp_path) -> dict[str, str]:
     """Install the distribution ``odd-things``, all of whose plug-ins are broken; what is told."""
     targets = {name: f"odd_{name}:{'odd' if name == 'function' else 'Odd'}" for name in EXPECTED}
     targets["other_slot"] = "regkit_plugins.solvers.lbfgs:LBFGS"
-    targets["absent"] = "regkit.errors:Thing"
+    targets["absent"] = "regkit.system.errors:Thing"
     lines = [f"{name} = {target}" for name, target in targets.items()]
     distribution("\n".join(["[regkit.shapes]", *lines]), "odd-things")
     for name, text in MODULES.items():

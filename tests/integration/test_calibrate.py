@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from regkit.body import BodyDescription
-from regkit.document import Document
+from regkit.config.document import Document
 
 HUMAN = ("--template", "{kind: human, height: 1.63}")
 

@@ -81,7 +81,7 @@ MINE = '''
 from typing import Literal
 
 from regkit.interfaces import Follower, Registered, Tracker
-from regkit.plugin import register
+from regkit.config.plugin import register
 
 
 class Staying(Follower):

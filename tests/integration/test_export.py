@@ -9,9 +9,9 @@ import pytest
 from small_experiment import QUICK
 
 from regkit.body import BodyDescription
-from regkit.document import Document
-from regkit.interchange.bvh import Bvh
-from regkit.interchange.gltf import RiggedBody
+from regkit.config.document import Document
+from regkit.interchange.bvh.bvh import Bvh
+from regkit.interchange.gltf.gltf import RiggedBody
 from regkit_plugins.templates.human import Human
 
 UPRIGHT = np.diag([1.0, -1.0, -1.0])

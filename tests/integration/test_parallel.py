@@ -8,13 +8,13 @@ from typing import Literal
 import pytest
 from small_experiment import QUICK, Stepping, add_method, figures_but_times, small
 
-from regkit.errors import DataError, DependencyError
+from regkit.config.plugin import register
 from regkit.experiment import Experiment, run
 from regkit.experiment.hold import Hold, held
 from regkit.experiment.workers import cluster
 from regkit.experiment.workers.packed import check_worker
 from regkit.interfaces import Tracker
-from regkit.plugin import register
+from regkit.system.errors import DataError, DependencyError
 
 DEADLY = '''\
 import os
@@ -24,7 +24,7 @@ from pathlib import Path
 from typing import Literal
 
 from regkit.interfaces import Follower, Registered, Registrar, Tracker
-from regkit.plugin import register
+from regkit.config.plugin import register
 
 
 @register

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from small_experiment import EXAMPLES, QUICK, add_method
 
+from regkit.config.plugin import run_plugin_file
 from regkit.interfaces import Scene, ShapeModel, Term
-from regkit.plugin import run_plugin_file
 
 SHAPE = '''
 from typing import ClassVar, Literal
@@ -15,7 +15,7 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from regkit.interfaces import ShapeModel
-from regkit.plugin import register
+from regkit.config.plugin import register
 from regkit.primitives import Gaussians, Primitives
 
 
@@ -45,7 +45,7 @@ FAULTY = """\
 from typing import ClassVar, Literal
 
 from regkit.interfaces import ShapeModel
-from regkit.plugin import register
+from regkit.config.plugin import register
 from regkit.primitives import Gaussians, Primitives
 
 

@@ -13,14 +13,14 @@ import numpy as np
 import pytest
 
 from regkit.body import Body
-from regkit.camera import Camera
+from regkit.geometry.camera import Camera
 from regkit.observation import Observation
+from regkit.observation.crop import Crop
 from regkit.skeleton import Pose
 from regkit.start import found_start
 from regkit_plugins.datasets.depth import DepthFolders
 from regkit_plugins.datasets.utd_mhad import UtdMhad
-from regkit_plugins.observers.crop import Crop
-from regkit_plugins.observers.points import PointsObserver
+from regkit_plugins.preprocessors.points import PointsObserver
 from regkit_plugins.templates.hand import Hand
 from regkit_plugins.templates.human import Human
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from regkit.clouds import read_cloud, write_cloud
-from regkit.rigid import inverse, moved, rigid
-from regkit.rotation import from_matrix, to_vector, vector_to_matrix
+from regkit.geometry.rigid import inverse, moved, rigid
+from regkit.geometry.rotation import from_matrix, to_vector, vector_to_matrix
 
 VIEWS = Path(__file__).parents[2] / "docs" / "examples" / "data" / "mannequin" / "clouds"
 

@@ -18,14 +18,14 @@ from small_experiment import (
     figures_but_times,
 )
 
-from regkit.errors import DataError
+from regkit.config.plugin import register
 from regkit.experiment import Experiment
 from regkit.experiment.hold import held
 from regkit.experiment.ledger import Ledger
 from regkit.experiment.results import Results
 from regkit.experiment.task import Task
 from regkit.interfaces import Follower, Tracker
-from regkit.plugin import register
+from regkit.system.errors import DataError
 
 
 def test_finished_run_does_nothing_again(regkit, files):

@@ -5,9 +5,9 @@ from typing import Literal
 
 from small_experiment import QUICK, Stepping, add_method, counting, damage
 
-from regkit.errors import DataError
+from regkit.config.plugin import register
 from regkit.interfaces import Follower, Tracker
-from regkit.plugin import register
+from regkit.system.errors import DataError
 
 
 def test_out_that_is_a_file_is_refused(regkit, files):

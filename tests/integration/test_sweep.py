@@ -7,9 +7,9 @@ from dataclasses import replace
 import pytest
 from small_experiment import QUICK, TIMES, add_method, figures_but_times
 
-from regkit.errors import ConfigError
 from regkit.experiment import Experiment, Study
 from regkit.experiment.sweeps.labels import variants
+from regkit.system.errors import ConfigError
 
 SIGMAS = "sweep: {methods.gsog.solver.max_iterations: [1, 4]}\n"
 VOXELS = "sweep:\n  observer.voxel: [0.05, 0.08]\n  methods.gsog.solver.max_iterations: [1, 4]\n"

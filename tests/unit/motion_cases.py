@@ -7,16 +7,16 @@ from pathlib import Path
 
 import numpy as np
 
-from regkit_plugins.synthesis.landmarks import placed
-from regkit_plugins.synthesis.motion.bodies import BodyFile, HumanBody, ShippedBody
-from regkit_plugins.synthesis.motion.config import (
+from regkit_synthesis.landmarks import placed
+from regkit_synthesis.motion.bodies import BodyFile, HumanBody, ShippedBody
+from regkit_synthesis.motion.config import (
     BvhConfig,
     ClipConfig,
     GltfConfig,
     KeyframesConfig,
 )
-from regkit_plugins.synthesis.motion.motion import Motion
-from regkit_plugins.synthesis.motion.retarget import Retarget
+from regkit_synthesis.motion.motion import Motion
+from regkit_synthesis.motion.retarget import Retarget
 
 REFERENCE = Path(__file__).parents[3] / "shared" / "data"
 

@@ -11,9 +11,9 @@ import h5py
 import numpy as np
 from scipy.io import savemat
 
-from regkit.camera import Camera
-from regkit_plugins.datasets.itop_sequence import JOINTS
-from regkit_plugins.datasets.record import Record
+from regkit.geometry.camera import Camera
+from regkit_plugins.datasets.formats.record import Record
+from regkit_plugins.datasets.itop.sequence import JOINTS
 
 FRAMES = 4
 STEP = 6

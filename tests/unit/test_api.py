@@ -8,9 +8,9 @@ import pytest
 from rich.console import Console
 
 import regkit
-from regkit.errors import ConfigError, DataError, RegkitError
 from regkit.interfaces import Method
 from regkit.skeleton import Pose
+from regkit.system.errors import ConfigError, DataError, RegkitError
 
 DATA = Path(__file__).parents[2] / "docs" / "examples" / "data"
 WALK = DATA / "human_walk"

@@ -6,24 +6,24 @@ import numpy as np
 import pytest
 
 from regkit.body import Body, BodyDescription
+from regkit.body.groups import Groups
+from regkit.body.proportions import Proportions
 from regkit.body.writing import template_text
 from regkit.calibration import Calibration
 from regkit.calibration.frames import spread
 from regkit.calibration.gaps import Cloud
-from regkit.calibration.groups import Groups
 from regkit.calibration.problem import SubjectProblem
-from regkit.calibration.proportions import Proportions
 from regkit.calibration.shape import Shape
 from regkit.calibration.slopes import Slopes
 from regkit.calibration.subject import check
-from regkit.camera import Camera
-from regkit.document import Document
-from regkit.errors import DataError
+from regkit.config.document import Document
+from regkit.geometry.camera import Camera
+from regkit.geometry.rigid import rigid
 from regkit.interfaces import Registered
 from regkit.observation import Observation
-from regkit.optional import one_blas_thread
-from regkit.rigid import rigid
 from regkit.skeleton import Pose, PoseDescription
+from regkit.system.errors import DataError
+from regkit.system.optional import one_blas_thread
 from regkit.tracking import TrackedFrame
 from regkit_plugins.solvers.gauss_newton import GaussNewton
 from regkit_plugins.templates.hand import Hand

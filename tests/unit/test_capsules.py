@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from regkit.body import BodyDescription
-from regkit.capsules import Capsules
-from regkit.document import Document
-from regkit.errors import ConfigError
-from regkit.rigid import rigid
-from regkit.rotation import vector_to_matrix
+from regkit.config.document import Document
+from regkit.geometry.capsules import Capsules
+from regkit.geometry.rigid import rigid
+from regkit.geometry.rotation import vector_to_matrix
+from regkit.system.errors import ConfigError
 
 
 def capsules(count: int, random: np.random.Generator) -> Capsules:

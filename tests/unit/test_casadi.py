@@ -6,9 +6,9 @@ import pytest
 
 from regkit import casadi as symbolic
 from regkit.body import Body
+from regkit.geometry.rotation import from_vector, product, vector_to_matrix
 from regkit.interfaces import Kernel, ShapeModel, Template
 from regkit.observation import Observation
-from regkit.rotation import from_vector, product, vector_to_matrix
 from regkit.skeleton import Pose, SegmentDescription, SkeletonDescription
 from regkit.skeleton.compile import compiled
 from regkit.skeleton.joints import BallJoint, FreeJoint

@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 from regkit.clouds import write_cloud
-from regkit.errors import DataError
+from regkit.geometry.rigid import moved, rigid
+from regkit.geometry.rotation import vector_to_matrix
 from regkit.observation import Observation
-from regkit.rigid import moved, rigid
-from regkit.rotation import vector_to_matrix
 from regkit.start import found_start
-from regkit_plugins.methods.resolutions import thinned_surface
-from regkit_plugins.synthesis.mannequin import main
+from regkit.system.errors import DataError
+from regkit_plugins.methods.coarse_to_fine.resolutions import thinned_surface
 from regkit_plugins.templates.cloud import CloudTemplate
+from regkit_synthesis.mannequin import main
 
 SAMPLE = Path(__file__).parents[2] / "docs" / "examples" / "data" / "mannequin"
 

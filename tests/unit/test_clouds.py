@@ -6,8 +6,8 @@ import pytest
 from regkit.clouds import check_writable, normals, read_cloud, spacing, thinned, write_cloud
 from regkit.clouds.checks import check_shape, check_sizes
 from regkit.clouds.voxels import voxel_for
-from regkit.errors import ConfigError, DataError
-from regkit.rotation import vector_to_matrix
+from regkit.geometry.rotation import vector_to_matrix
+from regkit.system.errors import ConfigError, DataError
 
 
 @pytest.mark.parametrize("suffix", [".npz", ".txt", ".csv", ".xyz", ".ply", ".pcd"])

@@ -5,13 +5,13 @@ import pytest
 
 from regkit.body import Body, BodyDescription
 from regkit.body.writing import template_text
-from regkit.coordinates import COORDINATES
-from regkit.document import Document
-from regkit.errors import ConfigError
+from regkit.config.document import Document
 from regkit.interfaces import Method, Solver
 from regkit.observation import Observation
+from regkit.registration.coordinates import COORDINATES
 from regkit.skeleton import Pose, PoseDescription
-from regkit_plugins.fitting import mirror
+from regkit.system.errors import ConfigError
+from regkit_synthesis.templates import mirror
 
 FINGER = """
 title: A finger whose last joint follows the middle one.

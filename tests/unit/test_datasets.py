@@ -11,10 +11,10 @@ from PIL import Image
 from scipy.io import savemat
 from scipy.spatial import KDTree
 
-from regkit.camera import Camera
-from regkit.errors import ConfigError, DataError, RegkitError
+from regkit.geometry.camera import Camera
 from regkit.interfaces import Dataset
 from regkit.observation import Frame
+from regkit.system.errors import ConfigError, DataError, RegkitError
 from regkit_plugins.datasets.clouds import CloudFolders
 from regkit_plugins.datasets.depth import DepthFolders
 from regkit_plugins.datasets.utd_mhad import CAMERA, JOINTS, UtdMhad

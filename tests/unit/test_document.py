@@ -5,11 +5,11 @@ from pathlib import Path
 import pytest
 
 from regkit.body import BodyDescription
-from regkit.document import Document
-from regkit.errors import ConfigError, DataError, RegkitError
+from regkit.config.document import Document
 from regkit.experiment import Experiment
 from regkit.interfaces import Kernel, ShapeModel
 from regkit.skeleton import SkeletonDescription
+from regkit.system.errors import ConfigError, DataError, RegkitError
 
 EXPERIMENT = """\
 name: test

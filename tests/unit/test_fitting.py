@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 
 from regkit.body import BodyDescription
-from regkit.document import Document
+from regkit.config.document import Document
 from regkit.fitting.flesh import Flesh, closed, interior_points
 from regkit.fitting.moments import balls, gaussian
-from regkit.rotation import vector_to_matrix
-from regkit_plugins.fitting.__main__ import templates
-from regkit_plugins.fitting.capsules import Piece, fitted
-from regkit_plugins.fitting.mirror import symmetric_balls
-from regkit_plugins.fitting.texts import human_text
+from regkit.geometry.rotation import vector_to_matrix
 from regkit_plugins.templates.reading import FOLDER
+from regkit_synthesis.templates.__main__ import templates
+from regkit_synthesis.templates.capsules import Piece, fitted
+from regkit_synthesis.templates.mirror import symmetric_balls
+from regkit_synthesis.templates.texts import human_text
 
 CUBE = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
 FACES = np.array(

@@ -7,10 +7,10 @@ import pytest
 from pydantic import ValidationError
 
 from regkit.body import Body
-from regkit.coordinates import COORDINATES
 from regkit.interfaces import Method, Multipliers, Solver, Template
 from regkit.observation import Observation
-from regkit.problem import RegistrationProblem
+from regkit.registration.coordinates import COORDINATES
+from regkit.registration.problem import RegistrationProblem
 from regkit.skeleton import Pose
 
 SIZES = {"human": 1.75, "hand": 0.186}

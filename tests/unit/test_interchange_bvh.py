@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from regkit.errors import DataError
-from regkit.interchange.bvh import Bvh
+from regkit.interchange.bvh.bvh import Bvh
+from regkit.system.errors import DataError
 
 ASSET = Path(__file__).parent.parent / "assets" / "motion_bvhtoolbox" / "mocapbank.bvh"
 

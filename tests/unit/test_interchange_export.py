@@ -9,18 +9,18 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from regkit.body import Body
-from regkit.capsules import Capsules
-from regkit.interchange.bvh import Bvh
-from regkit.interchange.bvh_motion import bvh_of
-from regkit.interchange.capsule_mesh import capsule_mesh
+from regkit.geometry.capsules import Capsules
+from regkit.geometry.rigid import rigid
+from regkit.geometry.skinned_mesh import SkinnedMesh
+from regkit.geometry.surface import SkinnedSurface
+from regkit.interchange.bvh.bvh import Bvh
+from regkit.interchange.bvh.euler import continuous_zyx
+from regkit.interchange.bvh.motion import bvh_of
 from regkit.interchange.csv_motion import COLUMNS
-from regkit.interchange.euler import continuous_zyx
-from regkit.interchange.gltf import RiggedBody
+from regkit.interchange.gltf.capsule_mesh import capsule_mesh
+from regkit.interchange.gltf.gltf import RiggedBody
 from regkit.interchange.motion import TrackedMotion
 from regkit.interchange.motions import write_motion
-from regkit.rigid import rigid
-from regkit.skinned_mesh import SkinnedMesh
-from regkit.surface import SkinnedSurface
 
 UPRIGHT = np.diag([1.0, -1.0, -1.0])
 """From a camera's axes (y down, z forward) to a scene's (y up, z backward)."""

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation, Slerp
 
-from regkit.errors import DataError
-from regkit.interchange import webxr_hand
-from regkit.interchange.gltf import RiggedBody
-from regkit.interchange.gltf_motion import write_gltf
-from regkit.rigid import rigid
-from regkit.skinned_mesh import SkinnedMesh
+from regkit.geometry.rigid import rigid
+from regkit.geometry.skinned_mesh import SkinnedMesh
+from regkit.interchange.gltf import webxr_hand
+from regkit.interchange.gltf.gltf import RiggedBody
+from regkit.interchange.gltf.motion import write_gltf
+from regkit.system.errors import DataError
 
 KINDS = {5121: "<u1", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 WIDTHS = {"SCALAR": 1, "VEC3": 3, "VEC4": 4, "MAT4": 16}

@@ -7,13 +7,13 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from regkit.body import Body
-from regkit.errors import ConfigError, DataError
 from regkit.interchange.axes import body_axes
-from regkit.interchange.bvh import Bvh
+from regkit.interchange.bvh.bvh import Bvh
 from regkit.interchange.imported import THICKNESS, ImportedSkeleton
 from regkit.interchange.skeletons import read_skeleton
-from regkit.interchange.urdf import Urdf
+from regkit.interchange.urdf.urdf import Urdf
 from regkit.skeleton import Pose
+from regkit.system.errors import ConfigError, DataError
 
 ASSET = Path(__file__).parent.parent / "assets" / "motion_bvhtoolbox" / "mocapbank.bvh"
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from regkit.errors import DataError
 from regkit.interfaces import Constraints, Multipliers, Problem, Solver
+from regkit.system.errors import DataError
 
 
 class Rows(Constraints):

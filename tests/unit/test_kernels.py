@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from regkit.camera import Camera
+from regkit.gaussians.seen import Visible, seen
+from regkit.geometry.camera import Camera
+from regkit.geometry.rigid import rigid
+from regkit.geometry.rotation import vector_to_matrix
 from regkit.observation import Observation
 from regkit.primitives import Gaussians, SurfaceGaussians
-from regkit.rigid import rigid
-from regkit.rotation import vector_to_matrix
 from regkit_plugins.kernels.correlation import Correlation
 from regkit_plugins.kernels.likelihood import Likelihood
-from regkit_plugins.kernels.seen import Visible, seen
 from regkit_plugins.shapes.gsog import GeneralizedSumOfGaussians
 
 CAMERA = Camera(width=176, height=144, fx=230.0, fy=230.0, cx=87.5, cy=71.5)

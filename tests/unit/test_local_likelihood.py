@@ -4,17 +4,15 @@ import numpy as np
 import pytest
 
 from regkit.alignment import cloud_body
-from regkit.errors import ConfigError
+from regkit.gaussians.cloud_shape import along
+from regkit.geometry.rotation import vector_to_matrix
 from regkit.observation import Observation
 from regkit.primitives import Gaussians
-from regkit.rotation import vector_to_matrix
+from regkit.system.errors import ConfigError
 from regkit_plugins.kernels.likelihood import Likelihood
-from regkit_plugins.kernels.local_likelihood import LocalLikelihood
-from regkit_plugins.shapes.cloud import (
-    CloudGeneralizedSumOfGaussians,
-    CloudSumOfGaussians,
-    along,
-)
+from regkit_plugins.kernels.local_likelihood.local_likelihood import LocalLikelihood
+from regkit_plugins.shapes.cloud_gsog import CloudGeneralizedSumOfGaussians
+from regkit_plugins.shapes.cloud_sog import CloudSumOfGaussians
 
 
 @pytest.fixture

@@ -5,21 +5,21 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from regkit.camera import Camera
-from regkit.coordinates import COORDINATES
-from regkit.errors import ConfigError
+from regkit.geometry.camera import Camera
+from regkit.geometry.rigid import rigid
+from regkit.geometry.rotation import vector_to_matrix
+from regkit.geometry.surface import SkinnedSurface
 from regkit.interfaces import Response, Similarity
 from regkit.observation import Frame, Observation
-from regkit.problem import RegistrationProblem
-from regkit.rigid import rigid
-from regkit.rotation import vector_to_matrix
-from regkit.surface import SkinnedSurface
-from regkit_plugins.kernels.point_to_plane import PointToPlane
+from regkit.registration.coordinates import COORDINATES
+from regkit.registration.problem import RegistrationProblem
+from regkit.registration.robust import Robust
+from regkit.system.errors import ConfigError
+from regkit_plugins.kernels.point_to_plane.point_to_plane import PointToPlane
+from regkit_plugins.kernels.point_to_plane.visible import visible
 from regkit_plugins.kernels.point_to_point import PointToPoint
-from regkit_plugins.kernels.robust import Robust
-from regkit_plugins.kernels.visible_surfels import visible
-from regkit_plugins.methods.direct import Direct
-from regkit_plugins.observers.points import PointsObserver
+from regkit_plugins.methods.direct.direct import Direct
+from regkit_plugins.preprocessors.points import PointsObserver
 from regkit_plugins.shapes.mesh import Mesh
 from regkit_plugins.solvers.gauss_newton import GaussNewton
 from regkit_plugins.templates.human import Human

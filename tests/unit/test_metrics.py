@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from regkit.body import Body
-from regkit.errors import ConfigError
+from regkit.geometry.rigid import rigid
+from regkit.geometry.rotation import vector_to_matrix
 from regkit.metrics import NEAR, Measure, joint_errors, mean_of
 from regkit.metrics import measured as measured_from
 from regkit.observation import Truth
-from regkit.rigid import rigid
-from regkit.rotation import vector_to_matrix
 from regkit.skeleton import Pose
+from regkit.system.errors import ConfigError
 from regkit.tracking import Track
 
 FRAMES = 12

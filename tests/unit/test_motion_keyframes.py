@@ -7,9 +7,9 @@ import pytest
 from motion_cases import body, joints
 from pydantic import ValidationError
 
-from regkit_plugins.synthesis.motion.config import KeyframesConfig
-from regkit_plugins.synthesis.motion.keyframes import Keyframe, Keyframes
-from regkit_plugins.synthesis.motion.shipped import KEYFRAMES
+from regkit_synthesis.motion.config import KeyframesConfig
+from regkit_synthesis.motion.keyframes import Keyframe, Keyframes
+from regkit_synthesis.motion.shipped import KEYFRAMES
 
 FAST = ("front_kicks", "tennis")
 """A foot and a hand that are thrown go at nearly 6 m/s."""

@@ -10,23 +10,23 @@ import numpy as np
 import pytest
 from motion_cases import REFERENCE, body
 
-from regkit.document import Document
-from regkit.errors import ConfigError, DataError
-from regkit.model import Model
-from regkit.rigid import rigid
-from regkit.skinned_mesh import SkinnedMesh
-from regkit_plugins.synthesis.assets import average_hand, average_human
-from regkit_plugins.synthesis.motion.bodies import AnyBody, BodyFile, HumanBody, ShippedBody
-from regkit_plugins.synthesis.motion.body_map import BodyMap, body_map, fitting_body_map
-from regkit_plugins.synthesis.motion.bvh import read_bvh
-from regkit_plugins.synthesis.motion.clip import RIG
-from regkit_plugins.synthesis.motion.config import AnyMotion
-from regkit_plugins.synthesis.motion.figure import FIGURE
-from regkit_plugins.synthesis.motion.joint_map import JointMap
-from regkit_plugins.synthesis.motion.keyframes import Keyframes
-from regkit_plugins.synthesis.motion.map_files import shipped
-from regkit_plugins.synthesis.motion.retarget import Retarget
-from regkit_plugins.synthesis.motion.shipped import BVH
+from regkit.config.document import Document
+from regkit.config.model import Model
+from regkit.geometry.rigid import rigid
+from regkit.geometry.skinned_mesh import SkinnedMesh
+from regkit.system.errors import ConfigError, DataError
+from regkit_synthesis.assets import average_hand, average_human
+from regkit_synthesis.motion.bodies import AnyBody, BodyFile, HumanBody, ShippedBody
+from regkit_synthesis.motion.body_map import BodyMap, body_map, fitting_body_map
+from regkit_synthesis.motion.bvh import read_bvh
+from regkit_synthesis.motion.clip import RIG
+from regkit_synthesis.motion.config import AnyMotion
+from regkit_synthesis.motion.figure import FIGURE
+from regkit_synthesis.motion.joint_map import JointMap
+from regkit_synthesis.motion.keyframes import Keyframes
+from regkit_synthesis.motion.map_files import shipped
+from regkit_synthesis.motion.retarget import Retarget
+from regkit_synthesis.motion.shipped import BVH
 
 R_GROUND_FILE = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 """From x left, y up, z forward to x left, y backward, z up."""

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from motion_cases import BODIES, LIMBS, REFERENCE, SOURCES, body, joints, motion, retarget, unit
 
-from regkit.rotation import vector_to_matrix
-from regkit_plugins.synthesis.assets import average_human
-from regkit_plugins.synthesis.motion.body_map import Between, body_map
-from regkit_plugins.synthesis.motion.motion import SourcePose
-from regkit_plugins.synthesis.motion.retarget import Retarget, retargeted
-from regkit_plugins.synthesis.motion.shipped import shipped_clip
+from regkit.geometry.rotation import vector_to_matrix
+from regkit_synthesis.assets import average_human
+from regkit_synthesis.motion.body_map import Between, body_map
+from regkit_synthesis.motion.motion import SourcePose
+from regkit_synthesis.motion.retarget import Retarget, retargeted
+from regkit_synthesis.motion.shipped import shipped_clip
 
 PAIRS = [(name, source) for name in BODIES for source in SOURCES]
 

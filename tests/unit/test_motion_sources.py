@@ -8,16 +8,16 @@ import numpy as np
 import pytest
 from motion_cases import REFERENCE, body, joints, motion, unit
 
-from regkit.errors import ConfigError, DataError
-from regkit.interchange.bvh import Bvh
-from regkit.interchange.gltf import RiggedBody
-from regkit.rotation import vector_to_matrix
-from regkit_plugins.synthesis.motion.bvh import read_bvh
-from regkit_plugins.synthesis.motion.config import BvhConfig, ClipConfig, KeyframesConfig
-from regkit_plugins.synthesis.motion.figure import figure_axes
-from regkit_plugins.synthesis.motion.gltf import read_gltf
-from regkit_plugins.synthesis.motion.played import Placed, Played
-from regkit_plugins.synthesis.motion.shipped import BVH, CLIPS, KEYFRAMES
+from regkit.geometry.rotation import vector_to_matrix
+from regkit.interchange.bvh.bvh import Bvh
+from regkit.interchange.gltf.gltf import RiggedBody
+from regkit.system.errors import ConfigError, DataError
+from regkit_synthesis.motion.bvh import read_bvh
+from regkit_synthesis.motion.config import BvhConfig, ClipConfig, KeyframesConfig
+from regkit_synthesis.motion.figure import figure_axes
+from regkit_synthesis.motion.gltf import read_gltf
+from regkit_synthesis.motion.played import Placed, Played
+from regkit_synthesis.motion.shipped import BVH, CLIPS, KEYFRAMES
 
 R_GROUND_FILE = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 """From x left, y up, z forward to x left, y backward, z up."""

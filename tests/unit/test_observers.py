@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from regkit.camera import Camera
-from regkit.errors import DataError
+from regkit.geometry.camera import Camera
 from regkit.interfaces import Observer
 from regkit.observation import Frame
-from regkit_plugins.observers.crop import Crop
-from regkit_plugins.observers.octree import OctreeObserver
-from regkit_plugins.observers.points import PointsObserver
+from regkit.observation.crop import Crop
+from regkit.system.errors import DataError
+from regkit_plugins.preprocessors.octree import OctreeObserver
+from regkit_plugins.preprocessors.points import PointsObserver
 
 ANY = Crop(min_points=1)
 

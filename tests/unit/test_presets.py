@@ -2,10 +2,10 @@
 
 import pytest
 
-from regkit.document import Document
-from regkit.errors import ConfigError
+from regkit.config.document import Document
+from regkit.config.preset import preset_file, presets_of
 from regkit.experiment import Experiment
-from regkit.preset import preset_file, presets_of
+from regkit.system.errors import ConfigError
 
 INSTALLED = ", ".join(presets_of("regkit.methods"))
 

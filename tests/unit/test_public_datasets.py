@@ -22,16 +22,16 @@ from public_layouts import (
 from pydantic import ValidationError
 from scipy.io import savemat
 
-from regkit.document import Document
-from regkit.errors import DependencyError, RegkitError
+from regkit.config.document import Document
 from regkit.experiment import Experiment
 from regkit.interfaces import Dataset, Sequence
 from regkit.metrics import matched
 from regkit.observation import Frame
-from regkit_plugins.datasets.eval_ganapathi import Eval
-from regkit_plugins.datasets.itop import CAMERA, Itop
+from regkit.system.errors import DependencyError, RegkitError
+from regkit_plugins.datasets.eval import Eval
+from regkit_plugins.datasets.formats.record import Record
+from regkit_plugins.datasets.itop.itop import CAMERA, Itop
 from regkit_plugins.datasets.pdt13 import Intrinsics, Pdt13
-from regkit_plugins.datasets.record import Record
 from regkit_plugins.datasets.smmc10 import Smmc10
 from regkit_plugins.datasets.utd_mhad import UtdMhad
 from regkit_plugins.templates.human import Human
@@ -272,7 +272,7 @@ def test_itop_in_a_mirror_is_turned_round_as_a_whole(tmp_path):
 
 def test_itop_frames_are_read_one_by_one(tmp_path, monkeypatch):
     write_itop(tmp_path)
-    from regkit_plugins.datasets import hdf5
+    from regkit_plugins.datasets.formats import hdf5
 
     asked, read = [], hdf5.read
     monkeypatch.setattr(

@@ -8,12 +8,12 @@ import pytest
 
 from regkit.alignment import agreement, align
 from regkit.alignment.determined import hidden_motion
-from regkit.alignment.rotations import icosahedral
+from regkit.alignment.rigid_method import Frame
 from regkit.cli.register import named_method
-from regkit.errors import ConfigError, DataError, DependencyError
-from regkit.rigid import inverse, moved, rigid
-from regkit.rotation import from_matrix, to_vector, vector_to_matrix
-from regkit_plugins.methods.rigid import Frame
+from regkit.geometry.rigid import inverse, moved, rigid
+from regkit.geometry.rotation import from_matrix, to_vector, vector_to_matrix
+from regkit.search.rotations import icosahedral
+from regkit.system.errors import ConfigError, DataError, DependencyError
 from regkit_plugins.templates.human import Human
 
 METHODS = {

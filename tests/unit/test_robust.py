@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from regkit_plugins.kernels.robust import Robust, median_scale
+from regkit.registration.robust import Robust, median_scale
 
 LOSSES = ["squares", "huber", "tukey", "geman_mcclure"]
 SCALE = 0.02

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.linalg import expm
 from scipy.spatial.transform import Rotation
 
-from regkit import rigid, rotation
+from regkit.geometry import rigid, rotation
 
 angles = st.floats(-3.1, 3.1)
 vectors = st.tuples(angles, angles, angles).map(np.array)

@@ -14,16 +14,16 @@ from hypothesis import strategies as st
 from jsonschema import Draft202012Validator
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
-import regkit.installed
-import regkit.plugin
+import regkit.config.installed
+import regkit.config.plugin
 from regkit.body import BodyDescription
 from regkit.cli.schema import schemas
 from regkit.cli.template_file import write_template
-from regkit.document import Document
+from regkit.config.document import Document
+from regkit.config.plugin import register
+from regkit.config.schema_line import MARK, schema_line
 from regkit.experiment.sweeps.sweep import SweptExperiment
 from regkit.interfaces import Dataset, Method, Problem, Solution, Solver
-from regkit.plugin import register
-from regkit.schema_line import MARK, schema_line
 from regkit.skeleton import SkeletonDescription
 
 ROOT = Path(__file__).parents[2]
@@ -295,12 +295,12 @@ def test_methods_are_accepted_by_both_or_refused_by_both(mutant):
 
 def with_entry_points(monkeypatch: pytest.MonkeyPatch, *points: EntryPoint) -> None:
     """As if a distribution had brought these too."""
-    before = regkit.installed.entry_points
+    before = regkit.config.installed.entry_points
 
     def entry_points(group: str) -> list[EntryPoint]:
         return [*before(group), *(point for point in points if point.group == group)]
 
-    monkeypatch.setattr(regkit.installed, "entry_points", entry_points)
+    monkeypatch.setattr(regkit.config.installed, "entry_points", entry_points)
 
 
 def test_broken_plugins_and_presets_are_not_in_the_schema_and_harm_no_other(monkeypatch):
@@ -317,7 +317,7 @@ def test_broken_plugins_and_presets_are_not_in_the_schema_and_harm_no_other(monk
 
 
 def test_plugin_that_holds_others_of_its_own_group_is_described(monkeypatch):
-    monkeypatch.setattr(regkit.plugin, "_REGISTERED", {})
+    monkeypatch.setattr(regkit.config.plugin, "_REGISTERED", {})
     register(Twice)
     checked = Draft202012Validator(schemas()["experiment"])
     data = copy.deepcopy(data_of(ROOT / "docs" / "examples" / "demo.yaml"))

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from regkit.body import Body, BodyDescription
-from regkit.coordinates import COORDINATES
-from regkit.document import Document
-from regkit.errors import ConfigError
-from regkit.rigid import inverse, log, rigid
-from regkit.rotation import from_vector, vector_to_matrix
+from regkit.config.document import Document
+from regkit.geometry.rigid import inverse, log, rigid
+from regkit.geometry.rotation import from_vector, vector_to_matrix
+from regkit.registration.coordinates import COORDINATES
 from regkit.skeleton import Pose, PoseDescription
+from regkit.system.errors import ConfigError
 
 
 def random_pose(body: Body, random: np.random.Generator, size: float = 0.7) -> Pose:
@@ -151,7 +151,7 @@ def test_swing_cone_is_elliptic_and_swing_twist_free(linkage):
         from_vector(np.radians([0.0, 0.0, 85.0])),
         from_vector(np.radians([0.0, 40.0, 0])),
     )
-    from regkit.rotation import product
+    from regkit.geometry.rotation import product
 
     balls = rest.balls.copy()
     balls[0] = product(swing, twist)

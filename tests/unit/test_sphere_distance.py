@@ -5,16 +5,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from regkit.camera import Camera
-from regkit.capsules import Capsules
-from regkit.coordinates import COORDINATES
-from regkit.errors import ConfigError
+from regkit.geometry.camera import Camera
+from regkit.geometry.capsules import Capsules
+from regkit.geometry.rigid import rigid
+from regkit.geometry.rotation import vector_to_matrix
 from regkit.observation import Observation
 from regkit.primitives import TaperedCapsules
-from regkit.problem import RegistrationProblem
-from regkit.rigid import rigid
-from regkit.rotation import vector_to_matrix
-from regkit_plugins.kernels.sphere_distance import SphereDistance
+from regkit.registration.coordinates import COORDINATES
+from regkit.registration.problem import RegistrationProblem
+from regkit.system.errors import ConfigError
+from regkit_plugins.kernels.sphere_distance.sphere_distance import SphereDistance
 from regkit_plugins.shapes.sphere import SphereMesh
 from regkit_plugins.solvers.gauss_newton import GaussNewton
 from regkit_plugins.terms.visibility import visible_shares

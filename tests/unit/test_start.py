@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 
 from regkit.body import Body
-from regkit.camera import Camera
-from regkit.errors import ConfigError
 from regkit.experiment import Experiment
+from regkit.geometry.camera import Camera
+from regkit.geometry.rigid import rigid
+from regkit.geometry.rotation import vector_to_matrix
 from regkit.metrics import matched
 from regkit.observation import Frame, Observation
-from regkit.optional import one_blas_thread
-from regkit.rigid import rigid
-from regkit.rotation import vector_to_matrix
 from regkit.skeleton import Pose, PoseDescription
 from regkit.start import Start, found_start, given_start
-from regkit_plugins.observers.points import PointsObserver
+from regkit.system.errors import ConfigError
+from regkit.system.optional import one_blas_thread
+from regkit_plugins.preprocessors.points import PointsObserver
 from regkit_plugins.templates.file import FileTemplate
 
 EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"

@@ -6,20 +6,20 @@ import numpy as np
 import pytest
 
 from regkit.body import BodyDescription
-from regkit.document import Document
-from regkit.errors import DataError
+from regkit.config.document import Document
 from regkit.fitting.skin import decimated, on_segments
-from regkit.optional import open3d
-from regkit.rigid import inverse, moved, rigid
-from regkit.rotation import vector_to_matrix
-from regkit.skinned_mesh import SkinnedMesh
-from regkit.surface import SkinnedSurface, surface_in, vertex_normals
-from regkit_plugins.fitting.hand_layout import hand_layout
-from regkit_plugins.fitting.human_layout import human_layout
-from regkit_plugins.fitting.mirror import reflected
-from regkit_plugins.synthesis.assets import average_hand, average_human
+from regkit.geometry.rigid import inverse, moved, rigid
+from regkit.geometry.rotation import vector_to_matrix
+from regkit.geometry.skinned_mesh import SkinnedMesh
+from regkit.geometry.surface import SkinnedSurface, surface_in, vertex_normals
+from regkit.system.errors import DataError
+from regkit.system.optional import open3d
 from regkit_plugins.templates.hand import Hand
 from regkit_plugins.templates.human import Human
+from regkit_synthesis.assets import average_hand, average_human
+from regkit_synthesis.templates.hand_layout import hand_layout
+from regkit_synthesis.templates.human_layout import human_layout
+from regkit_synthesis.templates.mirror import reflected
 
 BODIES = [Human(), Hand(side="right"), Hand(side="left")]
 

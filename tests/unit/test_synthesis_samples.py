@@ -13,14 +13,14 @@ import pytest
 from PIL import Image
 from ruamel.yaml import YAML
 
-from regkit.camera import Camera
-from regkit.errors import DataError, DependencyError
-from regkit_plugins.synthesis.__main__ import main
-from regkit_plugins.synthesis.assets import ASSETS
-from regkit_plugins.synthesis.raycast import ray_cast
-from regkit_plugins.synthesis.samples import hand_gestures, human_walk
-from regkit_plugins.synthesis.scene import SR4000
-from regkit_plugins.synthesis.sequence import DepthSequence
+from regkit.geometry.camera import Camera
+from regkit.system.errors import DataError, DependencyError
+from regkit_synthesis.__main__ import main
+from regkit_synthesis.assets import ASSETS
+from regkit_synthesis.raycast import ray_cast
+from regkit_synthesis.samples import hand_gestures, human_walk
+from regkit_synthesis.scene import SR4000
+from regkit_synthesis.sequence import DepthSequence
 
 SHIPPED = Path(__file__).resolve().parents[2] / "docs" / "examples" / "data"
 SAMPLES = {"human_walk": human_walk, "hand_gestures": hand_gestures}

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from regkit.body import BodyDescription
-from regkit.document import Document
-from regkit.rotation import vector_to_matrix
-from regkit_plugins.synthesis.scene import FPS, SR305, SR4000
-from regkit_plugins.synthesis.suite import SUITE
+from regkit.config.document import Document
+from regkit.geometry.rotation import vector_to_matrix
 from regkit_plugins.templates.reading import FOLDER
+from regkit_synthesis.scene import FPS, SR305, SR4000
+from regkit_synthesis.suite import SUITE
 
 SEQUENCES = [(name, take) for name, body in SUITE.items() for take in body.takes]
 PEOPLE = [pair for pair in SEQUENCES if pair[0].startswith("human")]

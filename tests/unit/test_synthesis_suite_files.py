@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from regkit_plugins.datasets.depth import DepthFolders
-from regkit_plugins.fitting.templates import FittedTemplate
-from regkit_plugins.synthesis import suite
-from regkit_plugins.synthesis.__main__ import main
-from regkit_plugins.synthesis.scene import FPS, SR305
-from regkit_plugins.synthesis.suite import SUITE, rendered
 from regkit_plugins.templates.reading import FOLDER, description_in
+from regkit_synthesis import suite
+from regkit_synthesis.__main__ import main
+from regkit_synthesis.scene import FPS, SR305
+from regkit_synthesis.suite import SUITE, rendered
+from regkit_synthesis.templates.templates import FittedTemplate
 
 
 class _Fixed:
@@ -68,7 +68,7 @@ def test_command_writes_templates_and_sequences_that_can_be_read(tmp_path, monke
         for name, scene in scenes.items()
     }
     for module in ("suite", "__main__"):
-        monkeypatch.setattr(f"regkit_plugins.synthesis.{module}.SUITE", small)
+        monkeypatch.setattr(f"regkit_synthesis.{module}.SUITE", small)
     monkeypatch.setattr(sys, "argv", ["synthesis", str(tmp_path), "--suite"])
     assert main() == 0
     assert sorted(path.name for path in tmp_path.iterdir()) == sorted(

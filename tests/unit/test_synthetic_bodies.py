@@ -7,9 +7,9 @@ from functools import cache
 import numpy as np
 import pytest
 
-from regkit_plugins.fitting.human_layout import human_layout
-from regkit_plugins.synthesis.motion.bodies import ShippedBody
 from regkit_plugins.templates.human import FILES, Human
+from regkit_synthesis.motion.bodies import ShippedBody
+from regkit_synthesis.templates.human_layout import human_layout
 
 BONES = [
     ("left_shoulder", "left_elbow"),

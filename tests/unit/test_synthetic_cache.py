@@ -11,16 +11,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from regkit.cache import cache_folder
-from regkit.camera import Camera
-from regkit.errors import DataError
+from regkit.geometry.camera import Camera
+from regkit.system.cache import cache_folder
+from regkit.system.errors import DataError
 from regkit_plugins.datasets.depth import DepthFolders
-from regkit_plugins.synthesis import digest as digest_module
-from regkit_plugins.synthesis.cache import SequenceCache
-from regkit_plugins.synthesis.digest import digest
-from regkit_plugins.synthesis.scene import SR4000
-from regkit_plugins.synthesis.sequence import DepthSequence
-from regkit_plugins.synthesis.take import Take
+from regkit_synthesis import digest as digest_module
+from regkit_synthesis.cache import SequenceCache
+from regkit_synthesis.digest import digest
+from regkit_synthesis.scene import SR4000
+from regkit_synthesis.sequence import DepthSequence
+from regkit_synthesis.take import Take
 
 KEY = "0123"
 

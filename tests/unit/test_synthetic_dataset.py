@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from regkit.camera import Camera
-from regkit.document import Document
-from regkit.errors import ConfigError, RegkitError
-from regkit.files import write_text
+from regkit.config.document import Document
+from regkit.geometry.camera import Camera
+from regkit.system.errors import ConfigError, RegkitError
+from regkit.system.files import write_text
 from regkit_plugins.datasets.synthetic import Synthetic
-from regkit_plugins.synthesis.cameras import CAMERAS
+from regkit_synthesis.cameras import CAMERAS
 
 TAKES = """\
 kind: synthetic

@@ -5,17 +5,17 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from regkit_plugins.synthesis.cameras import CAMERAS
-from regkit_plugins.synthesis.noise import NOISES, DepthNoise, noise_of
-from regkit_plugins.synthesis.noise.edges import step_across
-from regkit_plugins.synthesis.noise.model import quantised
-from regkit_plugins.synthesis.noise.parts import (
+from regkit_synthesis.cameras import CAMERAS
+from regkit_synthesis.noise import NOISES, DepthNoise, noise_of
+from regkit_synthesis.noise.edges import step_across
+from regkit_synthesis.noise.model import quantised
+from regkit_synthesis.noise.parts import (
     AxialNoise,
     FlyingPixels,
     LateralNoise,
     MissingPixels,
 )
-from regkit_plugins.synthesis.raycast import RayCaster, View, stored
+from regkit_synthesis.raycast import RayCaster, View, stored
 
 SHAPE = (240, 320)
 

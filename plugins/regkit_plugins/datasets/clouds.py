@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import Literal
 
 from regkit.clouds import read_cloud
+from regkit.config.model import InputPath
 from regkit.interfaces import Dataset, Sequence
-from regkit.model import InputPath
 from regkit.observation import Frame, Truth
-from regkit_plugins.datasets.folders import (
+from regkit_plugins.datasets.formats.folders import (
     SequenceDescription,
     numbered_files,
     read_truth,

@@ -9,13 +9,13 @@ from typing import Literal
 
 import numpy as np
 
-from regkit.arrays import Array
-from regkit.camera import Camera
-from regkit.errors import DataError
+from regkit.config.model import InputPath
+from regkit.geometry.camera import Camera
 from regkit.interfaces import Dataset, Sequence
-from regkit.model import InputPath
 from regkit.observation import Frame, Truth
-from regkit_plugins.datasets.folders import (
+from regkit.system.arrays import Array
+from regkit.system.errors import DataError
+from regkit_plugins.datasets.formats.folders import (
     SequenceDescription,
     numbered_files,
     read_truth,

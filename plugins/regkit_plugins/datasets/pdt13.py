@@ -10,14 +10,14 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
-from regkit.camera import Camera
-from regkit.errors import DataError
+from regkit.config.model import InputPath, Model
+from regkit.geometry.camera import Camera
 from regkit.interfaces import Dataset, Sequence
-from regkit.model import InputPath, Model
 from regkit.observation import Frame, Truth
-from regkit_plugins.datasets.axes import Axes, in_camera
-from regkit_plugins.datasets.matlab import array_shape, read_array, read_frames
-from regkit_plugins.datasets.subjects import SubjectPattern, subject_of
+from regkit.system.errors import DataError
+from regkit_plugins.datasets.formats.axes import Axes, in_camera
+from regkit_plugins.datasets.formats.matlab import array_shape, read_array, read_frames
+from regkit_plugins.datasets.formats.subjects import SubjectPattern, subject_of
 
 Positive = Annotated[float, Field(gt=0.0)]
 

@@ -6,9 +6,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from regkit_plugins.datasets.frame_records import FrameRecords
-from regkit_plugins.datasets.record import Record
-from regkit_plugins.datasets.subjects import SubjectPattern
+from regkit_plugins.datasets.formats.frame_records import FrameRecords
+from regkit_plugins.datasets.formats.record import Record
+from regkit_plugins.datasets.formats.subjects import SubjectPattern
 
 
 class Smmc10(FrameRecords):

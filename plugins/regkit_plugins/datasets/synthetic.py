@@ -10,19 +10,19 @@ from typing import Annotated, Any, Literal, Self
 import numpy as np
 from pydantic import Field, model_validator
 
-from regkit.errors import DataError, RegkitError
+from regkit.config.model import misplaced
+from regkit.config.preset import changed
 from regkit.interfaces import Dataset, Sequence
-from regkit.model import misplaced
 from regkit.observation import Frame, Truth
-from regkit.preset import changed
+from regkit.system.errors import DataError, RegkitError
 from regkit_plugins.datasets.depth import DepthFolders
-from regkit_plugins.synthesis.cache import SequenceCache
-from regkit_plugins.synthesis.cameras import CameraChoice, camera_of
-from regkit_plugins.synthesis.digest import digest
-from regkit_plugins.synthesis.noise import NOISES, DepthNoise, NoiseChoice, noise_of
-from regkit_plugins.synthesis.scene import Scene, Sensor
-from regkit_plugins.synthesis.sequence import DepthSequence
-from regkit_plugins.synthesis.take import Take
+from regkit_synthesis.cache import SequenceCache
+from regkit_synthesis.cameras import CameraChoice, camera_of
+from regkit_synthesis.digest import digest
+from regkit_synthesis.noise import NOISES, DepthNoise, NoiseChoice, noise_of
+from regkit_synthesis.scene import Scene, Sensor
+from regkit_synthesis.sequence import DepthSequence
+from regkit_synthesis.take import Take
 
 Name = Annotated[str, Field(pattern=r"^\w[\w. -]*$")]
 

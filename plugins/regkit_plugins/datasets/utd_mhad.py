@@ -10,14 +10,14 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
-from regkit.arrays import Array
-from regkit.camera import Camera
-from regkit.errors import DataError
+from regkit.config.model import InputPath
+from regkit.geometry.camera import Camera
 from regkit.interfaces import Dataset, Sequence
-from regkit.model import InputPath
 from regkit.observation import Frame, Truth
-from regkit_plugins.datasets.matlab import array_shape, read_array, read_frames
-from regkit_plugins.datasets.subjects import subject_of
+from regkit.system.arrays import Array
+from regkit.system.errors import DataError
+from regkit_plugins.datasets.formats.matlab import array_shape, read_array, read_frames
+from regkit_plugins.datasets.formats.subjects import subject_of
 
 CAMERA = Camera(width=320, height=240, fx=285.63, fy=285.63, cx=159.0, cy=120.0)
 """The Kinect's depth camera at half resolution, for images that are turned round as below."""

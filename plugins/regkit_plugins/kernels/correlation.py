@@ -6,11 +6,11 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from regkit.arrays import Array
+from regkit.gaussians.similarity import GaussianSimilarity
 from regkit.interfaces import Kernel
 from regkit.observation import Observation
 from regkit.primitives import Gaussians, Placed, Primitives
-from regkit_plugins.kernels.gaussian import GaussianSimilarity
+from regkit.system.arrays import Array
 
 
 class Correlation(Kernel):

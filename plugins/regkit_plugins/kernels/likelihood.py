@@ -7,12 +7,12 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 from pydantic import Field
 
-from regkit.arrays import Array
+from regkit.gaussians.seen import seen
+from regkit.gaussians.similarity import GaussianSimilarity
 from regkit.interfaces import Kernel
 from regkit.observation import Observation
 from regkit.primitives import Gaussians, Placed, Primitives
-from regkit_plugins.kernels.gaussian import GaussianSimilarity
-from regkit_plugins.kernels.seen import seen
+from regkit.system.arrays import Array
 
 
 class Likelihood(Kernel):

@@ -6,9 +6,9 @@ from typing import Literal
 
 from regkit.observation import Observation
 from regkit.primitives import Placed
-from regkit.surfels import Surfels
-from regkit_plugins.kernels.matches import MatchingSimilarity
-from regkit_plugins.kernels.matching import MatchingKernel
+from regkit.primitives.surfels import Surfels
+from regkit_plugins.kernels.point_to_plane.correspondences import MatchingSimilarity
+from regkit_plugins.kernels.point_to_plane.matching import MatchingKernel
 
 
 class PointToPoint(MatchingKernel):

@@ -7,10 +7,10 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Field
 
-from regkit.arrays import Array
-from regkit.optional import library as loaded
-from regkit.rigid import moved
-from regkit_plugins.methods.rigid import Aligned, Frame, RigidMethod
+from regkit.alignment.rigid_method import Aligned, Frame, RigidMethod
+from regkit.geometry.rigid import moved
+from regkit.system.arrays import Array
+from regkit.system.optional import library as loaded
 
 INSTALL = "pip install --no-deps probreg && pip install six transforms3d scikit-learn pyyaml addict"
 """probreg asks for one old version of Open3D, but works with newer ones."""

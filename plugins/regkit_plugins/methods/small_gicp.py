@@ -7,9 +7,9 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Field
 
-from regkit.arrays import Array
-from regkit.optional import library as loaded
-from regkit_plugins.methods.rigid import Aligned, RigidMethod
+from regkit.alignment.rigid_method import Aligned, RigidMethod
+from regkit.system.arrays import Array
+from regkit.system.optional import library as loaded
 
 
 class SmallGICP(RigidMethod):

@@ -6,11 +6,11 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from regkit.arrays import Array
 from regkit.body import Body
-from regkit.errors import ConfigError
 from regkit.interfaces import ShapeModel
 from regkit.primitives import Gaussians, Primitives
+from regkit.system.arrays import Array
+from regkit.system.errors import ConfigError
 from regkit_plugins.shapes.surface import Surface, shown
 
 

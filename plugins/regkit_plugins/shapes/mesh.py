@@ -7,12 +7,12 @@ from typing import ClassVar, Literal
 import numpy as np
 from scipy.spatial import cKDTree
 
-from regkit.arrays import Array
 from regkit.body import Body
-from regkit.errors import ConfigError
 from regkit.interfaces import ShapeModel
 from regkit.primitives import Primitives
-from regkit.surfels import Surfels
+from regkit.primitives.surfels import Surfels
+from regkit.system.arrays import Array
+from regkit.system.errors import ConfigError
 
 NEIGHBOURS = 4
 """The spacing of vertices is the mean distance to so many nearest ones."""

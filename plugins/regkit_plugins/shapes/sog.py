@@ -7,10 +7,10 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from regkit.body import Body
-from regkit.capsules import Capsules
-from regkit.errors import ConfigError
+from regkit.geometry.capsules import Capsules
 from regkit.interfaces import ShapeModel
 from regkit.primitives import Gaussians, Primitives
+from regkit.system.errors import ConfigError
 from regkit_plugins.shapes.surface import Surface, shown
 
 

@@ -7,12 +7,12 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 from pydantic import Field
 
-from regkit.arrays import Array
 from regkit.body import Body
-from regkit.capsules import Capsules
-from regkit.errors import ConfigError
+from regkit.geometry.capsules import Capsules
 from regkit.interfaces import ShapeModel
 from regkit.primitives import Primitives, TaperedCapsules
+from regkit.system.arrays import Array
+from regkit.system.errors import ConfigError
 
 
 class SphereMesh(ShapeModel):

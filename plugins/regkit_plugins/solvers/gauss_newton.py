@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from regkit.arrays import Array
-from regkit.errors import ConfigError, DataError
 from regkit.interfaces import LimitKeeping, Problem, Solution, Solver
+from regkit.system.arrays import Array
+from regkit.system.errors import ConfigError, DataError
 
 Tolerance = Annotated[float, Field(ge=0.0)]
 

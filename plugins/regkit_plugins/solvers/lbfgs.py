@@ -7,9 +7,9 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
-from regkit.arrays import Array
-from regkit.errors import DataError
 from regkit.interfaces import Problem, Solution, Solver
+from regkit.system.arrays import Array
+from regkit.system.errors import DataError
 
 Tolerance = Annotated[float, Field(ge=0.0)]
 

@@ -10,13 +10,13 @@ import numpy as np
 from pydantic import Field
 
 from regkit.alignment import cloud_body, cloud_description
-from regkit.arrays import Array
 from regkit.body import Body, BodyDescription
 from regkit.clouds import read_cloud, thinned
 from regkit.clouds.checks import check_shape
+from regkit.config.model import InputPath
 from regkit.interfaces.template import Template
-from regkit.model import InputPath
 from regkit.skeleton.joints import Vector
+from regkit.system.arrays import Array
 
 
 class CloudTemplate(Template):

@@ -8,9 +8,9 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from regkit.body import BodyDescription
-from regkit.errors import RegkitError
+from regkit.config.model import InputPath
 from regkit.interfaces.template import Template
-from regkit.model import InputPath
+from regkit.system.errors import RegkitError
 from regkit_plugins.templates.reading import description_in
 
 

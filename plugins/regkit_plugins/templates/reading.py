@@ -6,7 +6,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from regkit.body import BodyDescription
-from regkit.document import Document
+from regkit.config.document import Document
 
 FOLDER = Path(__file__).resolve().parent
 """Where the templates lie that ship with regkit."""

@@ -7,9 +7,9 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 from pydantic import Field
 
-from regkit.arrays import Array
 from regkit.interfaces import Response, Scene, Term
 from regkit.primitives import Gaussians, Placed, Primitives
+from regkit.system.arrays import Array
 from regkit_plugins.kernels.correlation import SELF_SIMILARITY, Correlation, CorrelationSimilarity
 
 

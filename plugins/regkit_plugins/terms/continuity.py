@@ -8,11 +8,11 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
-from regkit.arrays import Array
 from regkit.body import Body
 from regkit.interfaces import JointEnergy, Scene, Strain, Term
 from regkit.skeleton import Pose, Skeleton
 from regkit.skeleton.compiled_steps import ball_steps
+from regkit.system.arrays import Array
 
 
 class Continuity(Term):

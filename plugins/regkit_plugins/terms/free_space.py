@@ -7,9 +7,9 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Field
 
+from regkit.geometry.rotation import cross
 from regkit.interfaces import Response, Scene, Similarity, Term
 from regkit.primitives import Placed
-from regkit.rotation import cross
 
 REACH = 1.0
 """Where a primitive is sampled besides its centre: so many scales along its longest axis."""

@@ -8,10 +8,10 @@ from typing import Annotated, Any, ClassVar, Literal
 import numpy as np
 from pydantic import Field
 
-from regkit.arrays import Array, Indices
 from regkit.interfaces import Response, Scene, Similarity, Term
 from regkit.primitives import Placed, Primitives, Volumes
 from regkit.skeleton import Skeleton
+from regkit.system.arrays import Array, Indices
 from regkit_plugins.terms.compiled import overlaps
 
 REACH = 3.0

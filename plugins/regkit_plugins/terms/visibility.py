@@ -7,9 +7,9 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 from pydantic import Field
 
-from regkit.arrays import Array
 from regkit.interfaces import Scene, Shares, Term
 from regkit.primitives import Placed, Primitives, Volumes
+from regkit.system.arrays import Array
 from regkit_plugins.terms.compiled import free_rays
 
 

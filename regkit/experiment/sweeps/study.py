@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from regkit.document import Document
-from regkit.errors import ConfigError
+from regkit.config.document import Document
 from regkit.experiment.experiment import Experiment
 from regkit.experiment.resolved import resolved
 from regkit.experiment.sweeps.sweep import combinations
+from regkit.system.errors import ConfigError
 
 TOLD = 5
 """So many mistakes are told of a sweep, in which one mistake can have many copies."""

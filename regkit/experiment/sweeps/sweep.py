@@ -10,11 +10,11 @@ from typing import Annotated, Any
 
 from pydantic import ConfigDict, Field
 
-from regkit.document import Document
-from regkit.errors import ConfigError
+from regkit.config.document import Document
+from regkit.config.model import Model, did_you_mean
 from regkit.experiment.experiment import Experiment
 from regkit.experiment.sweeps.labels import variants
-from regkit.model import Model, did_you_mean
+from regkit.system.errors import ConfigError
 
 MOST = 1000
 """A sweep of more combinations is taken for a mistake."""

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from regkit.errors import ConfigError
 from regkit.experiment.workers.team import ThisProcess, Workers
+from regkit.system.errors import ConfigError
 
 
 def chosen_workers(jobs: int, cluster: str | None) -> Workers:

@@ -11,14 +11,14 @@ from queue import Empty, SimpleQueue
 from typing import Any
 
 from regkit import __version__
-from regkit.errors import ConfigError, DataError, RegkitError
 from regkit.experiment.hold import Hold
 from regkit.experiment.progress import Progress
 from regkit.experiment.task import Result, Task
 from regkit.experiment.workers.packed import Packed, check_worker, performed
 from regkit.experiment.workers.processes import PATIENCE
 from regkit.experiment.workers.team import TRIES, Team, Workers
-from regkit.optional import library
+from regkit.system.errors import ConfigError, DataError, RegkitError
+from regkit.system.optional import library
 
 INSTALL = 'pip install "regkit[cluster]"'
 

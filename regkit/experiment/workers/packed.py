@@ -14,13 +14,13 @@ from typing import Any
 from pydantic import BaseModel
 
 from regkit import __version__
-from regkit.document import Document
-from regkit.errors import ConfigError, DataError, DependencyError, RegkitError
+from regkit.config.document import Document
+from regkit.config.plugin import Plugin, from_file, plugin_files, run_plugin_file
 from regkit.experiment.experiment import Experiment
 from regkit.experiment.hold import Hold
 from regkit.experiment.resolved import resolved
 from regkit.experiment.task import Result, Task
-from regkit.plugin import Plugin, from_file, plugin_files, run_plugin_file
+from regkit.system.errors import ConfigError, DataError, DependencyError, RegkitError
 
 CHECKED_EVERY = 1.0
 """So often [s] a worker looks whether the run still wants its work."""

@@ -14,13 +14,13 @@ from dataclasses import dataclass
 from queue import Empty, SimpleQueue
 from typing import Any
 
-from regkit.errors import RegkitError
 from regkit.experiment.hold import Hold
 from regkit.experiment.progress import Progress
 from regkit.experiment.task import Result, Task
 from regkit.experiment.workers.packed import Packed, performed
 from regkit.experiment.workers.team import TRIES, Team, Workers
-from regkit.optional import library
+from regkit.system.errors import RegkitError
+from regkit.system.optional import library
 
 PATIENCE = 0.2
 """So long [s] is waited for a task to end before who watches is asked."""

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from regkit.errors import RegkitError
 from regkit.experiment.ledger import Ledger
 from regkit.experiment.progress import Progress
 from regkit.experiment.task import Result, Task
 from regkit.experiment.workers.schedule import Schedule
 from regkit.experiment.workers.team import Team
+from regkit.system.errors import RegkitError
 
 
 def work(ledgers: list[Ledger], team: Team, progress: Progress) -> None:

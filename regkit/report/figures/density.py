@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from regkit.arrays import Array
 from regkit.report.look import Form, Look
 from regkit.report.outlines import outlines
 from regkit.report.plot import WIDTH, Ink, Plot, Value, canvas, styled
 from regkit.report.run import Run
+from regkit.system.arrays import Array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

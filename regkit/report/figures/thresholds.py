@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from regkit.arrays import Array
 from regkit.metrics import NEAR, share_within
 from regkit.metrics.measure import WIDEST
 from regkit.report.plot import Ink, Plot, canvas, legend_above, styled
 from regkit.report.run import Run
 from regkit.report.words import label
+from regkit.system.arrays import Array
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

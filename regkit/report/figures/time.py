@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from regkit.arrays import Array
 from regkit.report.plot import Ink, Plot, Value, canvas, legend_above, styled
 from regkit.report.record import Record
 from regkit.report.run import Run
 from regkit.report.words import label
+from regkit.system.arrays import Array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -9,13 +9,13 @@ import numpy as np
 from pydantic import Field
 from scipy.special import gamma
 
-from regkit.arrays import Array, Indices
 from regkit.body import Body
-from regkit.errors import ConfigError
+from regkit.geometry.rotation import between
 from regkit.interfaces import Kernel, Response, ShapeModel, Similarity
 from regkit.observation import Observation
 from regkit.primitives import SPHERE, Placed, Primitives, Volumes
-from regkit.rotation import between
+from regkit.system.arrays import Array, Indices
+from regkit.system.errors import ConfigError
 
 
 @dataclass(frozen=True)

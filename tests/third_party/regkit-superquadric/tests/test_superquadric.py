@@ -10,7 +10,7 @@ import pytest
 from regkit_superquadric import RadialDistance, Superellipsoids, Superquadric, gauge
 
 from regkit.body import Body
-from regkit.capsules import Capsules
+from regkit.geometry.capsules import Capsules
 from regkit.observation import Observation
 from regkit.testing.samples import linkage
 

@@ -1,0 +1,154 @@
+"""The folder format of recorded sequences, common to depth images and clouds.
+
+my_sequence/
+sequence.yaml      name, fps, depth_scale, source, licence
+camera.json        intrinsics (depth images)
+depth/000000.png   or clouds/000000.ply; numbered without gaps
+truth.csv          optional: frame,joint,x,y,z [m] in the camera's frame
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+from pydantic import Field
+
+from regkit.config.document import Document
+from regkit.config.model import Model
+from regkit.interfaces import Sequence
+from regkit.observation import Truth
+from regkit.system.errors import DataError, RegkitError
+
+Positive = Annotated[float, Field(gt=0.0)]
+
+
+class SequenceDescription(Model):
+    """What ``sequence.yaml`` holds."""
+
+    name: Annotated[str, Field(pattern=r"^\w[\w. -]*$")] | None = None
+    """Name of the sequence; that of its folder without it."""
+    fps: Positive = 30.0
+    """Frames per second."""
+    depth_scale: Positive = 1000.0
+    """Depth image units per metre: 1000 for millimetres."""
+    source: str = ""
+    """Where the data come from."""
+    licence: str = ""
+    """What may be done with them."""
+
+    @classmethod
+    def read(cls, folder: Path) -> SequenceDescription:
+        """The description of a sequence's folder."""
+        return Document.read(folder / "sequence.yaml").validated(cls)
+
+
+def sequence_folders(root: Path, content: str) -> list[Path]:
+    """``root`` itself if it is one sequence, or the sequences in it; each has a ``content`` folder.
+
+    Raises:
+        DataError: If there is none.
+    """
+    if not root.is_dir():
+        raise DataError("there is no such folder", place=str(root))
+    if (root / content).is_dir():
+        return [root]
+    folders = sorted(folder.parent for folder in root.glob(f"*/{content}") if folder.is_dir())
+    if not folders:
+        raise DataError(
+            f"no sequence here: neither the folder nor one in it has a folder '{content}/' "
+            "beside a sequence.yaml",
+            place=str(root),
+        )
+    return folders
+
+
+def sequences_in(
+    root: Path,
+    content: str,
+    read: Callable[[Path], Sequence],
+    wanted: Callable[[str], bool],
+) -> list[Sequence]:
+    """What ``read`` makes of each sequence's folder; a damaged one counts only if it is wanted.
+
+    Raises:
+        DataError: If there is none, or one that is wanted is damaged.
+    """
+    found = []
+    for folder in sequence_folders(root, content):
+        try:
+            found.append(read(folder))
+        except RegkitError:
+            if wanted(folder.name):
+                raise
+    return found
+
+
+def numbered_files(folder: Path, suffixes: tuple[str, ...]) -> list[Path]:
+    """The files 000000, 000001, ... of a folder.
+
+    Raises:
+        DataError: If there is none, or a number is missing.
+    """
+    files = sorted(path for path in folder.iterdir() if path.suffix.lower() in suffixes)
+    if not files:
+        raise DataError(f"the folder holds no {' or '.join(suffixes)} file", place=str(folder))
+    for number, path in enumerate(files):
+        if path.stem != f"{number:06d}":
+            raise DataError(
+                f"files must be numbered from 000000 without gaps; {number:06d} is missing before "
+                f"{path.name}",
+                place=str(folder),
+            )
+    return files
+
+
+def read_truth(path: Path, length: int) -> Truth | None:
+    """The reference joints of the first ``length`` frames; None if the file is not there.
+
+    Raises:
+        DataError: If a row cannot be read, or a number is not finite.
+    """
+    if not path.exists():
+        return None
+    if not path.is_file():
+        raise DataError("this must be a file", place=str(path))
+    rows: dict[tuple[int, str], list[float]] = {}
+    # A spreadsheet begins UTF-8 with a mark; bytes that are no text make a row that is refused.
+    with path.open(newline="", encoding="utf-8-sig", errors="replace") as stream:
+        reader = csv.DictReader(stream)
+        if reader.fieldnames != ["frame", "joint", "x", "y", "z"]:
+            raise DataError(
+                f"the header must be frame,joint,x,y,z; it is {','.join(reader.fieldnames or [])}",
+                place=f"{path}:1",
+            )
+        for row in reader:
+            try:
+                frame, position = int(row["frame"]), [float(row[axis]) for axis in "xyz"]
+                if frame < 0 or None in row:
+                    raise ValueError
+            except (TypeError, ValueError):
+                raise DataError(
+                    f"not a row of frame,joint,x,y,z: {','.join(map(str, row.values()))}",
+                    place=f"{path}:{reader.line_num}",
+                ) from None
+            if not np.isfinite(position).all():
+                raise DataError(
+                    "a position is NaN or infinite; leave the row out where a joint was not seen",
+                    place=f"{path}:{reader.line_num}",
+                )
+            if (frame, row["joint"]) in rows:
+                raise DataError(
+                    f"joint '{row['joint']}' of frame {frame} is given a second time",
+                    place=f"{path}:{reader.line_num}",
+                )
+            if frame < length:
+                rows[frame, row["joint"]] = position
+    joints = tuple(dict.fromkeys(joint for _, joint in rows))
+    positions = np.full((length, len(joints), 3), np.nan)
+    for (frame, joint), position in rows.items():
+        positions[frame, joints.index(joint)] = position
+    return Truth(joints, positions)

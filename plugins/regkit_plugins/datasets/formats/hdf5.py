@@ -1,0 +1,59 @@
+"""HDF5 files, opened for one reading."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from regkit.system.errors import DataError
+from regkit.system.optional import library
+
+
+@contextmanager
+def opened(path: Path) -> Iterator[Any]:
+    """An HDF5 file, for reading.
+
+    Raises:
+        DataError: If it is missing, damaged, or something else.
+        DependencyError: If h5py is not installed.
+    """
+    h5py = library("h5py", install="pip install 'regkit[hdf5]'")
+    if not path.is_file():
+        raise DataError("there is no such file", place=str(path))
+    try:
+        file = h5py.File(path, "r")
+    except OSError as error:
+        raise DataError(f"not an HDF5 file, or damaged: {error}", place=str(path)) from None
+    with file:
+        yield file
+
+
+def stored(file: Any, name: str) -> Any:
+    """The array ``name`` of an open file, of which nothing is read yet.
+
+    Raises:
+        DataError: If there is none.
+    """
+    found = file.get(name)
+    if found is None or not isinstance(getattr(found, "shape", None), tuple):
+        raise DataError(
+            f"no array '{name}' in the file (there are: {', '.join(sorted(file))})",
+            place=file.filename,
+        )
+    return found
+
+
+def read(array: Any, where: Any = ()) -> Any:
+    """What is ``where`` in an array of an open file.
+
+    Raises:
+        DataError: If that part is damaged.
+    """
+    try:
+        return array[where]
+    except (OSError, ValueError) as error:
+        raise DataError(
+            f"'{array.name.lstrip('/')}' cannot be read: {error}", place=array.file.filename
+        ) from None

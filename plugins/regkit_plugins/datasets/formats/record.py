@@ -1,0 +1,103 @@
+"""A file of frame records, read record by record."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+from pydantic import Field
+
+from regkit.config.model import Model
+from regkit.system.errors import DataError
+
+Size = Annotated[int, Field(ge=1)]
+Slots = Annotated[int, Field(ge=0)]
+
+
+class Record(Model):
+    """The sizes of a record's parts, as ``frame_records`` gives their order."""
+
+    width: Size
+    """Columns of the grid of points."""
+    height: Size
+    """Rows of the grid of points."""
+    marker_slots: Slots = 32
+    """Room for so many markers, used or not."""
+    name_bytes: Size = 256
+    """Room for a marker's name."""
+    joint_slots: Slots = 32
+    """Room for so many joints, used or not."""
+
+    @property
+    def dtype(self) -> np.dtype[Any]:
+        """A record as NumPy reads it."""
+        marker = [("name", f"S{self.name_bytes}"), ("position", "<f4", 3)]
+        joint = [("number", "<i4"), ("position", "<f4", 3)]
+        return np.dtype([
+            ("magic", "<i4"),
+            ("frame", "<i4"),
+            ("points", "<f4", (self.height, self.width, 3)),
+            ("marker_count", "<i4"),
+            ("markers", marker, (self.marker_slots,)),
+            ("joint_count", "<i4"),
+            ("joints", joint, (self.joint_slots,)),
+        ])  # fmt: skip
+
+
+@dataclass(frozen=True)
+class RecordFile:
+    """One file.
+
+    Attributes:
+        path: Where it lies.
+        record: The sizes of its parts.
+        length: Number of records.
+    """
+
+    path: Path
+    record: Record
+    length: int
+
+    @classmethod
+    def of(cls, path: Path, record: Record) -> RecordFile:
+        """A file whose size is that of whole records.
+
+        Raises:
+            DataError: If it is not.
+        """
+        size, one = path.stat().st_size, record.dtype.itemsize
+        if size == 0 or size % one:
+            raise DataError(
+                f"the file's {size} bytes are not whole records of {one} bytes "
+                f"({record.width}x{record.height} points, {record.marker_slots} markers, "
+                f"{record.joint_slots} joints); it is cut short, or dataset.record is not right",
+                place=str(path),
+            )
+        return cls(path, record, size // one)
+
+    def place(self, index: int) -> str:
+        """Of a frame, for messages."""
+        return f"{self.path}: frame {index}"
+
+    def records(self) -> np.memmap[Any, Any]:
+        """All records (T,), of which only what is used is read from the disk.
+
+        Raises:
+            DataError: If what the records say of themselves cannot be.
+        """
+        records = np.memmap(self.path, self.record.dtype, mode="r")
+        for part, slots in (
+            ("marker", self.record.marker_slots),
+            ("joint", self.record.joint_slots),
+        ):
+            counts = np.array(records[f"{part}_count"])
+            wrong = np.flatnonzero((counts < 0) | (counts > slots))
+            if len(wrong):
+                raise DataError(
+                    f"{part}_count is {counts[wrong[0]]}, but there is room for {slots} {part}s; "
+                    "dataset.record is not right, or the file is damaged",
+                    place=self.place(int(wrong[0])),
+                )
+        return records

@@ -1,0 +1,98 @@
+"""A sequence of frame records."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from regkit.interfaces import Sequence
+from regkit.observation import Frame, Truth
+from regkit.system.arrays import Array
+from regkit.system.errors import DataError
+from regkit_plugins.datasets.formats.axes import Axes, in_camera
+from regkit_plugins.datasets.formats.grids import Grid, measured
+from regkit_plugins.datasets.formats.record import RecordFile
+from regkit_plugins.datasets.formats.static_background import StaticBackground
+
+
+@dataclass(frozen=True)
+class RecordSequence(Sequence):
+    """One file of records.
+
+    Attributes:
+        file: The file.
+        axes: Of the data.
+        with_camera: Whether a camera is fitted to the grid of points.
+        foreground: By how much the foreground is nearer than what is behind it [m], if only that is
+            kept.
+    """
+
+    file: RecordFile
+    axes: Axes
+    with_camera: bool
+    foreground: float | None
+
+    def frames(self) -> Iterator[Frame]:
+        """The grids of points, as depth images with a camera, or as clouds.
+
+        The images are turned so that the camera's x grows along their columns and y down their
+        rows, whichever way they are stored.
+        """
+        records = self.file.records()
+        background = self._background(records)
+        grid: Grid | None = None
+        for index in range(self.length):
+            place = self.file.place(index)
+            points = self._points(records, index)
+            seen = measured(points)
+            if background is not None:
+                seen &= background.before(points[..., 2])
+            if self.with_camera and grid is None:
+                grid = Grid.fitted(points, place=place)
+            if grid is None:
+                yield Frame(points[seen], place=place)
+                continue
+            points, seen = points[grid.turned], seen[grid.turned]
+            depth = np.where(seen, points[..., 2], 0.0)
+            yield Frame(points[seen], grid.camera, depth, place=place)
+
+    def truth(self) -> Truth | None:
+        """The markers by their names, and the joints as ``joint_0``, ``joint_1``, ...
+
+        A position that is not finite, or zero throughout, stands for one that was not seen.
+        """
+        records = self.file.records()
+        positions: dict[str, Array] = {}
+        for index in range(self.length):
+            record = records[index]
+            for marker in record["markers"][: record["marker_count"]]:
+                name = marker["name"].split(b"\0")[0].decode("utf-8", "replace").strip()
+                self._note(positions, index, name, marker["position"])
+            for joint in record["joints"][: record["joint_count"]]:
+                self._note(positions, index, f"joint_{joint['number']}", joint["position"])
+        if not positions:
+            return None
+        return Truth(tuple(positions), np.stack(list(positions.values()), axis=1))
+
+    def _note(self, positions: dict[str, Array], index: int, name: str, position: Array) -> None:
+        track = positions.setdefault(name, np.full((self.length, 3), np.nan))
+        if not np.isnan(track[index]).all():
+            raise DataError(f"two positions are called '{name}'", place=self.file.place(index))
+        if np.isfinite(position).all() and position.any():
+            track[index] = in_camera(position, self.axes)
+
+    def _points(self, records: np.memmap[Any, Any], index: int) -> Array:
+        return in_camera(records[index]["points"], self.axes)
+
+    def _background(self, records: np.memmap[Any, Any]) -> StaticBackground | None:
+        if self.foreground is None:
+            return None
+
+        def depth_of(index: int) -> Array:
+            points = self._points(records, index)
+            return np.where(measured(points), points[..., 2], 0.0)
+
+        return StaticBackground.of(depth_of, len(records), self.foreground)

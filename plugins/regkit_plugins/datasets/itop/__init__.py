@@ -1,0 +1,5 @@
+"""ITOP."""
+
+from regkit_plugins.datasets.itop.itop import Itop
+
+__all__ = ["Itop"]

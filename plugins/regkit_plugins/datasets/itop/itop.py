@@ -1,0 +1,75 @@
+"""ITOP: depth of one person at a time, from the side or from above, in HDF5 files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from regkit.config.model import InputPath
+from regkit.geometry.camera import Camera
+from regkit.interfaces import Dataset, Sequence
+from regkit_plugins.datasets.itop.sequence import ItopFiles, ItopSequence
+
+CAMERA = Camera(width=320, height=240, fx=1 / 0.0035, fy=1 / 0.0035, cx=160.0, cy=120.0)
+"""The nominal camera that relates the joints in metres to those in pixels."""
+
+
+class Itop(Dataset):
+    """ITOP (Haque, Peng, Luo, Alahi, Yeung and Fei-Fei, ECCV 2016).
+
+    ``ITOP_side_test_depth_map.h5`` holds ``data`` (N, 240, 320) [m] and ``id`` (N,), in which
+    ``02_00143`` is frame 143 of person 2; ``ITOP_side_test_labels.h5`` holds for the same frames
+    ``real_world_coordinates`` (N, 15, 3) [m], ``is_valid`` (N,) and ``segmentation``
+    (N, 240, 320), -1 for the background. As several public loaders agree, a joint (x, y, z) is seen
+    at the pixel (160 + x / 0.0035 z, 120 - y / 0.0035 z) from the side and from above: x points
+    right, y *up*, z forward. Right and left are the person's own. Not verified is that
+    the images are no mirror images (``mirrored``), and the rate (``fps``).
+
+    The frames of all people follow each other in one file; a sequence is a run of one person's
+    frames whose numbers follow each other, and is called after the person and its first frame:
+    ``02_00143``.
+    """
+
+    kind: Literal["itop"] = "itop"
+
+    root: InputPath
+    """The folder that holds the unpacked files."""
+    view: Literal["side", "top"] = "side"
+    """From where the camera looks."""
+    split: Literal["train", "test"] = "test"
+    """Which of the two parts."""
+    background: Literal["dropped", "kept"] = "dropped"
+    """Whether only those pixels are used that the labels count to the person. The labels hold in
+    frames that people approved (``is_valid``), and the others are then left out; with the
+    background kept they are in, and their joints are not scored."""
+    gap: Annotated[int, Field(ge=1)] = 1
+    """By how much the frames' numbers may grow within a sequence."""
+    mirrored: bool = False
+    """Whether images and joints are stored as in a mirror, and must be turned round."""
+    fps: Annotated[float, Field(gt=0.0)] = 30.0
+    """Frames per second."""
+
+    def found(self) -> list[Sequence]:
+        """A sequence for each run of frames of one person."""
+        stem = f"ITOP_{self.view}_{self.split}"
+        files = ItopFiles(self._file(f"{stem}_depth_map.h5"), self._file(f"{stem}_labels.h5"))
+        runs = files.runs(valid_only=self.background == "dropped", gap=self.gap)
+        return [
+            ItopSequence(
+                name=f"{run.person}_{run.number:05d}",
+                fps=self.fps,
+                length=min(len(run.indices), self.frames or len(run.indices)),
+                subject=run.person,
+                files=files,
+                indices=run.indices,
+                segmented=self.background == "dropped",
+                mirrored=self.mirrored,
+                camera=CAMERA,
+            )
+            for run in runs
+        ]
+
+    def _file(self, name: str) -> Path:
+        return self.root / name

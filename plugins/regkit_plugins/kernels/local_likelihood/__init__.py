@@ -1,0 +1,5 @@
+"""The likelihood of points under their nearest Gaussians."""
+
+from regkit_plugins.kernels.local_likelihood.local_likelihood import LocalLikelihood
+
+__all__ = ["LocalLikelihood"]

@@ -1,0 +1,170 @@
+"""Data matched with surfels: the partners, and the forces between them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from regkit.interfaces import Response, Similarity
+from regkit.observation import Observation
+from regkit.primitives import Placed
+from regkit.primitives.surfels import Surfels
+from regkit.registration.robust import Loss
+from regkit.system.arrays import Array, Indices
+from regkit_plugins.kernels.point_to_plane.compiled import pulled_surfels
+from regkit_plugins.kernels.point_to_plane.matching import MatchingKernel, given_normals
+from regkit_plugins.kernels.point_to_plane.visible import visible
+
+
+@dataclass(frozen=True)
+class Matches:
+    """M pairs of data and surfels.
+
+    Attributes:
+        points: Index of the point, (M,).
+        surfels: Index of the surfel, (M,).
+        weights: (M,).
+        lost: Weight of the data without a partner.
+    """
+
+    points: Indices
+    surfels: Indices
+    weights: Array
+    lost: float
+
+
+class MatchingSimilarity(Similarity):
+    """A matching kernel bound to a frame.
+
+    The residual r of a pair, with the normal n and the way q from the surfel to the point, is
+    ``r^2 = (1 - t) (n.q)^2 + t |q|^2``.
+
+    Args:
+        kernel: Its options.
+        observation: The data.
+        start: The surfels in the start pose; what is hidden there takes no part.
+        blur: Standard deviation [m] that widens the loss.
+        point_share: t; with one there is no need of normals.
+        normals: Those of the data, (N, 3), to be taken instead of the surfels'.
+    """
+
+    def __init__(
+        self,
+        kernel: MatchingKernel,
+        observation: Observation,
+        start: Placed[Surfels],
+        blur: float,
+        *,
+        point_share: float,
+        normals: Array | None = None,
+    ) -> None:
+        self._kernel = kernel
+        self._points = observation.points
+        self._weights = observation.weights / observation.weights.sum()
+        self._oriented = observation.camera is not None
+        self._facing: Array | None = None
+        if kernel.angle_deg is not None:
+            self._facing = given_normals(observation, "angle_deg")
+            if self._oriented:
+                away = np.einsum("ni,ni->n", self._facing, self._points) > 0.0
+                self._facing = np.where(away[:, None], -self._facing, self._facing)
+        self._point_share, self._normals = point_share, normals
+        self._shown = visible(start) if self._oriented else np.arange(len(start))
+        self._cloud = cKDTree(observation.points) if kernel.way_back > 0.0 else None
+        self._loss = self._bound_loss(float(np.sqrt(observation.variances.mean())), start, blur)
+        self._reach = kernel.reach * self._loss.scale
+        self._fixed = self._matched(start) if kernel.matches == "fixed" else None
+
+    def __call__(self, placed: Placed[Surfels], *, curvature: bool = False) -> Response:
+        """The energy, exact wrenches for the partners at hand, and the Gauss-Newton blocks."""
+        matches = self._matched(placed) if self._fixed is None else self._fixed
+        offsets, normals = self._offsets(placed, matches.points, matches.surfels)
+        sizes = self._sizes(offsets, normals)
+        limit = self._loss.values(np.array([self._reach]))[0]
+        energy = matches.weights @ self._loss.values(sizes) + matches.lost * limit
+        wrenches, blocks = pulled_surfels(
+            matches.surfels,
+            offsets,
+            normals,
+            matches.weights * self._loss.weights(sizes),
+            self._point_share,
+            self._normals is None,
+            len(placed),
+        )
+        return Response(float(energy), wrenches, blocks if curvature else None)
+
+    def explained(self, placed: Placed[Surfels]) -> Array:
+        """By how much each point counts for its partner's, (N,); nothing where it has none."""
+        found = self._partners(placed)
+        offsets, normals = self._offsets(placed, found.points, found.surfels)
+        explained = np.zeros(len(self._points))
+        explained[found.points] = self._loss.shares(self._sizes(offsets, normals))
+        return explained
+
+    def _bound_loss(self, deviation: float, start: Placed[Surfels], blur: float) -> Loss:
+        """The loss, for data of a standard deviation [m]."""
+        robust, noise = self._kernel.robust, self._kernel.noise
+        if robust.scale is None and noise is not None:
+            robust = robust.model_copy(update={"scale": noise * deviation})
+        residuals = np.zeros(0)
+        if robust.scale is None:
+            _, nearest = self._nearest(start, np.inf)
+            ways = self._offsets(start, np.arange(len(nearest)), self._shown[nearest])
+            residuals = self._sizes(*ways)
+        return robust.bound(residuals, least=deviation, blur=blur)
+
+    def _matched(self, placed: Placed[Surfels]) -> Matches:
+        """The pairs, from the data and, where it is asked for, from the surfels."""
+        found = self._partners(placed)
+        if self._cloud is None:
+            return found
+        weights = placed.primitives.weights[self._shown]
+        weights = self._kernel.way_back * weights / weights.sum()
+        distances, points = self._cloud.query(
+            placed.centres[self._shown], distance_upper_bound=self._reach
+        )
+        near = np.asarray(distances) < self._reach
+        return Matches(
+            np.concatenate([found.points, np.asarray(points)[near]]),
+            np.concatenate([found.surfels, self._shown[near]]),
+            np.concatenate([found.weights, weights[near]]),
+            found.lost + float(weights[~near].sum()),
+        )
+
+    def _partners(self, placed: Placed[Surfels]) -> Matches:
+        """The nearest visible surfel of each point, if it is near and faces alike."""
+        distances, nearest = self._nearest(placed, self._reach)
+        points = np.flatnonzero(distances < self._reach)
+        surfels = self._shown[nearest[points]]
+        if self._facing is not None and self._kernel.angle_deg is not None:
+            alike = (self._facing[points] * placed.axes[surfels, :, 2]).sum(axis=1)
+            # Without a camera it is not known to which side the data's normals point.
+            alike = alike if self._oriented else np.abs(alike)
+            kept = alike > np.cos(np.radians(self._kernel.angle_deg))
+            points, surfels = points[kept], surfels[kept]
+        weights = self._weights[points]
+        return Matches(points, surfels, weights, 1.0 - float(weights.sum()))
+
+    def _nearest(self, placed: Placed[Surfels], reach: float) -> tuple[Array, Indices]:
+        """Distance (N,) [m] and number (N,) among the visible ones of the nearest surfel."""
+        tree = cKDTree(placed.centres[self._shown])
+        distances, nearest = tree.query(self._points, distance_upper_bound=reach)
+        return np.asarray(distances), np.asarray(nearest)
+
+    def _offsets(
+        self, placed: Placed[Surfels], points: Indices, surfels: Indices
+    ) -> tuple[Array, Array]:
+        """The ways from surfels to points, (M, 3) [m], and the normals there, (M, 3)."""
+        offsets = self._points[points] - placed.centres[surfels]
+        normals = placed.axes[surfels, :, 2] if self._normals is None else self._normals[points]
+        return offsets, normals
+
+    def _sizes(self, offsets: Array, normals: Array) -> Array:
+        """The residuals r, (M,) [m]."""
+        along = np.einsum("mi,mi->m", offsets, normals)
+        squares = np.einsum("mi,mi->m", offsets, offsets)
+        return np.asarray(
+            np.sqrt((1.0 - self._point_share) * along**2 + self._point_share * squares)
+        )

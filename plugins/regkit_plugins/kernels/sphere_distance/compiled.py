@@ -1,0 +1,149 @@
+"""Signed distances of points to tapered capsules, and their derivatives, in compiled loops.
+
+The formulas stand with the kernel ``sphere_distance``. Capsules are rows of nine numbers: the
+middle of the axis (3), the unit vector along it (3), half its length, the radius in the middle, and
+the sine of the cone's half angle, by which the radius falls along the axis. Lengths are in metres.
+"""
+
+from __future__ import annotations
+
+from math import inf, sqrt
+
+import numpy as np
+
+from regkit.system.arrays import Array, Indices
+from regkit.system.compiled import compiled
+
+
+@compiled
+def nearest_capsules(
+    points: Array, capsules: Array, handicaps: Array
+) -> tuple[Indices, Array, Array]:
+    """The capsule of each point, (N,), its signed distance, (N,), and where it is nearest, (N,).
+
+    The last is the place of the nearest sphere's centre on the axis, from the middle [m].
+
+    Args:
+        points: (N, 3) [m].
+        capsules: (K, 9).
+        handicaps: What is added to a signed squared distance before it is compared, (K,) [m^2].
+    """
+    count = len(points)
+    owners = np.zeros(count, dtype=np.intp)
+    distances, places = np.empty(count), np.empty(count)
+    halves, radii, sines = capsules[:, 6].copy(), capsules[:, 7].copy(), capsules[:, 8].copy()
+    bounds = radii + (1.0 + np.abs(sines)) * halves
+    tangents = sines / np.sqrt(1.0 - sines**2)
+    likely = 0
+    for i in range(count):
+        px, py, pz = points[i, 0], points[i, 1], points[i, 2]
+        least, reach = inf, inf
+        # The capsule of the point before comes first, for it often is this one's, too.
+        for candidate in range(-1, len(capsules)):
+            k = likely if candidate < 0 else candidate
+            x, y, z = px - capsules[k, 0], py - capsules[k, 1], pz - capsules[k, 2]
+            square = x * x + y * y + z * z
+            # What is nearer than the least cost allows has the point near its bounding sphere.
+            far = reach + bounds[k]
+            if far < 0.0 or square > far * far:
+                continue
+            along = x * capsules[k, 3] + y * capsules[k, 4] + z * capsules[k, 5]
+            side = sqrt(max(square - along * along, 0.0))
+            at = min(max(along - side * tangents[k], -halves[k]), halves[k])
+            distance = sqrt(side * side + (along - at) ** 2) - radii[k] + sines[k] * at
+            cost = distance * abs(distance) + handicaps[k]
+            if cost < least:
+                least = cost
+                reach = sqrt(cost) if cost > 0.0 else -sqrt(-cost)
+                owners[i], distances[i], places[i] = k, distance, at
+        likely = owners[i]
+    return owners, distances, places
+
+
+@compiled
+def residuals_and_rows(
+    points: Array,
+    capsules: Array,
+    owners: Indices,
+    distances: Array,
+    places: Array,
+    front: bool,
+) -> tuple[Array, Array]:
+    """Residuals (N,) [m], and their derivatives to motions of the owners, (N, 6).
+
+    Args:
+        points: (N, 3) [m].
+        capsules: (K, 9).
+        owners: The capsule of each point, (N,).
+        distances: Its signed distance, (N,) [m].
+        places: Where on its axis it is nearest, (N,) [m].
+        front: Whether points are held against the front of their capsule.
+    """
+    residuals, rows = distances.copy(), np.zeros((len(points), 6))
+    arm, gap, ray, slope = np.empty(3), np.empty(3), np.empty(3), np.empty(3)
+    for i in range(len(points)):
+        k, at = owners[i], places[i]
+        unit, half, sine = capsules[k, 3:6], capsules[k, 6], capsules[k, 8]
+        length = sqrt(points[i, 0] ** 2 + points[i, 1] ** 2 + points[i, 2] ** 2)
+        square, behind, along = 0.0, 0.0, 0.0
+        for j in range(3):
+            arm[j] = points[i, j] - capsules[k, j]
+            gap[j] = arm[j] - at * unit[j]
+            ray[j] = points[i, j] / length if front else 0.0
+            square += gap[j] ** 2
+            behind += gap[j] * ray[j]
+            along += arm[j] * unit[j]
+        norm = sqrt(square)
+        if norm == 0.0:
+            # In the very middle of a sphere there is no way that is nearest.
+            continue
+        turning = 0.0
+        for j in range(3):
+            slope[j] = gap[j] / norm
+        if behind > 0.0:
+            radius = norm - distances[i]
+            lateral = sqrt(max(square - behind**2, 0.0))
+            beside = lateral - radius
+            residual = sqrt(behind**2 + beside**2)
+            residuals[i] = residual
+            down = 0.0
+            for j in range(3):
+                slope[j] = behind * ray[j] / residual
+                if lateral > 0.0:
+                    slope[j] += beside * (gap[j] - behind * ray[j]) / (lateral * residual)
+                down += slope[j] * unit[j]
+            if lateral > 0.0:
+                turning = behind * radius / (lateral * residual)
+            if abs(at) < half:
+                # The nearest sphere moves along the axis with the point.
+                change = beside * sine / residual - down
+                side = sqrt(max((arm**2).sum() - along**2, 0.0))
+                tilt = sine / sqrt(1.0 - sine**2) / side if side > 0.0 else 0.0
+                for j in range(3):
+                    slope[j] += change * (unit[j] - tilt * (arm[j] - along * unit[j]))
+        for j in range(3):
+            a, b = (j + 1) % 3, (j + 2) % 3
+            rows[i, j] = -slope[j]
+            rows[i, 3 + j] = arm[b] * slope[a] - arm[a] * slope[b]
+            rows[i, 3 + j] += turning * (ray[b] * gap[a] - ray[a] * gap[b])
+    return residuals, rows
+
+
+@compiled
+def gathered_rows(
+    owners: Indices, residuals: Array, weights: Array, rows: Array, count: int
+) -> tuple[Array, Array]:
+    """Over each capsule's points, sum w r J (K, 6), and sum w J J^T (K, 6, 6)."""
+    wrenches, blocks = np.zeros((count, 6)), np.zeros((count, 6, 6))
+    for i in range(len(owners)):
+        k = owners[i]
+        for a in range(6):
+            scaled = weights[i] * rows[i, a]
+            wrenches[k, a] += scaled * residuals[i]
+            for b in range(a + 1):
+                blocks[k, a, b] += scaled * rows[i, b]
+    for k in range(count):
+        for a in range(6):
+            for b in range(a):
+                blocks[k, b, a] = blocks[k, a, b]
+    return wrenches, blocks

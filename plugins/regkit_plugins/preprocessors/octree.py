@@ -1,0 +1,63 @@
+"""The observer that makes the leaves of an octree Gaussians of their size."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field
+
+from regkit.interfaces import Observer
+from regkit.observation import Frame, Observation
+from regkit.observation.crop import Crop
+from regkit.system.arrays import Array, Indices
+
+
+class OctreeObserver(Observer):
+    """A sum of Gaussians from the leaves of an octree, section 3 of the paper.
+
+    A cube is divided until its side is ``leaf`` or it holds at most ``few`` points. A leaf becomes
+    the Gaussian at the mean of its points, with half its side as standard deviation and the number
+    of its points as weight.
+    """
+
+    kind: Literal["octree"] = "octree"
+
+    leaf: Annotated[float, Field(gt=0.0)] = 0.045
+    """Side of the smallest cubes [m]."""
+    few: Annotated[int, Field(ge=1)] = 2
+    """A cube with so few points is not divided further."""
+    largest: Annotated[int, Field(ge=0, le=20)] = 2
+    """How often ``leaf`` may double at most: stray points get no Gaussian larger than that."""
+    crop: Crop = Crop()
+    """What part of the frame is looked at."""
+
+    def observe(self, frame: Frame) -> Observation:
+        """One Gaussian for each leaf."""
+        frame = self.crop.cropped(frame)
+        points = frame.points
+        cells = np.floor((points - points.min(axis=0)) / self.leaf).astype(np.int64)
+        pending = np.arange(len(points))
+        means, weights, deviations = [], [], []
+        for level in range(self.largest, -1, -1):
+            _, cell, counts = np.unique(
+                cells[pending] >> level, axis=0, return_inverse=True, return_counts=True
+            )
+            cell = cell.ravel()
+            is_leaf = counts <= self.few if level else np.ones(len(counts), dtype=bool)
+            means.append(_means(points[pending], cell, counts)[is_leaf])
+            weights.append(counts[is_leaf].astype(float))
+            deviations.append(np.full(int(is_leaf.sum()), 0.5 * self.leaf * 2**level))
+            pending = pending[~is_leaf[cell]]
+            if not len(pending):
+                break
+        variances = np.concatenate(deviations) ** 2
+        self.crop.check_thinned(len(variances), frame, "leaf", self.leaf)
+        return Observation(
+            np.concatenate(means), np.concatenate(weights), variances, frame.camera, frame.depth
+        )
+
+
+def _means(points: Array, cell: Indices, counts: Indices) -> Array:
+    sums = [np.bincount(cell, weights=column, minlength=len(counts)) for column in points.T]
+    return np.asarray(np.column_stack(sums) / counts[:, None])

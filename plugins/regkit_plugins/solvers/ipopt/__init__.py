@@ -1,0 +1,5 @@
+"""IPOPT, through CasADi."""
+
+from regkit_plugins.solvers.ipopt.ipopt import Ipopt
+
+__all__ = ["Ipopt"]

@@ -1,6 +1,0 @@
-"""What depth cameras make of what there is to be seen."""
-
-from regkit_plugins.synthesis.noise.model import DepthNoise
-from regkit_plugins.synthesis.noise.presets import NOISES, NoiseChoice, NoiseName, noise_of
-
-__all__ = ["NOISES", "DepthNoise", "NoiseChoice", "NoiseName", "noise_of"]

@@ -1,0 +1,44 @@
+"""Recorded hand poses in the JavaScript files of iwer."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+
+from regkit.system.arrays import Array
+from regkit.system.errors import DataError
+from regkit_synthesis.hand_poses import PARENTS, WRIST, HandPose
+
+_JOINT = re.compile(r"'?([a-z-]+)'?:\s*\{\s*offsetMatrix:\s*\[([^\]]*)\]")
+
+
+def read_iwer(path: Path) -> HandPose:
+    """Read one of iwer's poses, which are of a left hand, as that of a right hand.
+
+    Raises:
+        DataError: If the file is missing or does not have the 25 joints of WebXR.
+    """
+    try:
+        text = path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        raise DataError("the file is missing; it holds a hand pose", place=str(path)) from None
+    matrices = {name: _matrix(numbers, path) for name, numbers in _JOINT.findall(text)}
+    missing = [joint for joint in (WRIST, *PARENTS) if joint not in matrices]
+    if missing:
+        raise DataError(
+            f"no offsetMatrix for {', '.join(missing)}; all 25 joints of WebXR must be there",
+            place=str(path),
+        )
+    mirror = np.diag([-1.0, 1.0, 1.0, 1.0])
+    return HandPose.of({joint: mirror @ matrix @ mirror for joint, matrix in matrices.items()})
+
+
+def _matrix(numbers: str, path: Path) -> Array:
+    """The 4x4 matrix of 16 numbers, stored by columns."""
+    try:
+        values = np.array([float(number) for number in numbers.split(",") if number.strip()])
+        return values.reshape(4, 4, order="F")
+    except ValueError as error:
+        raise DataError(f"an offsetMatrix is not 16 numbers ({error})", place=str(path)) from None

@@ -1,0 +1,79 @@
+"""Where the joints of a body lie in its mesh: the points whose truth is known."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from regkit.geometry.rigid import moved
+from regkit.geometry.skinned_mesh import SkinnedMesh
+from regkit.system.arrays import Array, Indices
+
+_FINGERS = {
+    "thumb": ("cmc", "mcp", "ip"),
+    "index": ("mcp", "pip", "dip"),
+    "middle": ("mcp", "pip", "dip"),
+    "ring": ("mcp", "pip", "dip"),
+    "little": ("mcp", "pip", "dip"),
+}
+"""The joints of each finger from the palm outwards; finger k + 1 of the mesh is the k-th here."""
+
+
+@dataclass(frozen=True)
+class Landmark:
+    """A point that a bone carries.
+
+    Attributes:
+        bone: Index of the bone.
+        position: (3,) where the point lies at rest, in the body's frame [m].
+    """
+
+    bone: int
+    position: Array
+
+
+def hand_landmarks(mesh: SkinnedMesh, side: str = "R") -> dict[str, Landmark]:
+    """The wrist and the 20 joints and tips of the fingers, by name.
+
+    Args:
+        mesh: A hand.
+        side: The suffix of its bones: ``R`` or ``L``.
+    """
+    landmarks = {"wrist": Landmark(mesh.bone(f"wrist.{side}"), mesh.origin(f"wrist.{side}"))}
+    for number, (finger, joints) in enumerate(_FINGERS.items(), start=1):
+        for part, joint in enumerate(joints, start=1):
+            label = f"finger{number}-{part}.{side}"
+            landmarks[f"{finger}_{joint}"] = Landmark(mesh.bone(label), mesh.origin(label))
+        landmarks[f"{finger}_tip"] = _tip(mesh, mesh.bone(f"finger{number}-3.{side}"))
+    return landmarks
+
+
+def some_vertices(mesh: SkinnedMesh, vertices: Indices) -> SkinnedMesh:
+    """The skin of a mesh at some of its vertices, (N,) indices, without triangles."""
+    return replace(
+        mesh,
+        vertices=mesh.vertices[vertices],
+        faces=np.zeros((0, 3), dtype=np.intp),
+        indices=mesh.indices[vertices],
+        weights=mesh.weights[vertices],
+    )
+
+
+def placed(landmarks: Mapping[str, Landmark], mesh: SkinnedMesh, bone_poses: Array) -> Array:
+    """The landmarks (L, 3) [m] in the world for bone poses ``T_world_bone`` (J, 4, 4)."""
+    motions = mesh.motions(bone_poses)
+    bones = [landmark.bone for landmark in landmarks.values()]
+    positions = np.array([landmark.position for landmark in landmarks.values()])
+    return moved(motions[bones], positions)
+
+
+def _tip(mesh: SkinnedMesh, bone: int) -> Landmark:
+    """The vertex that lies farthest along ``bone``, among those that follow it most."""
+    strongest = np.take_along_axis(mesh.indices, np.argmax(mesh.weights, axis=1)[:, None], axis=1)[
+        :, 0
+    ]
+    own = np.flatnonzero(strongest == bone)
+    along = mesh.vertices[own] @ mesh.rest[bone, :3, 1]
+    return Landmark(bone, mesh.vertices[own[np.argmax(along)]])

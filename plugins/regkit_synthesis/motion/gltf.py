@@ -1,0 +1,79 @@
+"""Motion from an animation in a glTF file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from regkit.config.model import did_you_mean
+from regkit.interchange.bone_frames import nearest_rotations
+from regkit.interchange.gltf.clip import GltfClip
+from regkit.interchange.gltf.gltf import RiggedBody
+from regkit.system.errors import ConfigError, DataError, RegkitError
+from regkit_synthesis.motion.figure import figure_axes
+from regkit_synthesis.motion.joint_map import parts_of
+from regkit_synthesis.motion.motion import Rig
+from regkit_synthesis.motion.recording import Recording, recorded
+
+_STEP = 1.0 / 60.0
+"""An animation is read at its keyframes, and wherever they are farther apart than this [s]."""
+
+
+def read_gltf(
+    path: Path, *, animation: str | None = None, map_name: str | None = None
+) -> Recording:
+    """Read an animation of a rigged body, at rest as its mesh is bound to its bones.
+
+    Which way it looks and what is up is told by its hips and its head at rest.
+
+    Args:
+        path: A ``.glb`` or ``.gltf`` file.
+        animation: Its name in the file; without it, the file must hold one only.
+        map_name: A map of its joints that ships, or a YAML file; without it, the first that fits.
+
+    Raises:
+        ConfigError: If there is no such animation, or the map names a joint that the file lacks.
+        DataError: If the file is missing or wrong, or holds no animation.
+    """
+    body = RiggedBody.read(path)
+    try:
+        clip = _clip(body.clips, animation)
+        mesh = body.mesh
+        places = dict(zip(mesh.labels, mesh.rest[:, :3, 3], strict=True))
+        parts = parts_of(mesh.labels, map_name, path)
+        rotation = figure_axes({joint: places[own] for joint, own in parts.items()})
+    except RegkitError as error:
+        raise error.at(str(path)) from None
+    begin, end = clip.times[0], clip.times[-1]
+    count = max(2, int(np.ceil((end - begin) / _STEP)) + 1)
+    times = np.unique(np.concatenate([clip.times, np.linspace(begin, end, count)]))
+    poses = np.array([clip.at(time) for time in times])
+    hips = [mesh.bone(parts[f"{side}_hip"]) for side in ("left", "right")]
+    moves = (poses @ np.linalg.inv(mesh.rest))[..., :3, :3]
+    turns = nearest_rotations(moves.reshape(-1, 3, 3)).reshape(moves.shape)
+    parents = {
+        label: mesh.labels[parent] if parent >= 0 else ""
+        for label, parent in zip(mesh.labels, mesh.parents, strict=True)
+    }
+    return recorded(
+        Rig(parents, {name: rotation @ place for name, place in places.items()}, parts),
+        times - begin,
+        poses[:, hips][..., :3, 3].mean(axis=1) @ rotation.T,
+        rotation @ turns @ rotation.T,
+    )
+
+
+def _clip(clips: tuple[GltfClip, ...], name: str | None) -> GltfClip:
+    clips = tuple(clip for clip in clips if clip.times[-1] > clip.times[0])
+    names = [clip.name for clip in clips]
+    if not clips:
+        raise DataError("it holds no animation")
+    if name is None and len(clips) > 1:
+        raise ConfigError(f"it holds {len(clips)} animations: name one of {', '.join(names)}")
+    if name is not None and name not in names:
+        raise ConfigError(
+            f"it holds no animation '{name}' (there are: {', '.join(names)})"
+            + did_you_mean(name, names)
+        )
+    return clips[0 if name is None else names.index(name)]

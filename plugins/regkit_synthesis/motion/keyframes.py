@@ -1,0 +1,167 @@
+"""Motion from a few poses that somebody wrote down: keyframes."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from pydantic import Field, field_validator, model_validator
+from scipy.interpolate import PchipInterpolator
+
+from regkit.config.model import Model
+from regkit.geometry.rotation import vector_to_matrix
+from regkit.system.arrays import Array
+from regkit_synthesis.motion.figure import FIGURE, check_joints
+from regkit_synthesis.motion.motion import Motion, Rig, SourcePose
+from regkit_synthesis.motion.standing import STANDING
+
+_ANKLE = 0.09
+"""Height of the ankles of a figure that stands [m]."""
+
+Triple = tuple[float, float, float]
+
+
+class Keyframe(Model):
+    """A pose at a time. What it does not name goes on between the frames that name it."""
+
+    time: float = Field(ge=0.0)
+    """When [s]."""
+
+    joints: dict[str, Triple] = Field(default_factory=dict)
+    """Angles [deg] of a figure's joints about its parent's x (to its left), y (to its back) and z
+    (up); all are zero where it stands with its arms hanging. A limb is turned about itself by z
+    first, then lifted sideways by y, then swung by x. Positive about x tips forward what stands: a
+    bent knee is positive, a raised thigh and a bent elbow are negative. A left arm is lifted
+    sideways by a negative y, a right one by a positive one."""
+
+    feet: Triple | None = None
+    """Where the middle between the ankles is, and how high above the ground the lower foot [m]; on
+    the spot, where no frame says so."""
+
+    @field_validator("joints")
+    @classmethod
+    def _of_a_figure(cls, joints: dict[str, Triple]) -> dict[str, Triple]:
+        check_joints(joints)
+        return joints
+
+
+class Keyframes(Model):
+    """Poses between which a figure moves smoothly; it rests in the first and the last one."""
+
+    title: str = ""
+    """What it does."""
+
+    loops: bool = False
+    """Whether it goes on from its beginning, which must then be its end."""
+
+    frames: tuple[Keyframe, ...] = Field(min_length=2)
+    """The poses, in the order of their times."""
+
+    @model_validator(mode="after")
+    def _in_order(self) -> Keyframes:
+        times = [frame.time for frame in self.frames]
+        if any(later <= earlier for earlier, later in itertools.pairwise(times)):
+            raise ValueError(f"the times of the frames must increase; they are {times}")
+        if times[0] != 0.0:
+            raise ValueError(f"the first frame must have the time 0; it has {times[0]}")
+        if self.loops:
+            self._check_loop()
+        return self
+
+    def _check_loop(self) -> None:
+        """Refuse a loop that jumps; whole turns and steps along the ground are none."""
+        motion = self.motion()
+        for joint, curve in motion.curves.items():
+            gap = (curve(motion.length) - curve(0.0) + 180.0) % 360.0 - 180.0
+            if np.abs(gap).max() > 1e-6:
+                raise ValueError(
+                    f"a motion that loops must end as it begins; {joint} goes from "
+                    f"{[*map(float, curve(0.0))]} to {[*map(float, curve(motion.length))]}"
+                )
+        if abs(motion.feet(motion.length)[2] - motion.feet(0.0)[2]) > 1e-6:
+            raise ValueError("a motion that loops must end at the height at which it begins")
+
+    def motion(self) -> KeyframedMotion:
+        """The motion between them."""
+        joints = dict.fromkeys(joint for frame in self.frames for joint in frame.joints)
+        curves = {
+            joint: _curve([(f.time, f.joints[joint]) for f in self.frames if joint in f.joints])
+            for joint in joints
+        }
+        feet = [(f.time, f.feet) for f in self.frames if f.feet is not None]
+        return KeyframedMotion(
+            RIG, self.loops, self.frames[-1].time, curves, _curve(feet or [(0.0, (0.0, 0.0, 0.0))])
+        )
+
+
+RIG = Rig(FIGURE, STANDING, {joint: joint for joint in FIGURE})
+"""The figure that keyframes are written for."""
+
+
+@dataclass(frozen=True)
+class KeyframedMotion(Motion):
+    """A figure that goes through keyframes.
+
+    Each angle is interpolated for itself, without going beyond the frames' (monotone cubics), so
+    that a whole turn is a turn. The feet carry the body: the lower one stays on the ground, though
+    it may slide there, for it is the middle between both ankles that is held.
+
+    Source: Fritsch, Carlson, Monotone Piecewise Cubic Interpolation, SIAM J. Numer. Anal. 17, 1980.
+
+    Attributes:
+        length: Time of the last frame [s].
+        curves: Angles (3,) [deg] of each joint at a time [s], as far as they are not zero.
+        feet: Where the feet are (3,) [m] at a time [s].
+    """
+
+    length: float
+    curves: Mapping[str, PchipInterpolator]
+    feet: PchipInterpolator
+
+    @property
+    def duration(self) -> float:
+        """The time of the last frame [s]."""
+        return self.length
+
+    def at(self, time: float) -> SourcePose:
+        """The pose at ``time`` [s]."""
+        cycle = np.floor(time / self.length) if self.loops else 0.0
+        within = float(np.clip(time - cycle * self.length, 0.0, self.length))
+        rotations: dict[str, Array] = {}
+        for joint, parent in FIGURE.items():
+            before = rotations[parent] if parent else np.eye(3)
+            curve = self.curves.get(joint)
+            rotations[joint] = before if curve is None else before @ _turned(curve(within))
+        way = cycle * (self.feet(self.length) - self.feet(0.0)) * [1.0, 1.0, 0.0]
+        return SourcePose(self.feet(within) + way - _below(rotations), rotations)
+
+
+def _curve(keys: list[tuple[float, Triple]]) -> PchipInterpolator:
+    """What goes through the values of the keys, at rest in the first and the last one."""
+    times = [time for time, _ in keys]
+    values = [value for _, value in keys]
+    # The value is the same before the first key and after the last one, where it comes to rest.
+    times = [times[0] - 1.0, *times, times[-1] + 1.0]
+    return PchipInterpolator(times, [values[0], *values, values[-1]], axis=0, extrapolate=True)
+
+
+def _turned(angles: Array) -> Array:
+    """The rotation (3, 3) by angles (3,) [deg] about x, y and z, of which z is applied first."""
+    x, y, z = vector_to_matrix(np.diag(np.radians(angles)))
+    return np.asarray(x @ y @ z)
+
+
+def _below(rotations: Mapping[str, Array]) -> Array:
+    """From the hips (3,) to the middle of the ankles, at the ground under the lower foot [m]."""
+    ankles = []
+    for side in ("left", "right"):
+        hip, knee, ankle = (STANDING[f"{side}_{joint}"] for joint in ("hip", "knee", "ankle"))
+        ankles.append(
+            rotations["pelvis"] @ hip
+            + rotations[f"{side}_hip"] @ (knee - hip)
+            + rotations[f"{side}_knee"] @ (ankle - knee)
+        )
+    middle = np.mean(ankles, axis=0)
+    return np.array([middle[0], middle[1], min(ankle[2] for ankle in ankles) - _ANKLE])

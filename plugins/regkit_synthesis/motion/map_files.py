@@ -1,0 +1,58 @@
+"""Maps of joints: YAML files that ship, or the user's own."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from pathlib import Path
+from typing import Annotated, Any, TypeVar
+
+from pydantic import BeforeValidator
+
+from regkit.config.document import Document
+from regkit.config.model import Model, Text, did_you_mean
+from regkit.system.errors import ConfigError
+
+M = TypeVar("M", bound=Model)
+
+FOLDER = Path(__file__).resolve().parent / "maps"
+"""Where the maps lie that ship with regkit."""
+
+
+def _located(value: Any) -> Any:
+    """The path of a user's file as a full one; the name of a map that ships as it is."""
+    if not isinstance(value, str) or not value.endswith((".yaml", ".yml")):
+        return value
+    path = Path(value).expanduser()
+    return str(value.folder / path if isinstance(value, Text) else path.absolute())
+
+
+MapName = Annotated[str, BeforeValidator(_located)]
+"""The name of a map that ships, or a YAML file, relative to the file that names it."""
+
+
+def shipped(group: str) -> list[str]:
+    """The names of the maps of a ``group`` that ship: ``sources`` or ``bodies``."""
+    return sorted(path.stem for path in (FOLDER / group).glob("*.yaml"))
+
+
+def read_map(model: type[M], group: str, name: str) -> M:
+    """The map of this name or in this file.
+
+    Raises:
+        ConfigError: If there is none of this name, or the file is wrong.
+        DataError: If the file is missing.
+    """
+    if name.endswith((".yaml", ".yml")):
+        return Document.read(Path(name)).validated(model)
+    known = shipped(group)
+    if name not in known:
+        raise ConfigError(
+            f"no map '{name}' of {group} ships (there are: {', '.join(known)}); a file of "
+            "your own must end in .yaml" + did_you_mean(name, known)
+        )
+    return _shipped(FOLDER / group / f"{name}.yaml").validated(model)
+
+
+@lru_cache(maxsize=32)
+def _shipped(path: Path) -> Document:
+    return Document.read(path)

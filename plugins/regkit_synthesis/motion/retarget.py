@@ -1,0 +1,186 @@
+"""Motion of a source on the bones of a body: every bone turns as its joint does."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from regkit.geometry.rotation import between
+from regkit.geometry.skinned_mesh import SkinnedMesh
+from regkit.system.arrays import Array
+from regkit.system.errors import ConfigError
+from regkit_synthesis.motion.body_map import Between, BodyMap, bone_of
+from regkit_synthesis.motion.figure import AIMS, FIGURE, leg_length
+from regkit_synthesis.motion.followers import Blended, Follower, Segment, Twisted
+from regkit_synthesis.motion.motion import Motion, Rig, SourcePose
+from regkit_synthesis.motion.names import instead_of
+
+_LOOKS = 40
+"""How often in a motion the lowest point of the skin is looked for."""
+
+
+@dataclass(frozen=True)
+class Retarget:
+    """Turns poses of a source into bone poses of a body.
+
+    Attributes:
+        mesh: The body; x to its left, y backward, z up.
+        followers: What each of the J bones follows; None where it is carried by its parent.
+        scale: What the way of the hips is multiplied by.
+        hips: (3,) from the first bone's start to the middle of the hips at rest [m].
+        lift: How much higher than that the body is placed [m].
+    """
+
+    mesh: SkinnedMesh
+    followers: tuple[Follower | None, ...]
+    scale: float
+    hips: Array
+    lift: float = 0.0
+
+    @classmethod
+    def of(cls, rig: Rig, mesh: SkinnedMesh, body: BodyMap) -> Retarget:
+        """Measure a source and a body.
+
+        Raises:
+            ConfigError: If the map names a bone that the body, or a joint that the source lacks.
+        """
+        places = {name: mark.position for name, mark in body.landmarks(mesh).items()}
+        fit = _Fit(rig, mesh, places, straightening(places, rig.figure))
+        followers: list[Follower | None] = [None] * len(mesh.labels)
+        for label, followed in body.bones.items():
+            bone = bone_of(mesh, label)
+            followers[bone] = fit.follower(bone, followed)
+        if followers[0] is None:
+            followers[0] = fit.follower(0, "pelvis")
+        scale = body.root_scale
+        if scale == "leg":
+            scale = leg_length(places) / leg_length(rig.figure)
+        middle = (places["left_hip"] + places["right_hip"]) / 2
+        return cls(mesh, tuple(followers), scale, middle - mesh.rest[0, :3, 3])
+
+    def bone_poses(self, pose: SourcePose) -> Array:
+        """The bone poses ``T_ground_bone`` (J, 4, 4)."""
+        turns = np.zeros((len(self.followers), 3, 3))
+        for bone, follower in enumerate(self.followers):
+            carried = turns[self.mesh.parents[bone]]
+            turns[bone] = carried if follower is None else follower.turn(pose)
+        middle = self.scale * pose.root + [0.0, 0.0, self.lift]
+        return self.mesh.turned(turns, middle - turns[0] @ self.hips)
+
+
+def retargeted(
+    motion: Motion, mesh: SkinnedMesh, body: BodyMap, *, grounded: bool = False
+) -> Callable[[float], Array]:
+    """The bone poses ``T_ground_bone`` (J, 4, 4) of a body at a time [s] of a motion.
+
+    Args:
+        motion: The motion.
+        mesh: The body; x to its left, y backward, z up.
+        body: Which of its bones follow what.
+        grounded: Whether the body is raised or lowered, once for the whole motion, so that the
+            lowest point which its skin reaches lies on the ground, at z = 0. Otherwise the height
+            of its hips is the source's, by the length of their legs.
+
+    Raises:
+        ConfigError: If the map names a bone that the body, or a joint that the source lacks.
+    """
+    retarget = Retarget.of(motion.rig, mesh, body)
+    if grounded:
+        times = np.linspace(0.0, motion.duration, _LOOKS)
+        skins = (mesh.posed(retarget.bone_poses(motion.at(time))) for time in times)
+        retarget = replace(retarget, lift=-min(float(skin[:, 2].min()) for skin in skins))
+    return lambda time: retarget.bone_poses(motion.at(time))
+
+
+def straightening(body: Mapping[str, Array], source: Mapping[str, Array]) -> dict[str, Array]:
+    """What turns each segment (3, 3) of a body at rest into the direction of the source's at rest.
+
+    A segment of a limb is turned with the one before it and then, the shortest way, into the
+    source's direction: so an elbow bends about its own axis, and a forearm is not twisted. The
+    trunk stays as it is. So does a sole, which is level on both: a foot only turns about the
+    vertical.
+
+    Args:
+        body: (3,) where the joints of the figure are at rest [m], as far as they are known.
+        source: (3,) the same of the source.
+    """
+    turns: dict[str, Array] = {}
+    for joint, parent in FIGURE.items():
+        end = AIMS.get(joint)
+        carried = turns[parent] if parent in AIMS else np.eye(3)
+        if joint.endswith("_ankle"):
+            turns[joint] = _aimed(joint, joint.replace("ankle", "foot"), body, source, _LEVEL)
+        elif joint.endswith("_foot"):
+            turns[joint] = turns[parent]
+        elif end is None:
+            turns[joint] = carried
+        else:
+            moved = {name: carried @ place for name, place in body.items()}
+            turns[joint] = _aimed(joint, end, moved, source, np.ones(3)) @ carried
+    return turns
+
+
+_LEVEL = np.array([1.0, 1.0, 0.0])
+
+
+def _aimed(
+    joint: str, end: str, body: Mapping[str, Array], source: Mapping[str, Array], parts: Array
+) -> Array:
+    """What turns (3, 3) the way from ``joint`` to ``end`` of a body into the source's.
+
+    Only the ``parts`` (3,) of the ways that are one count, not those that are zero.
+    """
+    ways = [
+        (places[end] - places[joint]) * parts
+        for places in (body, source)
+        if joint in places and end in places
+    ]
+    if len(ways) < 2 or min(np.linalg.norm(way) for way in ways) < 1e-6:
+        return np.eye(3)
+    return between(*ways)
+
+
+@dataclass(frozen=True)
+class _Fit:
+    """A source and a body that are fitted to each other.
+
+    Attributes:
+        rig: The source.
+        mesh: The body.
+        places: (3,) where the joints of the figure are on the body at rest [m].
+        straight: (3, 3) what turns each segment of the body into the source's direction.
+    """
+
+    rig: Rig
+    mesh: SkinnedMesh
+    places: Mapping[str, Array]
+    straight: Mapping[str, Array]
+
+    def follower(self, bone: int, followed: str | Between) -> Follower:
+        """What a bone turns with, by what the map says.
+
+        Raises:
+            ConfigError: If neither a figure nor the source has such a joint.
+        """
+        if isinstance(followed, str):
+            return self._segment(bone, followed)
+        start, end = (self._segment(bone, joint) for joint in followed.between)
+        if not followed.only_twist:
+            return Blended(start, end, followed.share)
+        along = self.mesh.rest[bone, :3, 1]
+        if followed.between[1] in self.places:
+            # About the way to the next joint, which therefore stays where it is.
+            along = self.places[followed.between[1]] - self.mesh.rest[bone, :3, 3]
+        return Twisted(start, end, followed.share, along / np.linalg.norm(along))
+
+    def _segment(self, bone: int, joint: str) -> Segment:
+        own = self.rig.moving(joint)
+        if own is None:
+            known = dict.fromkeys([*FIGURE, *self.rig.parents])
+            raise ConfigError(
+                f"bone '{self.mesh.labels[bone]}' follows '{joint}', which neither a figure nor "
+                f"this source has{instead_of(joint, known)}"
+            )
+        return Segment(own, self.straight.get(joint, np.eye(3)))

@@ -1,0 +1,41 @@
+"""Neighbours in a depth image."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from regkit.system.arrays import Array, Indices
+from regkit_synthesis.raycast import View
+
+_SIDES = ((0, 1), (0, -1), (1, 0), (-1, 0))
+
+
+def step_across(depth: Array) -> Array:
+    """The step (H, W) [m] from each pixel to that of its four neighbours that differs most.
+
+    It is infinite beside a pixel that has no depth, and zero in one; beyond the border of the image
+    there is no neighbour.
+    """
+    inside = np.where(depth > 0.0, depth, np.inf)
+    padded = np.pad(inside, 1, mode="edge")
+    rows, columns = depth.shape
+    largest = np.zeros(depth.shape)
+    with np.errstate(invalid="ignore"):  # Of the infinite ones, which are taken out below.
+        for down, right in _SIDES:
+            other = padded[1 + down : 1 + down + rows, 1 + right : 1 + right + columns]
+            step = other - inside
+            largest = np.where(np.abs(step) > np.abs(largest), step, largest)
+    return np.where(depth > 0.0, largest, 0.0)
+
+
+def displaced(view: View, shifts: Indices) -> View:
+    """The view in which each pixel sees what the one so many rows and columns away saw.
+
+    Args:
+        view: What is seen.
+        shifts: (2, H, W) rows down and columns to the right; the border is not left.
+    """
+    height, width = view.depth.shape
+    rows, columns = np.indices((height, width)) + shifts
+    at = np.clip(rows, 0, height - 1), np.clip(columns, 0, width - 1)
+    return View(view.depth[at], view.cosines[at])

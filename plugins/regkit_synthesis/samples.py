@@ -1,0 +1,40 @@
+"""The two sequences that ship with regkit: a person who walks, and a hand that makes gestures."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from regkit_synthesis import assets
+from regkit_synthesis.gestures import Gestures
+from regkit_synthesis.hand import HandTake
+from regkit_synthesis.person import PersonTake
+from regkit_synthesis.scene import SR4000
+from regkit_synthesis.sequence import DepthSequence
+
+_WALK = PersonTake("walk", heading=20.0, place=(-0.05, 0.76, 3.25))
+
+
+def human_walk(seed: int) -> DepthSequence:
+    """A person who walks towards the camera, turned a little to the side."""
+    scene = _WALK.scene("human_walk", "the body", assets.average_human())
+    random = np.random.default_rng([seed, 0])
+    return scene.rendered(lambda frame: random)
+
+
+def hand_gestures(seed: int) -> DepthSequence:
+    """A right hand that points, pinches and relaxes while it turns before the camera."""
+    take = HandTake(
+        gestures=_gestures,
+        poses="relaxed, point and pinch of iwer",
+        frames=60,
+        distance=0.43,
+        sensor=SR4000,
+    )
+    scene = take.scene("hand_gestures", "the right hand", assets.average_hand())
+    random = np.random.default_rng([seed, 1])
+    return scene.rendered(lambda frame: random)
+
+
+def _gestures() -> Gestures:
+    relaxed, point, pinch = (assets.iwer(name) for name in ("relaxed", "point", "pinch"))
+    return Gestures(np.array([0.0, 0.65, 1.3, 1.95]), (relaxed, point, pinch, relaxed))

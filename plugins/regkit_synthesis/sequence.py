@@ -1,0 +1,112 @@
+"""Writes depth sequences in regkit's folder format."""
+
+from __future__ import annotations
+
+import json
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from regkit.geometry.camera import Camera
+from regkit.system.arrays import Array
+from regkit.system.errors import DataError
+
+_HEADER = "sequence.yaml"
+
+_RUN_LENGTHS = 3
+"""zlib's Z_RLE: nearly as small for noise, and its bytes do not depend on how a zlib searches."""
+
+
+@dataclass(frozen=True)
+class DepthSequence:
+    """Depth images with the true joints.
+
+    Attributes:
+        name: What it is called.
+        fps: Frames per second.
+        depth_scale: Units of ``depth`` per metre.
+        source: Where it comes from.
+        licence: Under which terms it may be used.
+        camera: Intrinsics.
+        depth: (T, H, W) images; 0 where nothing was measured.
+        joints: The names of the J true joints.
+        truth: (T, J, 3) their positions in the camera's frame, x right, y down, z forward [m].
+    """
+
+    name: str
+    fps: float
+    depth_scale: float
+    source: str
+    licence: str
+    camera: Camera
+    depth: NDArray[np.uint16]
+    joints: tuple[str, ...]
+    truth: Array
+
+    def write(self, folder: Path) -> None:
+        """Write the folder, all of it or nothing; a sequence that was there before is replaced.
+
+        Raises:
+            DataError: If something else is there, or the folder cannot be written.
+        """
+        if folder.exists() and not (folder / _HEADER).is_file():
+            raise DataError(
+                f"it exists and is not a depth sequence (it has no {_HEADER}); name another "
+                "folder or remove it",
+                place=str(folder),
+            )
+        try:
+            folder.parent.mkdir(parents=True, exist_ok=True)
+            self._replace(folder)
+        except OSError as error:
+            raise DataError(
+                f"cannot be written: {error.strerror or error}", place=str(folder)
+            ) from None
+
+    def _replace(self, folder: Path) -> None:
+        """Write the files beside the folder, and rename them when they are complete."""
+        with tempfile.TemporaryDirectory(dir=folder.parent, prefix=f".{folder.name}-") as scratch:
+            new, old = Path(scratch) / "new", Path(scratch) / "old"
+            self.write_into(new)
+            if folder.exists():
+                folder.rename(old)
+            new.rename(folder)
+
+    def write_into(self, folder: Path) -> None:
+        """Write the files into a new folder.
+
+        Raises:
+            OSError: If that is not possible.
+        """
+        images = folder / "depth"
+        images.mkdir(parents=True)
+        (folder / _HEADER).write_text(self._header(), encoding="utf-8", newline="\n")
+        (folder / "camera.json").write_text(self.camera.to_json(), encoding="utf-8", newline="\n")
+        (folder / "truth.csv").write_text(self._table(), encoding="utf-8", newline="\n")
+        for frame, image in enumerate(self.depth):
+            Image.fromarray(image).save(
+                images / f"{frame:06d}.png", compress_level=9, compress_type=_RUN_LENGTHS
+            )
+
+    def _header(self) -> str:
+        """The text of ``sequence.yaml``; a JSON string is a YAML string, whatever is in it."""
+        return (
+            f"name: {json.dumps(self.name)}\n"
+            f"fps: {self.fps:g}\n"
+            f"depth_scale: {self.depth_scale:g}\n"
+            f"source: {json.dumps(self.source)}\n"
+            f"licence: {json.dumps(self.licence)}\n"
+        )
+
+    def _table(self) -> str:
+        """The text of ``truth.csv``."""
+        rows = [
+            f"{frame},{joint},{x:.6f},{y:.6f},{z:.6f}\n"
+            for frame, positions in enumerate(self.truth)
+            for joint, (x, y, z) in zip(self.joints, positions, strict=True)
+        ]
+        return "frame,joint,x,y,z\n" + "".join(rows)

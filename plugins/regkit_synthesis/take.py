@@ -1,0 +1,130 @@
+"""A take: which body moves how, and from where that is seen."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+import numpy as np
+from pydantic import AfterValidator, Discriminator, Field, Tag
+
+from regkit.config.model import Model
+from regkit.system.errors import ConfigError
+from regkit_synthesis.landmarks import Landmark, some_vertices
+from regkit_synthesis.motion.bodies import AnyBody, BodyConfig, BodyName, ShippedBody
+from regkit_synthesis.motion.config import AnyMotion, ClipConfig, MotionConfig
+from regkit_synthesis.motion.shipped import CLIPS
+from regkit_synthesis.scene import Scene, Sensor
+from regkit_synthesis.viewpoint import Viewpoint
+
+_SPARSE = 8
+"""Every so manieth vertex tells where the body is; they are some centimetres apart."""
+
+
+def _form(value: Any) -> str:
+    """Whether a body or a motion is named, or configured."""
+    return "name" if isinstance(value, str) else "config"
+
+
+Body = Annotated[
+    Annotated[BodyName, Tag("name")] | Annotated[AnyBody, Tag("config")], Discriminator(_form)
+]
+"""A body that ships by its name, or any by its ``kind``."""
+
+
+def _clip(name: str) -> str:
+    """The name of a clip that ships."""
+    CLIPS.check_choice(name, None)
+    return name
+
+
+Motion = Annotated[
+    Annotated[str, AfterValidator(_clip), Tag("name")] | Annotated[AnyMotion, Tag("config")],
+    Discriminator(_form),
+]
+"""A clip that ships by its name, or any motion by its ``kind``."""
+
+
+class Take(Model):
+    """One sequence that is to be rendered."""
+
+    body: Body = "average"
+    """Who moves: ``average``, ``small`` or ``tall``, or a body by its ``kind``."""
+    motion: Motion | None = None
+    """How it moves: the name of a clip that ships, or a motion by its ``kind``."""
+    view: Viewpoint = Viewpoint()
+    """From where that is seen."""
+    frames: Annotated[int, Field(ge=1)] = 60
+    """How many images there are."""
+    subject: str | None = None
+    """What the body is called where subjects have templates of their own; the name of a body that
+    ships without it."""
+    markers: dict[str, Annotated[int, Field(ge=0)]] = Field(default_factory=dict)
+    """Vertices of the body's mesh whose true places are wanted beside its joints, by name."""
+    difficulty: str = ""
+    """A note on what is hard about it."""
+
+    def subject_name(self) -> str | None:
+        """The subject, if it has a name."""
+        body = self.body
+        if self.subject is None and isinstance(body, (str, ShippedBody)):
+            return body if isinstance(body, str) else body.name
+        return self.subject
+
+    def scene(self, name: str, sensor: Sensor, fps: float, frames: int) -> Scene:
+        """What is to be rendered.
+
+        Args:
+            name: What the sequence is called.
+            sensor: What looks at it.
+            fps: Frames per second.
+            frames: How many, from the first one on; the camera stands where it would for all.
+
+        Raises:
+            RegkitError: If a file is missing or wrong, or the body cannot move so.
+        """
+        body_config, motion_config = _body(self.body), _motion(self.motion)
+        body = body_config.body()
+        for marker, vertex in self.markers.items():
+            _check_marker(marker, vertex, body.landmarks, len(body.mesh.vertices))
+        moved = body.moved(motion_config.motion())
+        skin = some_vertices(body.mesh, np.arange(0, len(body.mesh.vertices), _SPARSE))
+        surface = np.concatenate([skin.posed(moved(frame / fps)) for frame in range(self.frames)])
+        T_camera_ground = self.view.placed(sensor.camera, surface)
+        return Scene(
+            name=name,
+            source=f"Rendered by regkit: {_told(body_config)}, moved by {_told(motion_config)}",
+            licence="That of the body and of the motion",
+            mesh=body.mesh,
+            landmarks=body.landmarks,
+            bone_poses=lambda time: np.asarray(T_camera_ground @ moved(time)),
+            sensor=sensor,
+            frames=frames,
+            fps=fps,
+            markers=self.markers,
+        )
+
+
+def _body(choice: BodyName | BodyConfig) -> BodyConfig:
+    return ShippedBody(name=choice) if isinstance(choice, str) else choice
+
+
+def _motion(choice: str | MotionConfig | None) -> MotionConfig:
+    if choice is None:
+        raise ConfigError("it has no motion")
+    return ClipConfig(name=choice) if isinstance(choice, str) else choice
+
+
+def _told(config: Model) -> str:
+    """A body or a motion in words: what of it was given."""
+    given = config.model_dump(mode="json", exclude_defaults=True)
+    return ", ".join(f"{field} {value}" for field, value in given.items())
+
+
+def _check_marker(marker: str, vertex: int, joints: dict[str, Landmark], vertices: int) -> None:
+    """Refuse a marker that has a joint's name, or is none of the vertices."""
+    if marker in joints:
+        raise ConfigError(f"a marker cannot be called '{marker}', for this is a joint")
+    if vertex >= vertices:
+        raise ConfigError(
+            f"marker '{marker}' is vertex {vertex}, but the body has {vertices}, from 0 on"
+        )

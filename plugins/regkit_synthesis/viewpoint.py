@@ -1,0 +1,66 @@
+"""From where a moving body is seen."""
+
+from __future__ import annotations
+
+from math import radians
+from typing import Annotated
+
+import numpy as np
+from pydantic import Field
+
+from regkit.config.model import Model
+from regkit.geometry.camera import Camera
+from regkit.geometry.rigid import rigid
+from regkit.geometry.rotation import vector_to_matrix
+from regkit.system.arrays import Array
+from regkit.system.errors import ConfigError
+
+_R_CAMERA_GROUND = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
+"""From x left, y backward, z up to x right, y down, z forward: a body looks into the camera."""
+
+_MARGIN = 0.03
+"""Part of the image's size that stays free on each side, if the distance is found."""
+
+
+class Viewpoint(Model):
+    """A camera that looks at the middle of where the body moves."""
+
+    heading_deg: float = 0.0
+    """How far the motion is turned from the direction to the camera, to the image's right [deg]."""
+    elevation_deg: Annotated[float, Field(ge=-89.0, le=89.0)] = 0.0
+    """How far the camera looks down from above [deg]."""
+    distance: Annotated[float, Field(gt=0.0)] | None = None
+    """From the camera to the middle of where the body moves [m]; without it, the shortest from
+    which the whole body stays in the image."""
+
+    def placed(self, camera: Camera, points: Array) -> Array:
+        """``T_camera_ground`` (4, 4).
+
+        Args:
+            camera: The camera.
+            points: (N, 3) where the body's surface is in the course of time, in ground axes [m].
+
+        Raises:
+            ConfigError: If no distance is given, and from none the whole body is in the image.
+        """
+        tilt = vector_to_matrix(np.array([radians(self.elevation_deg), 0.0, 0.0]))
+        turn = vector_to_matrix(np.array([0.0, 0.0, radians(self.heading_deg)]))
+        rotation = tilt @ _R_CAMERA_GROUND @ turn
+        middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
+        distance = self.distance or _shortest(camera, (points - middle) @ rotation.T)
+        return rigid(rotation, np.array([0.0, 0.0, distance]) - rotation @ middle)
+
+
+def _shortest(camera: Camera, points: Array) -> float:
+    """How far the camera must step back to see all of ``points`` (N, 3) in its axes [m]."""
+    across = min(camera.cx, camera.width - 1.0 - camera.cx) - _MARGIN * camera.width
+    along = min(camera.cy, camera.height - 1.0 - camera.cy) - _MARGIN * camera.height
+    if min(across, along) <= 0.0:
+        raise ConfigError(
+            f"the camera's principal point, ({camera.cx:g}, {camera.cy:g}) px, is at the border of "
+            f"its {camera.width} x {camera.height} image or beyond: a body around it is never "
+            "whole in the image; give view.distance"
+        )
+    x, y, z = points.T
+    needed = np.maximum(camera.fx * np.abs(x) / across, camera.fy * np.abs(y) / along) - z
+    return float(needed.max())

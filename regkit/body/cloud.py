@@ -1,0 +1,46 @@
+"""A cloud as a body: a skeleton of one free segment, whose surface is the cloud."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from regkit.body import Body, BodyDescription
+from regkit.geometry.surface import SkinnedSurface
+from regkit.system.arrays import Array
+
+
+def cloud_description(points: Array, markers: Mapping[str, Array]) -> BodyDescription:
+    """One free segment, as long as the diagonal of the box around points (N, 3) [m].
+
+    Args:
+        points: Of the segment's frame.
+        markers: Named points of the same frame, (3,) each.
+    """
+    size = float(np.linalg.norm(np.ptp(points, axis=0)))
+    segment = {
+        "joint": {"type": "free"},
+        "markers": {name: tuple(map(float, at)) for name, at in markers.items()},
+    }
+    return BodyDescription.model_validate(
+        {
+            "title": "A rigid cloud",
+            "size": {"name": "diagonal", "value": size, "range": (size, size)},
+            "segments": {"cloud": segment},
+        }
+    )
+
+
+def cloud_body(name: str, points: Array, markers: Mapping[str, Array] | None = None) -> Body:
+    """The body of one free segment whose surface are points (N, 3) of its frame [m]."""
+    description = cloud_description(points, markers or {})
+    surface = SkinnedSurface(
+        segments=np.zeros((len(points), 1), dtype=np.intp),
+        points=points[:, None],
+        blend=np.ones((len(points), 1)),
+        normals=None,
+        faces=np.empty((0, 3), dtype=np.intp),
+    )
+    return replace(description.body(name, description.size.value), surface=surface)

@@ -1,0 +1,58 @@
+"""Groups of segments that share their proportions: those that are left and right of one another."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from regkit.body import BodyDescription
+from regkit.skeleton import SegmentDescription
+from regkit.skeleton.description import parents_first
+from regkit.system.arrays import Array, Indices
+
+_SIDES = ("left", "right")
+
+
+@dataclass(frozen=True)
+class Groups:
+    """The groups of a template's segments, and the direction of every segment's bone.
+
+    Attributes:
+        names: Names of the groups, (G,).
+        of_segments: The group of each segment, parents first as in the skeleton, (S,).
+        bones: Unit vectors in the segments' frames, (S, 3); zero where a segment has no direction.
+    """
+
+    names: tuple[str, ...]
+    of_segments: Indices
+    bones: Array
+
+    @classmethod
+    def of(cls, description: BodyDescription) -> Groups:
+        """The groups of a template: ``left_thigh`` and ``right_thigh`` are ``thigh``."""
+        order = parents_first(description.segments)
+        groups = [group_name(segment) for segment in order]
+        names = tuple(dict.fromkeys(groups))
+        bones = [_bone(name, description.segments) for name in order]
+        return cls(names, np.array([names.index(group) for group in groups]), np.array(bones))
+
+
+def group_name(segment: str) -> str:
+    """The segment's name without its side."""
+    parts = [part for part in segment.split("_") if part.lower() not in _SIDES]
+    return "_".join(parts) or segment
+
+
+def _bone(name: str, segments: dict[str, SegmentDescription]) -> Array:
+    """From the joint to what hangs on the segment: joints, else markers, else its surface."""
+    segment = segments[name]
+    children = [child.offset for child in segments.values() if child.parent == name]
+    surface = [capsule.end for capsule in segment.capsules]
+    for ends in (children, list(segment.markers.values()), surface):
+        # What hangs to the left and to the right of a trunk leaves the direction in the middle.
+        way = np.sum(ends, axis=0) if ends else np.zeros(3)
+        length = float(np.linalg.norm(way))
+        if length > 1e-6:
+            return np.asarray(way / length)
+    return np.zeros(3)

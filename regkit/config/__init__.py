@@ -1,0 +1,1 @@
+"""Configuration: documents with line numbers, models, plug-ins and slots, presets, schemas."""

@@ -1,0 +1,112 @@
+"""The pydantic base of everything that a user writes in YAML."""
+
+from __future__ import annotations
+
+import difflib
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    GetCoreSchemaHandler,
+    ValidationError,
+    model_validator,
+)
+from pydantic_core import CoreSchema, InitErrorDetails, PydanticCustomError
+
+from regkit.config.strict_numbers import strict_numbers
+
+
+class Model(BaseModel):
+    """A frozen record whose fields are documented by the docstrings below them.
+
+    A field that does not exist is an error which names the nearest one that does. A number is a
+    number and a truth value one, not a text that reads like it: what JSON Schema accepts in an
+    editor and what is accepted here are the same.
+    """
+
+    model_config = ConfigDict(
+        frozen=True,
+        extra="forbid",
+        use_attribute_docstrings=True,
+        allow_inf_nan=False,
+        validate_default=True,
+    )
+
+    @classmethod
+    def __get_pydantic_core_schema__(
+        cls, source: type[Any], handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        """The fields' schema, whose numbers are strict."""
+        return strict_numbers(handler(source), cls)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _refuse_unknown_fields(cls, value: Any) -> Any:
+        if not isinstance(value, dict):
+            return value
+        unknown = [key for key in value if key not in cls.model_fields]
+        if unknown:
+            raise ValidationError.from_exception_data(
+                cls.__name__,
+                [
+                    InitErrorDetails(type=_unknown_field(key, cls), loc=(key,), input=value[key])
+                    for key in unknown
+                ],
+            )
+        return value
+
+
+def misplaced(model: type[Model], message: str, *location: str) -> ValidationError:
+    """An error of a whole model, told at the field in it that is to be mended."""
+    problem = PydanticCustomError("value_error", "{message}", {"message": message})
+    details = InitErrorDetails(type=problem, loc=location, input=None)
+    return ValidationError.from_exception_data(model.__name__, [details])
+
+
+def did_you_mean(name: str, known: list[str]) -> str:
+    """A hint that ends a message: the nearest known name, or nothing."""
+    close = difflib.get_close_matches(name, known, n=1)
+    return f"; did you mean '{close[0]}'?" if close else ""
+
+
+def _unknown_field(key: object, model: type[Model]) -> PydanticCustomError:
+    known = sorted(model.model_fields)
+    return PydanticCustomError(
+        "unknown_field",
+        "no such field (there are: {fields}){hint}",
+        {"fields": ", ".join(known), "hint": did_you_mean(str(key), known)},
+    )
+
+
+class Text(str):
+    """A text read from a file, which knows the folder of that file.
+
+    A relative path in a YAML file is meant from where that file lies; one on the command line, from
+    where the user stands. The text carries the difference through any nesting of models.
+    """
+
+    __slots__ = ("folder",)
+    folder: Path
+
+    def __new__(cls, value: str, folder: Path) -> Text:
+        """``value``, read from a file in ``folder``."""
+        text = super().__new__(cls, value)
+        text.folder = folder
+        return text
+
+    def __getnewargs__(self) -> tuple[str, Path]:  # type: ignore[override]
+        """What a copy is made of."""
+        return str(self), self.folder
+
+
+def _from_its_folder(value: Any) -> Any:
+    if isinstance(value, Text):
+        return value.folder / Path(value).expanduser()
+    return Path(value).expanduser().absolute() if isinstance(value, str) else value
+
+
+InputPath = Annotated[Path, BeforeValidator(_from_its_folder)]
+"""A file or folder that the user names: relative to the YAML file, or to the working folder."""

@@ -1,0 +1,227 @@
+"""Plug-ins: frozen pydantic models that are found by name through entry points.
+
+A plug-in's fields are its configuration and its methods are its behaviour. An abstract plug-in
+(``ShapeModel``, ``Kernel``, ...) used as the type of a field is a *slot*: pydantic reads ``kind``
+from the input, imports only that plug-in and validates the rest against it. Nothing is imported
+until it is named, so a broken third-party plug-in can only harm those who name it.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.util
+import inspect
+import sys
+from pathlib import Path
+from typing import Any, ClassVar, Self, TypeVar, cast
+
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic.errors import PydanticUndefinedAnnotation
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+
+from regkit.config.installed import Installed, installed
+from regkit.config.model import Model, did_you_mean
+from regkit.config.preset import changed, preset
+from regkit.config.slot_schema import slot_schema
+from regkit.system.errors import PluginError, RegkitError
+
+
+class Plugin(Model):
+    """Base of every plug-in; a direct, abstract subclass that sets ``group`` is a slot."""
+
+    group: ClassVar[str]
+    """Entry-point group, set once by each slot."""
+
+    declared: ClassVar[tuple[str, ...]] = ()
+    """Class variables that each plug-in of a slot must declare; their values are classes."""
+
+    kind: str
+    """Name of the plug-in, equal to its entry-point name."""
+
+    @classmethod
+    def available(cls) -> dict[str, Installed | type[Self]]:
+        """All plug-ins of this group by name, none of them imported."""
+        found: dict[str, Installed | type[Self]] = {**installed(cls.group)}
+        return dict(sorted((found | _REGISTERED.get(cls.group, {})).items()))
+
+    @classmethod
+    def load(cls, kind: str) -> type[Self]:
+        """Import the plug-in called ``kind``.
+
+        Raises:
+            PluginError: If there is none, it cannot be imported, it is not what it claims to be, or
+                two distributions bring one of that name.
+        """
+        available = cls.available()
+        found = available.get(kind)
+        if found is None:
+            raise PluginError(
+                f"no plug-in '{kind}' in {cls.group} (installed: {', '.join(available)})"
+                + did_you_mean(kind, list(available))
+            )
+        if not isinstance(found, Installed):
+            return found
+        plugin = found.load("plug-in")
+        try:
+            _check(plugin, cls, kind)
+        except PluginError as error:
+            raise PluginError(
+                f"plug-in '{kind}' of {found.distributions[0]} {error.message}"
+            ) from None
+        return cast(type[Self], plugin)
+
+    @classmethod
+    def __get_pydantic_core_schema__(
+        cls, source: type[Any], handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        """A concrete plug-in is validated as a model, a slot by the plug-in that is named."""
+        if "group" not in vars(cls):
+            return super().__get_pydantic_core_schema__(source, handler)
+        return core_schema.no_info_plain_validator_function(
+            cls._resolved,
+            ref=f"{cls.group}:0",
+            metadata={"pydantic_js_functions": [cls._slot_json_schema]},
+        )
+
+    @classmethod
+    def _resolved(cls, value: Any) -> Self:
+        if isinstance(value, cls):
+            return value
+        if isinstance(value, str):
+            value = {"kind": value}
+        if isinstance(value, dict) and isinstance(value.get("preset"), str):
+            try:
+                value = cls._changed(value["preset"], value)
+            except RegkitError as error:
+                raise PydanticCustomError(
+                    "plugin_error", "{error}", {"error": str(error)}
+                ) from error
+        kind = value.get("kind") if isinstance(value, dict) else None
+        if not isinstance(kind, str):
+            raise PydanticCustomError(
+                "plugin_kind",
+                "expected a name or a mapping with a 'kind' (installed: {names})",
+                {"names": ", ".join(cls.available())},
+            )
+        try:
+            plugin = cls.load(kind)
+        except PluginError as error:
+            raise PydanticCustomError("plugin_error", "{error}", {"error": str(error)}) from error
+        return plugin.model_validate(value)
+
+    @classmethod
+    def _changed(cls, name: str, changes: dict[str, Any]) -> dict[str, Any]:
+        """A preset with changes in it, whose kind stays."""
+        base = cls._preset(name)
+        if changes.get("kind", base["kind"]) != base["kind"]:
+            raise PluginError(
+                f"the preset '{name}' is of the kind '{base['kind']}', which cannot be changed in "
+                "it; leave 'kind' out"
+            )
+        return changed(base, changes)
+
+    @classmethod
+    def _preset(cls, name: str) -> dict[str, Any]:
+        """What a preset says, which is a whole configuration: its mistakes are told in its file."""
+        document = preset(cls.group, name)
+        kind = document.data.get("kind")
+        if not isinstance(kind, str):
+            raise PluginError("a preset must name its kind", place=document.place(()))
+        document.validated(cls.load(kind))
+        return document.data
+
+    @classmethod
+    def _slot_json_schema(cls, _: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
+        return slot_schema(cls, handler)
+
+
+P = TypeVar("P", bound=Plugin)
+_REGISTERED: dict[str, dict[str, type[Any]]] = {}
+_FROM_FILE = "regkit_plugin_file_"
+"""How the names of modules begin that ``run_plugin_file`` makes."""
+
+
+def register(plugin: type[P]) -> type[P]:
+    """Make a plug-in class available in this process: in notebooks, tests, ``--plugin`` files.
+
+    Raises:
+        PluginError: If it does not declare what a plug-in must.
+    """
+    kind = plugin.model_fields["kind"].default
+    try:
+        _check(plugin, Plugin, kind)
+    except PluginError as error:
+        raise PluginError(f"{plugin.__qualname__} {error.message}") from None
+    _REGISTERED.setdefault(plugin.group, {})[kind] = plugin
+    return plugin
+
+
+def _check(plugin: object, slot: type[Plugin], kind: str) -> None:
+    """Refuse what is no complete plug-in of a slot; the message continues its name."""
+    if not (inspect.isclass(plugin) and issubclass(plugin, slot)):
+        raise PluginError(f"is not a concrete {slot.__name__}: {plugin!r}")
+    missing = ", ".join(sorted(getattr(plugin, "__abstractmethods__", ())))
+    if missing:
+        raise PluginError(
+            f"is not a concrete {slot.__name__}: {plugin.__qualname__} does not define {missing}"
+        )
+    for name in plugin.declared:
+        if not any(name in vars(base) for base in plugin.__mro__):
+            raise PluginError(f"must declare the class variable '{name}' in {plugin.__qualname__}")
+        value = getattr(plugin, name)
+        if not inspect.isclass(value):
+            raise PluginError(f"must set '{name}' to a class in {plugin.__qualname__}: {value!r}")
+    own = plugin.model_fields["kind"].default
+    if not isinstance(own, str):
+        raise PluginError(
+            f'must declare its name in {plugin.__qualname__}: kind: Literal["name"] = "name"'
+        )
+    if own != kind:
+        raise PluginError(
+            f"calls itself '{own}': {plugin.__qualname__}.kind must default to its entry-point name"
+        )
+    try:
+        plugin.model_rebuild()
+    except PydanticUndefinedAnnotation as error:
+        raise PluginError(
+            f"has a field of an unknown type in {plugin.__qualname__}: name '{error.name}' is not "
+            "defined"
+        ) from None
+
+
+def from_file(plugin: type[Plugin]) -> bool:
+    """Whether a plug-in was registered by a file that ``run_plugin_file`` ran."""
+    return plugin.__module__.startswith(_FROM_FILE)
+
+
+def plugin_files() -> tuple[Path, ...]:
+    """The files whose plug-ins are registered, for other processes to run them too."""
+    plugins = [plugin for by_kind in _REGISTERED.values() for plugin in by_kind.values()]
+    modules = sorted({plugin.__module__ for plugin in plugins if from_file(plugin)})
+    return tuple(Path(str(sys.modules[module].__file__)) for module in modules)
+
+
+def run_plugin_file(path: Path) -> None:
+    """Run a Python file that registers plug-ins with ``@register``.
+
+    Raises:
+        PluginError: If the file is missing, fails, or registers nothing.
+    """
+    before = {group: dict(plugins) for group, plugins in _REGISTERED.items()}
+    where = hashlib.sha256(str(path.absolute()).encode()).hexdigest()[:8]
+    name = f"{_FROM_FILE}{path.stem}_{where}"
+    spec = importlib.util.spec_from_file_location(name, path.absolute())
+    if spec is None or spec.loader is None or not path.is_file():
+        raise PluginError("there is no such Python file", place=str(path))
+    module = importlib.util.module_from_spec(spec)
+    # pydantic looks a class's module up here, to read the docstrings and types of its fields.
+    sys.modules[spec.name] = module
+    try:
+        spec.loader.exec_module(module)
+    except Exception as error:
+        raise PluginError(f"{type(error).__name__}: {error}", place=str(path)) from error
+    if before == _REGISTERED:
+        raise PluginError(
+            "the file registers no plug-in; decorate the class with @register", place=str(path)
+        )

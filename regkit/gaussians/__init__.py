@@ -1,0 +1,1 @@
+"""Gaussians against points: pairs, moments, and the side that a camera sees."""

@@ -1,0 +1,1 @@
+"""Geometry: rotations, rigid motions, cameras, capsules and skinned surfaces."""

@@ -1,0 +1,191 @@
+"""A triangle mesh on a skeleton of bones, deformed by linear blend skinning."""
+
+from __future__ import annotations
+
+import zipfile
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from regkit.geometry.rigid import rigid
+from regkit.system.arrays import Array, Indices, read_only
+from regkit.system.errors import DataError
+from regkit.system.files import write_arrays
+
+KEYS = (
+    "rest_vertices",
+    "faces",
+    "labels",
+    "parents",
+    "rest_bone_poses",
+    "skin_indices",
+    "skin_weights",
+)
+"""The arrays of a mesh file, in the order of the fields of ``SkinnedMesh``."""
+
+SHAPE_KEYS = ("rest_vertices", "rest_bone_poses")
+"""The arrays in which the shapes of one mesh differ."""
+
+
+@dataclass(frozen=True)
+class SkinnedMesh:
+    """A mesh whose vertices follow up to A bones each.
+
+    Attributes:
+        vertices: (V, 3) vertices at rest, in the body's frame [m].
+        faces: (F, 3) vertex indices of the triangles, counter-clockwise seen from outside.
+        labels: The names of the J bones; a parent stands before its children.
+        parents: (J,) index of each bone's parent; -1 for the root.
+        rest: (J, 4, 4) bone poses ``T_body_bone`` at rest; y points along the bone [m].
+        indices: (V, A) bones that a vertex follows.
+        weights: (V, A) how much it follows each; every row sums to one.
+    """
+
+    vertices: Array
+    faces: Indices
+    labels: tuple[str, ...]
+    parents: Indices
+    rest: Array
+    indices: Indices
+    weights: Array
+
+    @classmethod
+    def read(cls, path: Path) -> SkinnedMesh:
+        """Read an ``.npz`` file with the arrays ``KEYS``.
+
+        Raises:
+            DataError: If the file is missing, is not an ``.npz`` file, or lacks one of the arrays.
+        """
+        arrays = _arrays(path, KEYS)
+        return cls(
+            read_only(arrays["rest_vertices"]),
+            arrays["faces"].astype(np.intp),
+            tuple(str(label) for label in arrays["labels"]),
+            arrays["parents"].astype(np.intp),
+            read_only(arrays["rest_bone_poses"]),
+            arrays["skin_indices"].astype(np.intp),
+            read_only(arrays["skin_weights"]),
+        )
+
+    def write(self, path: Path) -> None:
+        """Write an ``.npz`` file that ``read`` takes.
+
+        Raises:
+            DataError: If the file cannot be written.
+        """
+        values = (
+            self.vertices.astype(np.float32),
+            self.faces.astype(np.uint32),
+            np.array(self.labels),
+            self.parents.astype(np.int16),
+            self.rest.astype(np.float32),
+            self.indices.astype(np.uint16),
+            self.weights.astype(np.float32),
+        )
+        write_arrays(path, dict(zip(KEYS, values, strict=True)))
+
+    def reshaped(self, path: Path) -> SkinnedMesh:
+        """The same mesh in the shape of another person, from an ``.npz`` file with ``SHAPE_KEYS``.
+
+        Raises:
+            DataError: If the file is missing, is not an ``.npz`` file, lacks one of the arrays, or
+                is of another mesh.
+        """
+        arrays = _arrays(path, SHAPE_KEYS)
+        own = {"rest_vertices": self.vertices, "rest_bone_poses": self.rest}
+        for key, array in arrays.items():
+            if array.shape != own[key].shape:
+                raise DataError(
+                    f"{key} has the shape {array.shape}; for this mesh it must be {own[key].shape}",
+                    place=str(path),
+                )
+        return replace(
+            self,
+            vertices=read_only(arrays["rest_vertices"]),
+            rest=read_only(arrays["rest_bone_poses"]),
+        )
+
+    def bone(self, label: str) -> int:
+        """The index of the bone named ``label``.
+
+        Raises:
+            DataError: If there is none.
+        """
+        if label not in self.labels:
+            raise DataError(f"the mesh has no bone '{label}'; it has {', '.join(self.labels)}")
+        return self.labels.index(label)
+
+    def origin(self, label: str) -> Array:
+        """Where the bone named ``label`` starts at rest (3,) [m]."""
+        return np.array(self.rest[self.bone(label), :3, 3])
+
+    def motions(self, bone_poses: Array) -> Array:
+        """The motion (J, 4, 4) of each bone from rest to ``bone_poses`` (J, 4, 4)."""
+        # The rest poses are only orthogonal to float32, so that a transpose would not invert them.
+        return np.asarray(bone_poses @ np.linalg.inv(self.rest))
+
+    def posed(self, bone_poses: Array) -> Array:
+        """The vertices (V, 3) [m] for bone poses ``T_world_bone`` (J, 4, 4): linear blend skinning.
+
+        Source: Lewis, Cordner, Fong, Pose Space Deformation, SIGGRAPH 2000, eq. 1:
+        ``v = sum_a w_a T_bone,a T_rest,a^-1 v_rest``.
+        """
+        motions = self.motions(bone_poses)[:, :3]
+        blended = np.einsum("va,vaij->vij", self.weights, motions[self.indices])
+        return np.asarray(
+            np.einsum("vij,vj->vi", blended[:, :, :3], self.vertices) + blended[:, :, 3]
+        )
+
+    def stretched(self, matrices: Array) -> SkinnedMesh:
+        """The mesh at rest with every bone stretched, so that joints stay together.
+
+        Args:
+            matrices: What happens to positions in each bone's frame, (J, 3, 3).
+        """
+        inverse = np.linalg.inv(self.rest)
+        origins = self.rest[:, :3, 3].copy()
+        for bone in np.flatnonzero(self.parents >= 0):
+            parent = self.parents[bone]
+            local = inverse[parent, :3, :3] @ (self.rest[bone, :3, 3] - self.rest[parent, :3, 3])
+            way = self.rest[parent, :3, :3] @ matrices[parent] @ local
+            origins[bone] = origins[parent] + way
+        rest = rigid(self.rest[:, :3, :3], origins)
+        carriers = np.zeros((len(rest), 4, 4))
+        carriers[:, :3, :3] = rest[:, :3, :3] @ matrices
+        carriers[:, :3, 3] = origins
+        carriers[:, 3, 3] = 1.0
+        return replace(self, vertices=self.posed(carriers), rest=rest)
+
+    def turned(self, rotations: Array, root: Array) -> Array:
+        """Bone poses ``T_world_bone`` (J, 4, 4) with every bone turned from its direction at rest.
+
+        The joints stay together, so that bone lengths are those at rest.
+
+        Args:
+            rotations: (J, 3, 3) rotation of each bone from rest, in world axes.
+            root: (3,) where the first bone starts [m].
+        """
+        origins = self.rest[:, :3, 3].copy()
+        offsets = origins - origins[self.parents]
+        origins[0] = root
+        for bone in range(1, len(self.labels)):
+            parent = self.parents[bone]
+            origins[bone] = origins[parent] + rotations[parent] @ offsets[bone]
+        return rigid(rotations @ self.rest[:, :3, :3], origins)
+
+
+def _arrays(path: Path, keys: Sequence[str]) -> dict[str, NDArray[np.generic]]:
+    """The arrays named ``keys`` of an ``.npz`` file."""
+    try:
+        with np.load(path) as file:
+            return {key: file[key] for key in keys}
+    except FileNotFoundError:
+        raise DataError("the file is missing; it holds a skinned mesh", place=str(path)) from None
+    except (KeyError, ValueError, zipfile.BadZipFile) as error:
+        raise DataError(
+            f"not a skinned mesh ({error}); it must be an .npz file with {', '.join(keys)}",
+            place=str(path),
+        ) from None

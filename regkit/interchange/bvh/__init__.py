@@ -1,0 +1,1 @@
+"""Motion and skeletons as BVH."""

@@ -1,0 +1,208 @@
+"""Motion as BVH: a tree of joints, and numbers for its channels in every frame.
+
+Source: Meredith, Maddock, Motion Capture File Formats Explained, University of Sheffield, 2001,
+section 3.2. The format has no units; angles are in degrees. A joint's rotation is the product of
+its channels' rotations in their order in the file. A position channel stands in place of the
+offset along its axis, as Blender and MotionBuilder read it; where the offset is zero, which that
+of a root nearly always is, this is the same as adding them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from regkit.geometry.rotation import IDENTITY, from_vector, product, to_matrix
+from regkit.interchange.bvh.hierarchy import (
+    CHANNELS,
+    BvhJoint,
+    Lines,
+    hierarchy_text,
+    in_file_order,
+    read_hierarchy,
+    row,
+)
+from regkit.interchange.gltf.slerp import slerp
+from regkit.system.arrays import Array, read_only
+from regkit.system.errors import DataError
+from regkit.system.files import write_text
+
+
+@dataclass(frozen=True, eq=False)
+class BvhPose:
+    """Where all joints are.
+
+    Attributes:
+        rotations: (J, 3, 3) R_world_joint; the identity at rest.
+        positions: (J, 3) [m].
+    """
+
+    rotations: Array
+    positions: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Bvh:
+    """A motion and the joints that move.
+
+    Attributes:
+        joints: J joints, parents first.
+        frame_time: From a frame to the next [s].
+        frames: (F, C) numbers of all joints' channels, in the joints' order: positions [m], angles
+            [deg].
+    """
+
+    joints: tuple[BvhJoint, ...]
+    frame_time: float
+    frames: Array
+
+    @classmethod
+    def read(cls, path: Path, *, scale: float = 1.0) -> Bvh:
+        """Read a file whose unit of length is ``scale`` metres: 0.01 for centimetres.
+
+        Raises:
+            DataError: If the file is missing or wrong; it says in which line.
+        """
+        try:
+            text = path.read_text(encoding="utf-8-sig")
+        except FileNotFoundError:
+            raise DataError("the file is missing; it holds a BVH motion", place=str(path)) from None
+        except OSError as error:
+            raise DataError(f"cannot be read: {error.strerror}", place=str(path)) from None
+        except UnicodeDecodeError:
+            raise DataError("is not UTF-8 text; a BVH file is text", place=str(path)) from None
+        lines = Lines(path, text)
+        joints = read_hierarchy(lines, scale)
+        count = _field(lines, "Frames")
+        if count < 0 or count != int(count):
+            raise lines.wrong(f"Frames is {count:g}; it must be a whole number")
+        frame_time = _field(lines, "Frame Time")
+        if frame_time <= 0.0:
+            raise lines.wrong(f"Frame Time is {frame_time:g}; it must be positive")
+        names = [channel for joint in joints for channel in joint.channels]
+        frames = _frames(lines, int(count), len(names))
+        frames[:, [name.endswith("position") for name in names]] *= scale
+        return cls(joints, frame_time, read_only(frames))
+
+    def write(self, path: Path, *, scale: float = 1.0) -> None:
+        """Write a file whose unit of length is ``scale`` metres.
+
+        Raises:
+            DataError: If the file cannot be written.
+        """
+        counts = [len(joint.channels) for joint in self.joints]
+        columns = np.split(self.frames, np.cumsum(counts)[:-1], axis=1)
+        order = in_file_order(self.joints)
+        frames = np.concatenate([columns[index] for index in order], axis=1)
+        names = [channel for index in order for channel in self.joints[index].channels]
+        frames[:, [name.endswith("position") for name in names]] /= scale
+        head = ["MOTION", f"Frames: {len(self.frames)}", f"Frame Time: {self.frame_time:.10g}"]
+        lines = [*hierarchy_text(self.joints, scale), *head, *map(row, frames)]
+        write_text(path, "\n".join(lines) + "\n")
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The joints' names (J)."""
+        return tuple(joint.name for joint in self.joints)
+
+    @property
+    def parents(self) -> tuple[int, ...]:
+        """Index of each joint's parent, -1 for the root, (J)."""
+        return tuple(joint.parent for joint in self.joints)
+
+    @property
+    def duration(self) -> float:
+        """From the first frame to the last [s]."""
+        return self.frame_time * max(0, len(self.frames) - 1)
+
+    @cached_property
+    def rest_positions(self) -> Array:
+        """Where the joints are if no angle turns them and the root is at its offset, (J, 3) [m]."""
+        positions = np.zeros((len(self.joints), 3))
+        for index, joint in enumerate(self.joints):
+            parent = positions[joint.parent] if joint.parent >= 0 else 0.0
+            positions[index] = parent + joint.offset
+        return positions
+
+    def offsets(self, joint: int) -> Array:
+        """Where a joint is in its parent's frame, in every frame, (F, 3) [m]."""
+        return self._relative[1][:, joint]
+
+    def at_frame(self, index: int) -> BvhPose:
+        """The pose in a frame.
+
+        Raises:
+            IndexError: If there is no such frame.
+        """
+        rotations, translations = self._relative
+        return self._placed(rotations[index], translations[index])
+
+    def at(self, time: float) -> BvhPose:
+        """The pose at ``time`` [s], interpolated along each joint's shortest rotation.
+
+        Before the first frame it is that frame's, and after the last one it is that one's.
+
+        Raises:
+            DataError: If the motion has no frames.
+        """
+        if not len(self.frames):
+            raise DataError("the motion has no frames")
+        exact = float(np.clip(time / self.frame_time, 0.0, len(self.frames) - 1.0))
+        left = min(int(exact), max(0, len(self.frames) - 2))
+        right = min(left + 1, len(self.frames) - 1)
+        share = exact - left
+        rotations, translations = self._relative
+        return self._placed(
+            slerp(rotations[left], rotations[right], share),
+            (1.0 - share) * translations[left] + share * translations[right],
+        )
+
+    @cached_property
+    def _relative(self) -> tuple[Array, Array]:
+        """Rotations (F, J, 4) and positions (F, J, 3) of the joints in their parents' frames."""
+        count = len(self.frames)
+        rotations = np.tile(IDENTITY, (count, len(self.joints), 1))
+        translations = np.tile([joint.offset for joint in self.joints], (count, 1, 1))
+        column = 0
+        for index, joint in enumerate(self.joints):
+            for channel in joint.channels:
+                axis, numbers = CHANNELS.index(channel) % 3, self.frames[:, column]
+                if channel.endswith("position"):
+                    translations[:, index, axis] = numbers
+                else:
+                    turn = from_vector(np.radians(numbers)[:, None] * np.eye(3)[axis])
+                    rotations[:, index] = product(rotations[:, index], turn)
+                column += 1
+        return rotations, translations
+
+    def _placed(self, rotations: Array, translations: Array) -> BvhPose:
+        """The pose of rotations (J, 4) and positions (J, 3) in the parents' frames."""
+        relative = to_matrix(rotations)
+        placed = BvhPose(relative.copy(), translations.copy())
+        for index, joint in enumerate(self.joints):
+            if joint.parent >= 0:
+                parent = placed.rotations[joint.parent]
+                placed.rotations[index] = parent @ relative[index]
+                placed.positions[index] = (
+                    placed.positions[joint.parent] + parent @ translations[index]
+                )
+        return placed
+
+
+def _field(lines: Lines, name: str) -> float:
+    """The number after ``name:``."""
+    line = lines.take(f"{name}:")
+    word, colon, number = line.partition(":")
+    if not colon or word.strip().lower() != name.lower():
+        raise lines.wrong(f"'{line[:40]}' where {name}: should stand")
+    return lines.numbers(number, 1, name)[0]
+
+
+def _frames(lines: Lines, count: int, channels: int) -> Array:
+    frames = [lines.numbers(line, channels, "a frame") for line in lines.rest()]
+    if len(frames) != count:
+        raise lines.wrong(f"Frames says {count}, and {len(frames)} follow")
+    return np.array(frames).reshape(count, channels)

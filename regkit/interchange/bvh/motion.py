@@ -1,0 +1,71 @@
+"""A tracked motion as BVH."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+import numpy as np
+
+from regkit.body import Body
+from regkit.interchange.bvh.bvh import Bvh
+from regkit.interchange.bvh.euler import continuous_zyx
+from regkit.interchange.bvh.hierarchy import CHANNELS, BvhJoint
+from regkit.interchange.motion import UPRIGHT_CAMERA, TrackedMotion
+from regkit.system.arrays import Array, read_only
+
+_TURNS = tuple(reversed(CHANNELS[3:]))
+"""The rotation channels: about z, then y, then x."""
+
+
+def bvh_of(motion: TrackedMotion) -> Bvh:
+    """A joint for each segment, and where no other joint follows, the end of the limb.
+
+    The camera looks along -z, with y up. At rest all joints' axes are the body's, as the format
+    wants it, whichever axes the segments have.
+    """
+    skeleton = motion.body.skeleton
+    rest = motion.body.place(skeleton.rest()).transforms
+    parents = [int(parent) for parent in skeleton.parents]
+    # A segment's axes at rest are taken back, so that what is left turns the body's axes.
+    rotations = UPRIGHT_CAMERA @ motion.transforms[..., :3, :3] @ rest[:, :3, :3].swapaxes(1, 2)
+    joints, columns = [], [motion.transforms[:, 0, :3, 3] @ UPRIGHT_CAMERA.T]
+    for index, name in enumerate(_words(skeleton.names)):
+        parent = parents[index]
+        place = rest[index, :3, 3]
+        leaf = index not in parents
+        joints.append(
+            BvhJoint(
+                name=name,
+                parent=parent,
+                offset=read_only(place - rest[parent, :3, 3] if parent >= 0 else np.zeros(3)),
+                channels=(*CHANNELS[:3], *_TURNS) if parent < 0 else _TURNS,
+                ends=(read_only(rest[index, :3, :3] @ _end(motion.body, index)),) if leaf else (),
+            )
+        )
+        own = rotations[:, index]
+        relative = own if parent < 0 else rotations[:, parent].swapaxes(1, 2) @ own
+        columns.append(np.degrees(continuous_zyx(relative)))
+    return Bvh(tuple(joints), 1.0 / motion.fps, read_only(np.concatenate(columns, axis=1)))
+
+
+def _words(names: Sequence[str]) -> list[str]:
+    """Names without what the format takes for the end of one, each still unlike all others."""
+    words: list[str] = []
+    for name in names:
+        word = re.sub(r"[\s{}]", "_", name)
+        while word in words or (word != name and word in names):
+            word += "_"
+        words.append(word)
+    return words
+
+
+def _end(body: Body, segment: int) -> Array:
+    """The farthest marker on a segment, or the farthest end of its capsules, (3,) [m]."""
+    markers = body.markers.points[body.markers.segments == segment]
+    ends = body.capsules.ends[body.capsules.segments == segment].reshape(-1, 3)
+    for points in (markers, ends):
+        distances = np.linalg.norm(points, axis=1)
+        if distances.max(initial=0.0) > 0.0:
+            return np.asarray(points[distances.argmax()])
+    return np.zeros(3)

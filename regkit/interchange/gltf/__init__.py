@@ -1,0 +1,1 @@
+"""Meshes, skeletons and motion as glTF."""

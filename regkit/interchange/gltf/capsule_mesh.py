@@ -1,0 +1,66 @@
+"""Triangles of tapered capsules, to look at."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from regkit.geometry.capsules import Capsules
+from regkit.system.arrays import Array, Indices
+
+AROUND = 16
+"""Corners of a ring."""
+
+RINGS = 5
+"""Rings between a pole and the seam of an end."""
+
+
+def capsule_mesh(capsules: Capsules) -> tuple[Array, Indices, Indices]:
+    """Vertices (V, 3) [m], triangles (F, 3) and the capsule of each vertex (V,); at least one.
+
+    A vertex is the point of a capsule farthest in a direction; the directions are a sphere's, with
+    the ring twice at which one end takes over from the other.
+    """
+    parts = [_one(ends, radii) for ends, radii in zip(capsules.ends, capsules.radii, strict=True)]
+    count = (2 * RINGS + 2) * AROUND
+    firsts = count * np.arange(len(parts))[:, None, None]
+    return (
+        np.concatenate(parts),
+        (firsts + _triangles_of_rings()).reshape(-1, 3),
+        np.repeat(np.arange(len(parts)), count),
+    )
+
+
+def _one(ends: Array, radii: Array) -> Array:
+    """The rings of one capsule, ((2 RINGS + 2) AROUND, 3)."""
+    axis = ends[1] - ends[0]
+    length = float(np.linalg.norm(axis))
+    larger = int(radii[1] > radii[0])
+    if length <= abs(float(radii[1] - radii[0])):
+        # One sphere holds the other: the capsule is that sphere.
+        ends, radii = np.repeat(ends[larger : larger + 1], 2, axis=0), np.full(2, radii[larger])
+        axis, length = np.array([0.0, 0.0, 1.0]), 0.0
+    along = axis / np.linalg.norm(axis)
+    seam = np.arcsin((radii[0] - radii[1]) / length) if length > 0.0 else 0.0
+    first = np.linspace(-0.5 * np.pi, seam, RINGS + 1)
+    second = np.linspace(seam, 0.5 * np.pi, RINGS + 1)
+    side = np.cross(along, np.eye(3)[np.argmin(np.abs(along))])
+    side /= np.linalg.norm(side)
+    turns = 2.0 * np.pi * np.arange(AROUND) / AROUND
+    ring = np.outer(np.cos(turns), side) + np.outer(np.sin(turns), np.cross(along, side))
+    vertices = [
+        end + radius * (np.sin(latitude) * along + np.cos(latitude) * ring)
+        for end, radius, latitudes in zip(ends, radii, (first, second), strict=True)
+        for latitude in latitudes
+    ]
+    return np.concatenate(vertices)
+
+
+def _triangles_of_rings() -> Indices:
+    """Two triangles between neighbours on two rings, counter-clockwise from outside."""
+    rings = AROUND * np.arange(2 * RINGS + 1)[:, None]
+    here = np.arange(AROUND)[None]
+    there = (here + 1) % AROUND
+    a, b = rings + here, rings + there
+    c, d = b + AROUND, a + AROUND
+    corners = np.stack([np.stack([a, b, c], axis=-1), np.stack([a, c, d], axis=-1)])
+    return corners.reshape(-1, 3)

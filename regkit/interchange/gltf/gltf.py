@@ -1,0 +1,155 @@
+"""Rigged bodies in glTF files.
+
+A file's axes are kept: lengths in metres, y up, z to the front, x to the body's left, which are
+those of regkit's bodies. The mesh at rest stands as the skin's inverse bind matrices have it, laid
+into the scene as the skin's first bone has it there; where a file shows its body in the bind pose,
+as most do, both are one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from regkit.config.model import did_you_mean
+from regkit.geometry.rigid import moved
+from regkit.geometry.skinned_mesh import SkinnedMesh
+from regkit.interchange.bone_frames import along_bones, nearest_rotations
+from regkit.interchange.gltf import webxr_hand
+from regkit.interchange.gltf.clip import GltfClip
+from regkit.interchange.gltf.file import GltfFile
+from regkit.interchange.gltf.nodes import Nodes
+from regkit.interchange.gltf.skin import skinned_vertices
+from regkit.system.arrays import Array, read_only
+
+UNEVEN = 1e-3
+"""A scale may differ by so much between axes before it counts as a shear."""
+
+
+@dataclass(frozen=True)
+class RiggedBody:
+    """A skinned mesh and its motions.
+
+    Attributes:
+        mesh: The mesh; its bones' y axes point along them, whichever axes the rig has.
+        clips: The file's animations, as poses of these bones.
+    """
+
+    mesh: SkinnedMesh
+    clips: tuple[GltfClip, ...]
+
+    @classmethod
+    def read(cls, path: Path, *, parents: Mapping[str, str | None] | None = None) -> RiggedBody:
+        """Read the one skin of a ``.glb`` or ``.gltf`` file, and all meshes that follow it.
+
+        Vertices that differ only in what is drawn on them are joined, so that a surface is closed
+        where its picture has a seam.
+
+        Args:
+            path: The file.
+            parents: The parent of each bone, where the file's nodes are no tree; none for one of
+                them. A hand with the joints of WebXR has its own.
+
+        Raises:
+            DataError: If the file is missing or wrong, or holds no skin or several.
+        """
+        file = GltfFile.read(path)
+        nodes = Nodes.of(file)
+        skins = file.content.skins or []
+        if len(skins) != 1:
+            raise file.wrong(f"has {len(skins)} skins; a file with one is needed")
+        joints = [int(joint) for joint in skins[0].joints]
+        if not joints or not all(0 <= joint < len(nodes.names) for joint in joints):
+            raise file.wrong(f"the skin's joints {joints[:20]} are not all nodes")
+        if skins[0].inverseBindMatrices is None:
+            binds = np.tile(np.eye(4), (len(joints), 1, 1))
+        else:
+            binds = file.floats(skins[0].inverseBindMatrices).reshape(-1, 4, 4).swapaxes(1, 2)
+        if len(binds) != len(joints):
+            raise file.wrong(f"the skin has {len(joints)} joints and {len(binds)} matrices")
+        above = _parents(file, nodes, joints, parents)
+        order = _parents_first(file, above)
+        place = np.argsort(order)
+        joints, binds = [joints[bone] for bone in order], binds[order]
+        above = [int(place[above[bone]]) if above[bone] >= 0 else -1 for bone in order]
+        # What the first bone does to the vertices where the file has it.
+        shown = nodes.placed(nodes.given)[joints[0]] @ binds[0]
+        _check_even(file, shown)
+        bound = shown @ np.linalg.inv(binds)
+        rest = along_bones(bound[:, :3, 3], nearest_rotations(bound[:, :3, :3]), above)
+        vertices = skinned_vertices(file, len(joints)).joined()
+        mesh = SkinnedMesh(
+            vertices=read_only(moved(shown, vertices.positions)),
+            faces=vertices.faces,
+            labels=tuple(nodes.names[joint] for joint in joints),
+            parents=np.array(above, dtype=np.intp),
+            rest=read_only(rest),
+            indices=place[vertices.bones],
+            weights=read_only(vertices.weights),
+        )
+        # A bone's pose is what its node does to the bone's frame at rest.
+        frames = binds @ np.linalg.inv(shown) @ rest
+        return cls(mesh, GltfClip.all_of(file, nodes, joints, frames))
+
+
+def _parents(
+    file: GltfFile, nodes: Nodes, joints: list[int], named: Mapping[str, str | None] | None
+) -> list[int]:
+    """Index of each bone's parent: the nearest bone above it, or the one that is named.
+
+    Raises:
+        DataError: If these are no tree, or a name is no bone's.
+    """
+    names = [nodes.names[joint] for joint in joints]
+    if named is None and set(names) == set(webxr_hand.PARENTS):
+        named = webxr_hand.PARENTS
+    if named is None:
+        above = [nodes.nearest(joint, frozenset(joints)) for joint in joints]
+        parents = [joints.index(node) if node >= 0 else -1 for node in above]
+    else:
+        for name in (*named, *filter(None, named.values())):
+            if name not in names:
+                raise file.wrong(
+                    f"no bone is called '{name}' (there are: {', '.join(names)})"
+                    + did_you_mean(name, names)
+                )
+        missing = [name for name in names if name not in named]
+        if missing:
+            raise file.wrong(f"no parent is named for the bones {', '.join(missing)}")
+        above_names = [named[name] for name in names]
+        parents = [-1 if name is None else names.index(name) for name in above_names]
+    roots = [name for name, parent in zip(names, parents, strict=True) if parent < 0]
+    if len(roots) != 1:
+        raise file.wrong(
+            f"{len(roots)} bones have no bone above them ({', '.join(roots)}); name the parent of "
+            "each, so that one is left without"
+        )
+    return parents
+
+
+def _parents_first(file: GltfFile, parents: list[int]) -> list[int]:
+    ordered = [parents.index(-1)]
+    for bone in ordered:
+        ordered += [child for child, parent in enumerate(parents) if parent == bone]
+    if len(ordered) < len(parents):
+        raise file.wrong("the bones' parents form a cycle")
+    return ordered
+
+
+def _check_even(file: GltfFile, transform: Array) -> None:
+    """Refuse a transform that does not stretch all directions alike.
+
+    Raises:
+        DataError: If it does not.
+    """
+    sizes = np.linalg.svd(transform[:3, :3])[1]
+    if sizes[2] < (1.0 - UNEVEN) * sizes[0] or sizes[0] == 0.0:
+        raise file.wrong(
+            f"the skeleton is scaled unevenly ({', '.join(f'{size:.4g}' for size in sizes)}); "
+            "apply its scale to the mesh before the export"
+        )
+    if np.linalg.det(transform[:3, :3]) < 0.0:
+        raise file.wrong("the skeleton is mirrored; apply its scale before the export")

@@ -1,0 +1,59 @@
+"""Gaps of points in the free space of a depth image, in compiled loops."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+import numpy as np
+
+from regkit.system.arrays import Array
+from regkit.system.compiled import compiled
+
+
+@compiled
+def free_gaps(
+    points: Array,
+    margins: Array,
+    nearest: Array,
+    shown: Array,
+    scale: Array,
+    offset: Array,
+    half: float,
+) -> tuple[Array, Array]:
+    """The gaps (M,) and slopes (M, 3) of ``Silhouette.gaps``.
+
+    Args:
+        points: (M, 3) [m].
+        margins: (M,) [m].
+        nearest: Least depth in each block, (columns, rows) [m]; inf where nothing was measured.
+        shown: Rays through the middles of the blocks that show something, (B, 2).
+        scale: Blocks for a unit of a ray, (2,).
+        offset: Block of the ray through the middle of the image, (2,).
+        half: What is nearer than this to a ray that shows something is not beside it.
+    """
+    gaps, slopes = np.zeros(len(points)), np.zeros((len(points), 3))
+    columns, rows = nearest.shape
+    for k in range(len(points)):
+        z = max(points[k, 2], 1e-3)
+        x, y = points[k, 0] / z, points[k, 1] / z
+        column = int(np.rint(x * scale[0] + offset[0]))
+        row = int(np.rint(y * scale[1] + offset[1]))
+        if 0 <= column < columns and 0 <= row < rows and np.isfinite(nearest[column, row]):
+            before = nearest[column, row] - margins[k] - points[k, 2]
+            if before > 0.0:
+                gaps[k] = before
+                slopes[k, 2] = -1.0
+            continue
+        best, least = -1, np.inf
+        for index in range(len(shown)):
+            square = (x - shown[index, 0]) ** 2 + (y - shown[index, 1]) ** 2
+            if square < least:
+                best, least = index, square
+        distance = sqrt(least)
+        if best < 0 or distance <= half:
+            continue
+        away, down = (x - shown[best, 0]) / distance, (y - shown[best, 1]) / distance
+        gaps[k] = z * (distance - half)
+        slopes[k, 0], slopes[k, 1] = away, down
+        slopes[k, 2] = distance - half - away * x - down * y
+    return gaps, slopes

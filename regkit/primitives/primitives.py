@@ -1,0 +1,87 @@
+"""Primitives: the pieces of a shape model, fixed in the segments of a skeleton.
+
+Three frames meet here. A primitive's own *axes* are where its scales are given; the *segment*
+carries it; the *world* is where a kernel compares it with data.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Generic, Self, TypeVar
+
+import numpy as np
+
+from regkit.primitives.accumulation import gathered_stiffness, gathered_wrenches
+from regkit.system.arrays import Array, Indices
+
+
+@dataclass(frozen=True)
+class Primitives:
+    """K primitives in the frames of their segments; a subclass gives the scales their meaning.
+
+    Attributes:
+        segments: The segment that carries each primitive, (K,).
+        centres: Positions in the segments' frames, (K, 3) [m].
+        axes: R_segment_primitive, (K, 3, 3).
+        scales: Sizes along the primitive's own axes, (K, 3) [m].
+        weights: (K,).
+    """
+
+    segments: Indices
+    centres: Array
+    axes: Array
+    scales: Array
+    weights: Array
+
+    def __len__(self) -> int:
+        """Number K of primitives."""
+        return len(self.segments)
+
+    def place(self, transforms: Array) -> Placed[Self]:
+        """The primitives in the world, for T_world_segment (S, 4, 4)."""
+        carriers = transforms[self.segments]
+        rotations = carriers[:, :3, :3]
+        centres = (rotations @ self.centres[:, :, None])[:, :, 0] + carriers[:, :3, 3]
+        return Placed(self, carriers[:, :3, 3], centres, rotations @ self.axes)
+
+    def scaled(self, factor: float) -> Self:
+        """The same primitives on a skeleton whose lengths are multiplied by ``factor``."""
+        return replace(self, centres=factor * self.centres, scales=factor * self.scales)
+
+
+P_co = TypeVar("P_co", bound=Primitives, covariant=True)
+
+
+@dataclass(frozen=True)
+class Placed(Generic[P_co]):
+    """Primitives in the world.
+
+    Attributes:
+        primitives: What is placed.
+        carriers: Origins of the segments that carry the primitives, (K, 3) [m].
+        centres: Positions in the world, (K, 3) [m].
+        axes: R_world_primitive, (K, 3, 3).
+    """
+
+    primitives: P_co
+    carriers: Array
+    centres: Array
+    axes: Array
+
+    def __len__(self) -> int:
+        """Number K of primitives."""
+        return len(self.centres)
+
+    def covariances(self) -> Array:
+        """``R diag(scales^2) R^T`` in the world, (K, 3, 3) [m^2]."""
+        return (self.axes * self.primitives.scales[:, None, :] ** 2) @ np.swapaxes(self.axes, 1, 2)
+
+    def gather(self, wrenches: Array, segments: int) -> Array:
+        """Wrenches (K, 6) on the primitives as (S, 6), summed about the segments' origins."""
+        arms = self.centres - self.carriers
+        return gathered_wrenches(wrenches, arms, self.primitives.segments, segments)
+
+    def gather_stiffness(self, stiffness: Array, segments: int) -> Array:
+        """Blocks (K, 6, 6) on the primitives as (S, 6, 6), summed about the segments' origins."""
+        arms = self.centres - self.carriers
+        return gathered_stiffness(stiffness, arms, self.primitives.segments, segments)

@@ -1,0 +1,172 @@
+"""Linear blend skinning of points and normals, and forces on them, in compiled loops.
+
+With c_a and m_a the point and the normal as the segment a carries them in the world, o_a its origin
+and w_a its weight, a point is at v = sum w_a c_a and its normal is n = sum w_a m_a / l, where l is
+the length of that sum. If the segments move by (dt_a, dphi_a), they move by
+
+    dv = sum w_a (dt_a - [c_a - o_a]x dphi_a),    dphi = -1/l sum w_a [n]x [m_a]x dphi_a,
+
+the latter without a spin about the normal itself, which a point does not have.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+import numpy as np
+
+from regkit.system.arrays import Array, Indices
+from regkit.system.compiled import compiled
+
+
+@compiled
+def place_blended(
+    transforms: Array,
+    segments: Indices,
+    blend: Array,
+    points: Array,
+    normals: Array,
+    owners: Indices,
+    tangents: Array,
+) -> tuple[Array, Array, Array, Array, Array]:
+    """V (K, 3), axes (K, 3, 3), the arms c_a - o_a and the m_a, (K, A, 3), and the l, (K,).
+
+    The third axis is n; the first one is the tangent (K, 3) as its owner turns it, at right angles
+    to that.
+    """
+    count, carriers = segments.shape
+    centres, axes = np.zeros((count, 3)), np.empty((count, 3, 3))
+    mean = np.empty(3)
+    arms, turned = np.zeros((count, carriers, 3)), np.zeros((count, carriers, 3))
+    lengths = np.empty(count)
+    for k in range(count):
+        mean[:] = 0.0
+        for a in range(carriers):
+            weight = blend[k, a]
+            if weight == 0.0:
+                continue
+            carrier = transforms[segments[k, a]]
+            c, m = points[k, a], normals[k, a]
+            for i in range(3):
+                arm = carrier[i, 0] * c[0] + carrier[i, 1] * c[1] + carrier[i, 2] * c[2]
+                own = carrier[i, 0] * m[0] + carrier[i, 1] * m[1] + carrier[i, 2] * m[2]
+                arms[k, a, i] = arm
+                turned[k, a, i] = own
+                centres[k, i] += weight * (arm + carrier[i, 3])
+                mean[i] += weight * own
+        lengths[k] = sqrt(mean[0] ** 2 + mean[1] ** 2 + mean[2] ** 2)
+        mean /= lengths[k]
+        _set_axes(axes[k], mean, transforms[owners[k], :3, :3], tangents[k])
+    return centres, axes, arms, turned, lengths
+
+
+@compiled
+def gathered_wrenches(
+    wrenches: Array,
+    segments: Indices,
+    blend: Array,
+    arms: Array,
+    turned: Array,
+    axes: Array,
+    lengths: Array,
+    count: int,
+) -> Array:
+    """Wrenches (K, 6) on points and normals as (S, 6), summed about the segments' origins."""
+    gathered = np.zeros((count, 6))
+    for k in range(len(wrenches)):
+        f, n = wrenches[k], axes[k, :, 2]
+        # The transpose of [n]x [m]x is [m]x [n]x.
+        x, y, z = _crossed(n[0], n[1], n[2], f[3], f[4], f[5])
+        for a in range(segments.shape[1]):
+            weight = blend[k, a]
+            if weight == 0.0:
+                continue
+            arm, m, own = arms[k, a], turned[k, a], gathered[segments[k, a]]
+            u, v, w = _crossed(arm[0], arm[1], arm[2], f[0], f[1], f[2])
+            p, q, r = _crossed(m[0], m[1], m[2], x, y, z)
+            own[0] += weight * f[0]
+            own[1] += weight * f[1]
+            own[2] += weight * f[2]
+            own[3] += weight * (u - p / lengths[k])
+            own[4] += weight * (v - q / lengths[k])
+            own[5] += weight * (w - r / lengths[k])
+    return gathered
+
+
+@compiled
+def gathered_stiffness(
+    blocks: Array,
+    segments: Indices,
+    blend: Array,
+    arms: Array,
+    turned: Array,
+    axes: Array,
+    lengths: Array,
+    count: int,
+) -> Array:
+    """Blocks (K, 6, 6) on points and normals as (S, 6, 6), about the segments' origins.
+
+    Each carrier gets M^T B M with its own map M; the blocks between different ones are left out.
+    """
+    gathered = np.zeros((count, 6, 6))
+    carried, half = np.zeros((6, 6)), np.empty((6, 6))
+    for k in range(len(blocks)):
+        block = blocks[k]
+        if block[0, 0] + block[1, 1] + block[2, 2] == 0.0:
+            continue
+        for a in range(segments.shape[1]):
+            if blend[k, a] == 0.0:
+                continue
+            _set_map(carried, blend[k, a], arms[k, a], turned[k, a], axes[k, :, 2], lengths[k])
+            own = gathered[segments[k, a]]
+            for i in range(6):
+                for j in range(6):
+                    half[i, j] = 0.0
+                    for e in range(6):
+                        half[i, j] += block[i, e] * carried[e, j]
+            for i in range(6):
+                for j in range(6):
+                    for e in range(6):
+                        own[i, j] += carried[e, i] * half[e, j]
+    return gathered
+
+
+@compiled
+def _set_axes(axes: Array, normal: Array, turn: Array, tangent: Array) -> None:
+    """A frame (3, 3) about a normal, from a tangent that a rotation (3, 3) has turned."""
+    along = 0.0
+    for i in range(3):
+        axes[i, 0] = turn[i, 0] * tangent[0] + turn[i, 1] * tangent[1] + turn[i, 2] * tangent[2]
+        along += axes[i, 0] * normal[i]
+    for i in range(3):
+        axes[i, 0] -= along * normal[i]
+        axes[i, 2] = normal[i]
+    axes[:, 0] /= sqrt(axes[0, 0] ** 2 + axes[1, 0] ** 2 + axes[2, 0] ** 2)
+    n, t = normal, axes[:, 0]
+    axes[0, 1], axes[1, 1], axes[2, 1] = _crossed(n[0], n[1], n[2], t[0], t[1], t[2])
+
+
+@compiled
+def _set_map(
+    matrix: Array, weight: float, arm: Array, turned: Array, normal: Array, length: float
+) -> None:
+    """How a point and its normal follow one segment, (6, 6)."""
+    x, y, z = weight * arm[0], weight * arm[1], weight * arm[2]
+    matrix[0, 4], matrix[0, 5] = z, -y
+    matrix[1, 3], matrix[1, 5] = -z, x
+    matrix[2, 3], matrix[2, 4] = y, -x
+    along = normal[0] * turned[0] + normal[1] * turned[1] + normal[2] * turned[2]
+    for i in range(3):
+        matrix[i, i] = weight
+        for j in range(3):
+            # [n]x [m]x is m n^T - (n.m) I.
+            matrix[3 + i, 3 + j] = -weight / length * turned[i] * normal[j]
+        matrix[3 + i, 3 + i] += weight / length * along
+
+
+@compiled
+def _crossed(
+    a: float, b: float, c: float, x: float, y: float, z: float
+) -> tuple[float, float, float]:
+    """The cross product of two vectors."""
+    return b * z - c * y, c * x - a * z, a * y - b * x

@@ -1,0 +1,1 @@
+"""Registration: coordinates, constraints, robust losses and the problem with its chain rule."""

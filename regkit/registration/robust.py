@@ -1,0 +1,145 @@
+"""Robust losses: residuals that are too large to be the model's count little, or nothing more."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Annotated, ClassVar, Literal
+
+import numpy as np
+from pydantic import Field
+
+from regkit.config.model import Model
+from regkit.system.arrays import Array
+
+
+class Robust(Model):
+    """What residuals cost, and from what size on they are taken for outliers."""
+
+    loss: Literal["squares", "huber", "tukey", "geman_mcclure"] = "geman_mcclure"
+    """Half the square; or that up to some scales, and from there on a line (huber), a constant
+    (tukey), or towards a constant (geman_mcclure)."""
+    scale: Annotated[float, Field(gt=0.0)] | None = None
+    """Standard deviation of the residuals that are the model's own [m]; without it, that of each
+    frame's residuals where its registration begins."""
+
+    def bound(self, residuals: Array, *, least: float, blur: float = 0.0) -> Loss:
+        """The loss whose scale is that of the data, one function for the whole solution.
+
+        Args:
+            residuals: At the start, (N,) [m].
+            least: What an estimated scale is at least [m], such as the data's own standard
+                deviation: residuals that happen to be all alike tell nothing of noise.
+            blur: A standard deviation [m] that widens the scale.
+        """
+        scale = max(median_scale(residuals), least) if self.scale is None else self.scale
+        return _LOSSES[self.loss](float(np.hypot(scale, blur)))
+
+
+def median_scale(residuals: Array) -> float:
+    """The standard deviation of normal residuals (N,) about zero, by their median absolute value.
+
+    It is the median absolute deviation (MAD) from zero, which is what the model predicts; half of
+    the residuals may be outliers.
+    """
+    return float(np.median(np.abs(residuals))) / _NORMAL_QUARTILE
+
+
+@dataclass(frozen=True)
+class Loss(ABC):
+    """A function rho of the residual that is near half its square, in units of the scale.
+
+    Attributes:
+        scale: Standard deviation s of the residuals [m].
+        tuning: From where on residuals are taken for outliers, c, in units of the scale; with these
+            a mean of normal residuals has 95 % of the efficiency that squares would give it.
+    """
+
+    scale: float
+    tuning: ClassVar[float]
+
+    def values(self, residuals: Array) -> Array:
+        """Rho of residuals r (N,) [m], without a unit: r^2 / (2 s^2) near zero."""
+        return self._values((residuals / self.scale) ** 2)
+
+    def slopes(self, residuals: Array) -> Array:
+        """The derivative of rho, (N,) [1/m]."""
+        return self.weights(residuals) * residuals
+
+    def weights(self, residuals: Array) -> Array:
+        """The derivative over the residual, for Gauss-Newton, (N,) [1/m^2]: 1 / s^2 near zero."""
+        return self.shares(residuals) / self.scale**2
+
+    def shares(self, residuals: Array) -> Array:
+        """By how much residuals (N,) [m] are taken for the model's own, (N,), from 0 to 1."""
+        return self._shares((residuals / self.scale) ** 2)
+
+    @abstractmethod
+    def _values(self, squares: Array) -> Array:
+        """Rho of u (N,), for u^2."""
+
+    @abstractmethod
+    def _shares(self, squares: Array) -> Array:
+        """Psi(u) / u, (N,), for u^2."""
+
+
+class Squares(Loss):
+    """``u^2 / 2``."""
+
+    tuning = np.inf
+
+    def _values(self, squares: Array) -> Array:
+        return 0.5 * squares
+
+    def _shares(self, squares: Array) -> Array:
+        return np.ones_like(squares)
+
+
+class Huber(Loss):
+    """``u^2 / 2`` up to c, then ``c (|u| - c/2)``."""
+
+    tuning = 1.345
+
+    def _values(self, squares: Array) -> Array:
+        size = np.sqrt(squares)
+        inner = np.minimum(size, self.tuning)
+        return np.asarray(inner * (size - 0.5 * inner))
+
+    def _shares(self, squares: Array) -> Array:
+        return np.asarray(self.tuning / np.sqrt(np.maximum(squares, self.tuning**2)))
+
+
+class Tukey(Loss):
+    """``c^2/6 (1 - (1 - (u/c)^2)^3)`` up to c, then constant: Tukey's biweight."""
+
+    tuning = 4.685
+
+    def _values(self, squares: Array) -> Array:
+        rest = np.maximum(1.0 - squares / self.tuning**2, 0.0)
+        return np.asarray(self.tuning**2 / 6.0 * (1.0 - rest**3))
+
+    def _shares(self, squares: Array) -> Array:
+        return np.asarray(np.maximum(1.0 - squares / self.tuning**2, 0.0) ** 2)
+
+
+class GemanMcClure(Loss):
+    """``u^2 / 2 / (1 + (u/c)^2)``, which comes to c^2 / 2 far away."""
+
+    tuning = 3.787
+
+    def _values(self, squares: Array) -> Array:
+        return 0.5 * squares / (1.0 + squares / self.tuning**2)
+
+    def _shares(self, squares: Array) -> Array:
+        return 1.0 / (1.0 + squares / self.tuning**2) ** 2
+
+
+_LOSSES: dict[str, type[Loss]] = {
+    "squares": Squares,
+    "huber": Huber,
+    "tukey": Tukey,
+    "geman_mcclure": GemanMcClure,
+}
+
+_NORMAL_QUARTILE = 0.6744897501960817
+"""Half of normal deviates are within so many standard deviations."""

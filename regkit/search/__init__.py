@@ -1,0 +1,1 @@
+"""Search: a limb's configurations held against a frame."""

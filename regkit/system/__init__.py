@@ -1,0 +1,1 @@
+"""The system below: errors, arrays, files, the cache, compiled loops and optional libraries."""
