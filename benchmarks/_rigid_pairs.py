@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from regkit.geometry.rigid import inverse, moved, rigid
+from regkit.geometry.rigid import inverse, rigid, transformed
 from regkit.geometry.rotation import from_matrix, to_vector, vector_to_matrix
 from regkit.system.arrays import Array
 
@@ -24,7 +24,7 @@ class Pair:
         """Rotation [deg], and how far the source's centre is off, as a part of the size."""
         turn = to_vector(from_matrix((inverse(self.truth) @ transform)[:3, :3]))
         centre = self.source.mean(axis=0, keepdims=True)
-        off = moved(transform, centre) - moved(self.truth, centre)
+        off = transformed(transform, centre) - transformed(self.truth, centre)
         return float(np.degrees(np.linalg.norm(turn))), float(np.linalg.norm(off)) / self.size
 
 
@@ -65,5 +65,5 @@ def bunny(
         return np.concatenate([noisy, random.uniform(low - spread, high + spread, (count, 3))])
 
     source = spoiled(points[order[:kept]])
-    target = spoiled(moved(truth, points[order[-kept:]]))
+    target = spoiled(transformed(truth, points[order[-kept:]]))
     return Pair(source, target, truth, size)

@@ -1,4 +1,4 @@
-"""The synthetic sequences that the benchmarks of accuracy run on, and one row of their tables."""
+"""The synthetic recordings that the benchmarks of accuracy run on, and one row of their tables."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from regkit.experiment import Experiment, Outcome, run
 from regkit.metrics import Measure
 
 FOLDER = Path("results/suite")
-"""Where the sequences are, made when they are not there (two minutes)."""
+"""Where the recordings are, made when they are not there (two minutes)."""
 
 UTD = Path(__file__).parent.parent / "docs" / "examples" / "utd.yaml"
 """The experiment on real data."""
@@ -28,13 +28,13 @@ EXPERIMENT = """\
 name: suite
 dataset: {{kind: depth, root: {folder}}}
 template: {template}
-observer: {observer}
+preprocessor: {preprocessor}
 methods: {{method: {method}}}
 """
 
 
 def bodies(kind: str) -> list[Path]:
-    """The folders of the sequences of each ``human`` or ``hand``, or of one; made if need be."""
+    """The folders of the recordings of each ``human`` or ``hand``, or of one; made if need be."""
     if not FOLDER.is_dir():
         command = [sys.executable, "-m", "regkit_synthesis", str(FOLDER), "--suite"]
         subprocess.run(command, check=True, stdout=sys.stderr)
@@ -44,15 +44,15 @@ def bodies(kind: str) -> list[Path]:
 def tracked(
     kind: str, method: str, settings: Sequence[str] = (), template: str | None = None
 ) -> dict[str, Measure]:
-    """The figures of a method, written as in YAML, on all sequences of a kind, by name.
+    """The figures of a method, written as in YAML, on all recordings of a kind, by name.
 
     Without another template each body's own is taken, which has the right lengths.
     """
     jobs = [
-        (folder, sequence.name, OBSERVERS[kind.split("_")[0]], method, tuple(settings), template)
+        (folder, recording.name, OBSERVERS[kind.split("_")[0]], method, tuple(settings), template)
         for folder in bodies(kind)
-        for sequence in sorted(folder.iterdir())
-        if sequence.is_dir()
+        for recording in sorted(folder.iterdir())
+        if recording.is_dir()
     ]
     with ProcessPoolExecutor() as pool:
         return dict(pool.map(_tracked, jobs))
@@ -61,22 +61,24 @@ def tracked(
 def _tracked(
     job: tuple[Path, str, str, str, tuple[str, ...], str | None],
 ) -> tuple[str, Measure]:
-    folder, sequence, observer, method, settings, template = job
+    folder, recording, preprocessor, method, settings, template = job
     own = folder.with_suffix(".yaml")
     size = Document.read(own).data["size"]["value"]
     template = template or f"{{kind: file, path: {own}, size: {size}}}"
     with TemporaryDirectory() as temporary:
         file = Path(temporary) / "experiment.yaml"
         file.write_text(
-            EXPERIMENT.format(folder=folder, template=template, observer=observer, method=method)
+            EXPERIMENT.format(
+                folder=folder, template=template, preprocessor=preprocessor, method=method
+            )
         )
-        experiment = Experiment.read(file, (*settings, f"dataset.sequences=[{sequence}]"))
+        experiment = Experiment.read(file, (*settings, f"dataset.recordings=[{recording}]"))
         measures = _measures(run(experiment, Path(temporary) / "out", figures=False))
-    return f"{folder.name}/{sequence}", measures[sequence]
+    return f"{folder.name}/{recording}", measures[recording]
 
 
 def tracked_utd(folder: Path, method: str) -> dict[str, Measure]:
-    """The figures of a method on the sequences of UTD-MHAD in a folder, by name."""
+    """The figures of a method on the recordings of UTD-MHAD in a folder, by name."""
     with TemporaryDirectory() as temporary:
         settings = (f"dataset.root={folder.absolute()}", f"methods={{method: {method}}}")
         experiment = Experiment.read(UTD, settings)
@@ -84,13 +86,13 @@ def tracked_utd(folder: Path, method: str) -> dict[str, Measure]:
 
 
 def _measures(outcome: Outcome) -> dict[str, Measure]:
-    for sequence, reason in outcome.failures["method"].items():
-        print(f"{sequence} failed: {reason}", file=sys.stderr)
+    for recording, reason in outcome.failures["method"].items():
+        print(f"{recording} failed: {reason}", file=sys.stderr)
     return outcome.measures["method"]
 
 
 def mean(measures: dict[str, Measure], figure: str) -> float:
-    """The mean of a figure over sequences."""
+    """The mean of a figure over recordings."""
     return sum(getattr(measure, figure) for measure in measures.values()) / len(measures)
 
 
@@ -100,7 +102,7 @@ def row(name: str, measures: dict[str, Measure]) -> dict[str, float]:
         "raw_cm": round(mean(measures, "joint_error_raw_cm"), 2),
         "adjusted_cm": round(mean(measures, "joint_error_adjusted_cm"), 2),
         "worst_raw_cm": round(max(m.joint_error_raw_cm or 0.0 for m in measures.values()), 2),
-        "near_percent": round(mean(measures, "near_percent"), 1),
+        "pck_percent": round(mean(measures, "pck_percent"), 1),
         "evaluations": round(mean(measures, "evaluations_per_frame"), 1),
     }
     print(f"| {name} | " + " | ".join(f"{figure:g}" for figure in figures.values()) + " |")

@@ -1,4 +1,4 @@
-"""What each part of the methods ``best`` and ``paper`` is worth, on synthetic sequences of people.
+"""What each part of the methods ``best`` and ``paper`` is worth, on synthetic recordings of people.
 
 python benchmarks/ablations.py
 """
@@ -24,12 +24,12 @@ ROWS: dict[str, tuple[str, ...]] = {
     **{f"without {term}": (without(term),) for term in TERMS},
     "without any term": ("methods.method.terms=[]",),
     "without recovery": ("methods.method.tracker.recovery=null",),
-    "tracker hold": ("methods.method.tracker={kind: hold}",),
+    "tracker hold": ("methods.method.tracker={kind: constant_pose}",),
     "4 iterations": ("methods.method.solver.max_iterations=4",),
     "10 iterations": ("methods.method.solver.max_iterations=10",),
     "L-BFGS": ("methods.method.solver={kind: lbfgs}",),
     **{
-        f"octree leaf {leaf:g} cm": (f"observer={{kind: octree, leaf: {leaf / 100:g}}}",)
+        f"octree leaf {leaf:g} cm": (f"preprocessor={{kind: octree, leaf: {leaf / 100:g}}}",)
         for leaf in (3.0, 4.5, 6.0, 9.0)
     },
 }

@@ -2,8 +2,8 @@
 
     python benchmarks/calibration.py
 
-The six sequences of the small body, tracked by ``best`` with the template of the right lengths,
-with the generic one, and with those that are calibrated on one sequence each.
+The six recordings of the small body, tracked by ``best`` with the template of the right lengths,
+with the generic one, and with those that are calibrated on one recording each.
 """
 
 from __future__ import annotations
@@ -28,12 +28,12 @@ def main() -> None:
     }
     (folder,) = bodies(BODY)
     with TemporaryDirectory() as temporary:
-        for sequence in CALIBRATED_ON:
-            file = Path(temporary) / f"{sequence}.yaml"
-            command = [sys.executable, "-m", "regkit", "calibrate", str(folder / sequence)]
+        for recording in CALIBRATED_ON:
+            file = Path(temporary) / f"{recording}.yaml"
+            command = [sys.executable, "-m", "regkit", "calibrate", str(folder / recording)]
             subprocess.run([*command, "--out", str(file)], check=True, stdout=sys.stderr)
             template = f"{{kind: file, path: {file}}}"
-            name = f"calibrated on {sequence}"
+            name = f"calibrated on {recording}"
             figures[name] = row(name, tracked(BODY, METHOD, template=template))
     last_line(figures)
 

@@ -39,7 +39,7 @@ def main() -> None:
     """Print the table, and its figures as one JSON object in the last line."""
     random = np.random.default_rng(0)
     body = Human(height=1.75).body(1.75)
-    primitives = GeneralizedSumOfGaussians().attach(body)
+    primitives = GeneralizedSumOfGaussians().bind(body)
     placed = primitives.place(body.place(body.skeleton.rest()).transforms)
     chosen = random.integers(len(placed.centres), size=POINTS)
     directions = random.normal(size=(POINTS, 3))
@@ -47,8 +47,8 @@ def main() -> None:
     offsets = 2.0 * primitives.scales[chosen] * directions
     points = placed.centres[chosen] + (placed.axes[chosen] @ offsets[:, :, None])[:, :, 0]
     data = Observation(points, np.ones(POINTS), np.full(POINTS, 0.02**2))
-    exact = Correlation(covariance="exact").against(data, placed)
-    frozen = Correlation(covariance="frozen").against(data, placed)
+    exact = Correlation(covariance="exact").bind(data, placed)
+    frozen = Correlation(covariance="frozen").bind(data, placed)
     exponents = -random.uniform(0.0, 50.0, size=(len(primitives), POINTS))
 
     with one_blas_thread():

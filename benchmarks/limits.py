@@ -24,7 +24,7 @@ from rich.progress import track
 from rich.table import Table
 
 from regkit.body import Body
-from regkit.interfaces import Method, Registered, Template
+from regkit.interfaces import Method, RegistrationResult, Template
 from regkit.observation import Observation
 from regkit.skeleton import Pose
 from regkit.system.optional import one_blas_thread
@@ -55,16 +55,16 @@ def problems(body: Body, count: int) -> Iterator[tuple[Observation, Pose]]:
     gaussians = body.gaussians["gsog"]
     root = np.eye(4)
     root[2, 3] = 2.0
-    joints = np.arange(bones.freedoms) >= bones.ball_freedoms.start
+    joints = np.arange(bones.dofs) >= bones.ball_dofs.start
     for _ in range(count):
-        step = random.uniform(0.2, 1.0) * joints * random.normal(size=bones.freedoms)
+        step = random.uniform(0.2, 1.0) * joints * random.normal(size=bones.dofs)
         target = bones.retract(bones.rest(root), step)
         placed = gaussians.place(body.place(target).transforms)
         chosen = random.integers(len(gaussians), size=POINTS)
         spread = gaussians.scales[chosen] * random.normal(size=(POINTS, 3))
         points = placed.centres[chosen] + np.einsum("nij,nj->ni", placed.axes[chosen], spread)
         data = Observation(points, np.ones(POINTS), np.full(POINTS, (0.005 * body.size) ** 2))
-        disturbed = bones.retract(target, 0.1 * joints * random.normal(size=bones.freedoms))
+        disturbed = bones.retract(target, 0.1 * joints * random.normal(size=bones.dofs))
         yield data, bones.limits.projected(disturbed)
 
 
@@ -82,17 +82,17 @@ def unlimited(body: Body) -> Body:
 
 def solved(
     body: Body, given: list[tuple[Observation, Pose]], title: str, options: dict[str, Any]
-) -> tuple[list[Registered], list[float]]:
+) -> tuple[list[RegistrationResult], list[float]]:
     """The outcome of a method on all problems, and the time that each took [s]."""
     method = Method.load("direct").model_validate(
         {"kind": "direct", "shape": "gsog", "kernel": "likelihood", **options}
     )
-    registrar = method.prepare(body)
+    registrar = method.bind(body)
     found, seconds = [], []
     console = Console(stderr=True)
     for data, start in track(given, title, console=console, disable=not console.is_terminal):
         begun = time.perf_counter()
-        found.append(registrar.register(data, start))
+        found.append(registrar.register(data, [start]))
         seconds.append(time.perf_counter() - begun)
     return found, seconds
 
@@ -101,7 +101,7 @@ def limited_table(body: Body, given: list[tuple[Observation, Pose]]) -> dict[str
     """Every solver within limits: the largest violation, the energy, the time."""
     columns = ("worst [rad]", "beyond 1e-6 rad [%]", "energy", "converged [%]", "median [ms]")
     table = Table("solver", *columns, title=f"{body.name}, {len(given)} poses")
-    plain = Method.load("direct")(shape="gsog", kernel="likelihood", solver="lbfgs").prepare(body)
+    plain = Method.load("direct")(shape="gsog", kernel="likelihood", solver="lbfgs").bind(body)
     figures = {}
     for name, options in LIMITED.items():
         found, seconds = solved(body, given, f"{body.name}: {name}", options)

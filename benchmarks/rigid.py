@@ -151,7 +151,7 @@ def aligned(
 
 
 def lidar(count: int, voxel: float) -> dict[str, dict[str, Any]]:
-    """The table of the LiDAR pair with so many points of each, thinned to voxels [m] or not."""
+    """The table of the LiDAR pair with so many points of each, downsampled to voxels [m] or not."""
     folder = DATA / "rigid_lidar_mit"
     random = np.random.default_rng(0)
     clouds = [read_cloud(folder / f"{name}.ply") for name in ("source", "target")]

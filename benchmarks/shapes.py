@@ -2,9 +2,9 @@
 
     python benchmarks/shapes.py [UTD_MHAD]
 
-Errors are means over the suite's 13 sequences of people and 6 of hands, with templates of the right
+Errors are means over the suite's 13 recordings of people and 6 of hands, with templates of right
 lengths; then over the six of the small body with the template of the average one, whose shape is
-another's; and, where its folder is given, over 14 real Kinect sequences of UTD-MHAD. Frames per
+another's; and, where its folder is given, over 14 real Kinect recordings of UTD-MHAD. Frames per
 second are those of the shipped walk and hand, in turns on one thread.
 """
 
@@ -24,10 +24,10 @@ METHODS = {
     "SoG": "{preset: best, shape: {kind: sog, surface: visible}}",
     "G-SoG": "{preset: best}",
     "spheres": "{preset: spheres}",
-    "mesh, point to point": "{preset: icp, kernel: {kind: point_to_point, way_back: 0.5}}",
+    "mesh, point to point": "{preset: icp, kernel: {kind: point_to_point, reverse_weight: 0.5}}",
     "mesh, point to plane": "{preset: icp}",
     "mesh, point to plane, textbook": (
-        "{preset: icp, kernel: {matches: fixed}, blur: [0.0, 0.0, 0.0]}"
+        "{preset: icp, kernel: {matches: fixed}, smoothing: [0.0, 0.0, 0.0]}"
     ),
     "G-SoG, without free_space": "{preset: best, terms: [visibility, intersection, continuity]}",
     "mesh, point to plane, without free_space": "{preset: icp, terms: [continuity]}",
@@ -45,7 +45,7 @@ def _preset(text: str) -> str:
 
 
 def speeds(methods: dict[str, str]) -> dict[str, dict[str, float]]:
-    """Frames per second on the shipped sequences, and their ratio to those of G-SoG."""
+    """Frames per second on the shipped recordings, and their ratio to those of G-SoG."""
     figures: dict[str, dict[str, float]] = {}
     print("\n| method | walk [fps] | of G-SoG | hand [fps] | of G-SoG |\n|---|--:|--:|--:|--:|")
     with one_blas_thread():
@@ -65,15 +65,15 @@ def speeds(methods: dict[str, str]) -> dict[str, dict[str, float]]:
 
 
 def print_each(measures: dict[str, dict[str, Measure]]) -> None:
-    """Print the errors of every method on every sequence."""
+    """Print the errors of every method on every recording."""
     print("\n| raw / adjusted [cm] | " + " | ".join(measures) + " |")
     print("|---|" + "--:|" * len(measures))
-    for sequence in next(iter(measures.values())):
+    for name in next(iter(measures.values())):
         cells = [
-            f"{own[sequence].joint_error_raw_cm:.2f} / {own[sequence].joint_error_adjusted_cm:.2f}"
+            f"{own[name].joint_error_raw_cm:.2f} / {own[name].joint_error_adjusted_cm:.2f}"
             for own in measures.values()
         ]
-        print(f"| {sequence} | {' | '.join(cells)} |")
+        print(f"| {name} | {' | '.join(cells)} |")
 
 
 def main() -> None:

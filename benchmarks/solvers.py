@@ -20,7 +20,7 @@ from rich.table import Table
 
 from regkit.body import Body
 from regkit.experiment import Experiment
-from regkit.interfaces import Method, Registered, Solver
+from regkit.interfaces import Method, RegistrationResult, Solver
 from regkit.observation import Observation
 from regkit.registration.problem import RegistrationProblem
 from regkit.skeleton import Pose
@@ -42,8 +42,8 @@ def tracking_table() -> dict[str, Any]:
     columns = ("ms per frame", "of that evaluation", "ratio", "evaluations", "energy")
     table = Table("solver", *columns, title="shipped walk, best, G-SoG")
     experiment = Experiment.read(DEMO)
-    (sequence,) = experiment.dataset.chosen()
-    data = [experiment.observer.observe(frame) for frame in sequence.frames()]
+    (recording,) = experiment.dataset.chosen()
+    data = [experiment.preprocessor.preprocess(frame) for frame in recording.frames()]
     start = found_start(experiment.template, data[0])
     figures: dict[str, Any] = {}
     for name, options in TRACKED.items():
@@ -68,10 +68,10 @@ def tracking_table() -> dict[str, Any]:
 
 def tracked(
     method: Method, body: Body, start: Pose, data: list[Observation]
-) -> tuple[list[Registered], float, float]:
+) -> tuple[list[RegistrationResult], float, float]:
     """A track, the time that it took, and how much of that was in evaluations [s]."""
     assert method.tracker is not None
-    follower = method.tracker.follow(method.prepare(body))
+    follower = method.tracker.bind(method.bind(body))
     evaluating = 0.0
 
     def timed(function: Any) -> Any:
@@ -89,7 +89,7 @@ def tracked(
         for name in ("normal_equations", "value_and_gradient")
     }
     with patch.multiple(RegistrationProblem, **looked_at):
-        past = [Registered.given(start)]
+        past = [RegistrationResult.given(start)]
         begun = time.perf_counter()
         for observation in data:
             past.append(follower.step(observation, past))

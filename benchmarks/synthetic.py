@@ -1,8 +1,8 @@
-"""How well people and hands are tracked on synthetic sequences with exact truth.
+"""How well people and hands are tracked on synthetic recordings with exact truth.
 
     python benchmarks/synthetic.py
 
-13 sequences of two bodies and 6 of two hands (other motions, views, noise and speeds than the
+13 recordings of two bodies and 6 of two hands (other motions, views, noise and speeds than the
 shipped samples), templates with the right lengths, the start found in each first frame.
 """
 
@@ -30,12 +30,12 @@ def main() -> None:
         figures[kind] = {name: row(name, measure) for name, measure in measures.items()}
         print(f"\n| {kind}, raw / adjusted [cm] | " + " | ".join(measures) + " |")
         print("|---|" + "--:|" * len(measures))
-        for sequence in measures["best"]:
+        for name in measures["best"]:
             cells = [
-                f"{m[sequence].joint_error_raw_cm:.1f} / {m[sequence].joint_error_adjusted_cm:.1f}"
+                f"{m[name].joint_error_raw_cm:.1f} / {m[name].joint_error_adjusted_cm:.1f}"
                 for m in measures.values()
             ]
-            print(f"| {sequence.split('_', 1)[1]} | " + " | ".join(cells) + " |")
+            print(f"| {name.split('_', 1)[1]} | " + " | ".join(cells) + " |")
     last_line(figures)
 
 

@@ -4,7 +4,7 @@
 
 The shipped walk (176x144 pixels, G-SoG of 13 Gaussians) and the shipped hand (18 Gaussians), on one
 thread: back-projection, observation, registration and tracking; finding the start is not counted.
-Every sequence is tracked several times, and the fastest counts: its cost when nothing interferes.
+Every recording is tracked several times, and the fastest counts: its cost when nothing interferes.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from regkit.experiment import Experiment
-from regkit.interfaces import Follower, Registered
+from regkit.interfaces import BoundTracker, RegistrationResult
 from regkit.observation import Frame
 from regkit.start import found_start
 from regkit.system.optional import one_blas_thread
@@ -26,7 +26,7 @@ from regkit.system.optional import one_blas_thread
 EXAMPLES = Path(__file__).parent.parent / "docs" / "examples"
 ROUNDS = 5
 PARTS = {
-    "observers": "observe",
+    "preprocessors": "preprocess",
     "kernels": "kernel",
     "terms": "terms",
     "silhouette": "terms",
@@ -37,7 +37,7 @@ PARTS = {
     "primitives": "kinematics",
     "surfels": "kinematics",
     "blending": "kinematics",
-    "gathering": "kinematics",
+    "accumulation": "kinematics",
     "solvers": "solver",
     "problem": "solver",
 }
@@ -49,33 +49,33 @@ class Bench:
 
     def __init__(self, example: str, method_text: str = "{preset: best}") -> None:
         experiment = Experiment.read(EXAMPLES / example, [f"methods={{method: {method_text}}}"])
-        (sequence,) = experiment.dataset.chosen()
+        (recording,) = experiment.dataset.chosen()
         method = experiment.methods["method"]
-        self.frames = list(sequence.frames())
-        self.observer = experiment.observer
-        start = found_start(experiment.template, self.observer.observe(self.frames[0]))
-        self.start = Registered.given(start.pose)
-        self.follower: Follower = (method.tracker or experiment.tracker).follow(
-            method.prepare(start.body)
+        self.frames = list(recording.frames())
+        self.preprocessor = experiment.preprocessor
+        start = found_start(experiment.template, self.preprocessor.preprocess(self.frames[0]))
+        self.start = RegistrationResult.given(start.pose)
+        self.follower: BoundTracker = (method.tracker or experiment.tracker).bind(
+            method.bind(start.body)
         )
 
-    def track(self) -> Iterator[Registered]:
-        """Track the sequence once, from the depth images on."""
+    def track(self) -> Iterator[RegistrationResult]:
+        """Track the recording once, from the depth images on."""
         past = [self.start]
         for frame in self.frames:
             assert frame.camera is not None
             assert frame.depth is not None
             points = frame.camera.back_projected(frame.depth)
             seen = Frame(points, frame.camera, frame.depth, frame.place)
-            past.append(self.follower.step(self.observer.observe(seen), past))
+            past.append(self.follower.step(self.preprocessor.preprocess(seen), past))
             yield past[-1]
 
     def seconds(self) -> float:
-        """The least time for the sequence over several rounds."""
+        """The least time for the recording over several rounds."""
         return min(self.round() for _ in range(ROUNDS))
 
     def round(self) -> float:
-        """The time for the sequence."""
+        """The time for the recording."""
         begun = time.perf_counter()
         evaluations = [found.evaluations for found in self.track()]
         ended = time.perf_counter()

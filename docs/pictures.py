@@ -17,7 +17,7 @@ DATA = DOCS / "examples" / "data"
 
 def notebook() -> None:
     """The sample walk as the notebook's page tracks it."""
-    walk = regkit.load_sequence(DATA / "human_walk", frames=12)
+    walk = regkit.load_recording(DATA / "human_walk", frames=12)
     person = regkit.load_template("human", height=1.63)
     tracked = regkit.track(walk, person)
     _save("notebook", tracked.plot(walk.truth()))
@@ -25,7 +25,7 @@ def notebook() -> None:
 
 def hand() -> None:
     """The sample gestures."""
-    gestures = regkit.load_sequence(DATA / "hand_gestures")
+    gestures = regkit.load_recording(DATA / "hand_gestures")
     _save("hand", regkit.track(gestures, "hand").plot(gestures.truth()))
 
 

@@ -20,7 +20,7 @@ class Dumbbells(ShapeModel):
     share: float = 0.5
     """Standard deviation as a part of the capsule's radius."""
 
-    def attach(self, body: Body) -> Gaussians:
+    def bind(self, body: Body) -> Gaussians:
         """Gaussians at the ends of the body's capsules."""
         capsules = body.capsules
         radii = capsules.radii.reshape(-1)

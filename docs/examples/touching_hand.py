@@ -40,11 +40,9 @@ def main() -> dict[str, float]:
 
     # The program: a step from a disturbed pose that explains the points within the joint limits.
     start = bones.limits.projected(
-        bones.retract(
-            truth, 0.1 * random.normal(size=bones.freedoms) * (np.arange(bones.freedoms) > 5)
-        )
+        bones.retract(truth, 0.1 * random.normal(size=bones.dofs) * (np.arange(bones.dofs) > 5))
     )
-    step = casadi.MX.sym("step", bones.freedoms)
+    step = casadi.MX.sym("step", bones.dofs)
     pose = retract(bones)(configuration(bones, start), step)
     energy = correlation(bones, gaussians, 150)(pose, points.T, np.ones(150), np.full(150, 1e-5))
     limits = joint_limits(bones)
@@ -58,7 +56,7 @@ def main() -> dict[str, float]:
             {"print_time": False, "ipopt": {"print_level": 0, "sb": "yes", "max_iter": 300}},
         )  # fmt: skip
         found = solver(
-            x0=np.zeros(bones.freedoms), lbx=-1.0, ubx=1.0,
+            x0=np.zeros(bones.dofs), lbx=-1.0, ubx=1.0,
             lbg=np.append(limits.lower, table[0]), ubg=np.append(limits.upper, table[1]),
         )  # fmt: skip
         distances[name] = float(found["g"][-1])

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from regkit.config.plugin import register
-from regkit.interfaces import JointEnergy, Scene, Strain, Term
+from regkit.interfaces import JointEnergy, JointResponse, Scene, Term
 from regkit.skeleton import Pose
 
 
@@ -18,18 +18,20 @@ class Tilt(JointEnergy):
     """The energy bound to a frame."""
 
     weight: float
-    freedoms: int
+    dofs: int
 
-    def __call__(self, pose: Pose) -> Strain:
+    def __call__(self, pose: Pose) -> JointResponse:
         """The energy, its force on the root's rotation, and its Gauss-Newton matrix."""
         # A turn of the root by w in its own frame moves its y axis by R (w x y): w is (-z, 0, x).
         rotation = pose.root[:3, :3]
         sine = rotation[[0, 2], 1]
-        slope = np.zeros((2, self.freedoms))
+        slope = np.zeros((2, self.dofs))
         slope[:, 3] = rotation[[0, 2], 2]
         slope[:, 5] = -rotation[[0, 2], 0]
         force = self.weight * sine @ slope
-        return Strain(0.5 * self.weight * float(sine @ sine), force, self.weight * slope.T @ slope)
+        return JointResponse(
+            0.5 * self.weight * float(sine @ sine), force, self.weight * slope.T @ slope
+        )
 
 
 @register
@@ -41,6 +43,6 @@ class Upright(Term):
     weight: float = 0.1
     """Weight against the kernel's energy."""
 
-    def against(self, scene: Scene) -> Tilt:
+    def bind(self, scene: Scene) -> Tilt:
         """Bind the term to the body; the frame does not matter."""
-        return Tilt(self.weight, scene.body.skeleton.freedoms)
+        return Tilt(self.weight, scene.body.skeleton.dofs)

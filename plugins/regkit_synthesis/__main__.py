@@ -1,4 +1,4 @@
-"""Makes depth sequences: ``python -m regkit_synthesis OUT [--suite]``."""
+"""Makes depth recordings: ``python -m regkit_synthesis OUT [--suite]``."""
 
 from __future__ import annotations
 
@@ -7,36 +7,36 @@ import sys
 from pathlib import Path
 
 from regkit.system.errors import RegkitError
+from regkit_synthesis.recording import DepthRecording
 from regkit_synthesis.samples import hand_gestures, human_walk
-from regkit_synthesis.sequence import DepthSequence
 from regkit_synthesis.suite import SUITE, rendered
 
 
 def main() -> int:
-    """Make the sequences that the command line asks for, and print what was written."""
+    """Make the recordings that the command line asks for, and print what was written."""
     parser = argparse.ArgumentParser(
         prog="python -m regkit_synthesis",
-        description="Make the sample depth sequences human_walk and hand_gestures, or a suite.",
+        description="Make the sample depth recordings human_walk and hand_gestures, or a suite.",
     )
-    parser.add_argument("out", type=Path, help="folder that the sequences go into")
+    parser.add_argument("out", type=Path, help="folder that the recordings go into")
     parser.add_argument("--seed", type=int, default=0, help="seed of the noise (default: 0)")
     parser.add_argument(
         "--suite",
         action="store_true",
-        help="make the evaluation suite instead: sequences of several bodies, and their templates",
+        help="make the evaluation suite instead: recordings of several bodies, and their templates",
     )
     arguments = parser.parse_args()
     out: Path = arguments.out
     try:
         print(
-            f"{'sequence':<32}{'frames':>8}{'joints':>8}{'pixels/frame':>14}{'kB':>8}", flush=True
+            f"{'recording':<32}{'frames':>8}{'joints':>8}{'pixels/frame':>14}{'kB':>8}", flush=True
         )
         if arguments.suite:
             _write_suite(out, arguments.seed)
         else:
             for make in (human_walk, hand_gestures):
-                sequence = make(arguments.seed)
-                _write(sequence, out / sequence.name)
+                recording = make(arguments.seed)
+                _write(recording, out / recording.name)
     except RegkitError as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
@@ -51,13 +51,13 @@ def _write_suite(out: Path, seed: int) -> None:
             print(path, flush=True)
 
 
-def _write(sequence: DepthSequence, folder: Path) -> None:
-    """Write a sequence and print a row about it."""
-    sequence.write(folder)
+def _write(recording: DepthRecording, folder: Path) -> None:
+    """Write a recording and print a row about it."""
+    recording.write(folder)
     size = sum(file.stat().st_size for file in folder.rglob("*") if file.is_file())
-    pixels = (sequence.depth > 0).sum() / len(sequence.depth)
+    pixels = (recording.depth > 0).sum() / len(recording.depth)
     print(
-        f"{folder!s:<32}{len(sequence.depth):>8}{len(sequence.joints):>8}"
+        f"{folder!s:<32}{len(recording.depth):>8}{len(recording.joints):>8}"
         f"{pixels:>14.0f}{size / 1000:>8.0f}",
         flush=True,
     )

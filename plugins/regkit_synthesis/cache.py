@@ -1,4 +1,4 @@
-"""Rendered sequences on disk, each kept under a name that its content decides."""
+"""Rendered recordings on disk, each kept under a name that its content decides."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from pathlib import Path
 
 from regkit.system.cache import VARIABLE, cache_folder
 from regkit.system.errors import DataError
-from regkit_synthesis.sequence import DepthSequence
+from regkit_synthesis.recording import DepthRecording
 
 _CHECKSUMS = "checksums.json"
 """The file of an entry that tells the SHA-256 of all others."""
@@ -29,8 +29,8 @@ _ABANDONED = 86400.0
 
 
 @dataclass(frozen=True)
-class SequenceCache:
-    """Folders of depth sequences, any of which may be lost or damaged: it is made again.
+class RecordingCache:
+    """Folders of depth recordings, any of which may be lost or damaged: it is made again.
 
     Attributes:
         folder: Where they are.
@@ -39,17 +39,17 @@ class SequenceCache:
     folder: Path
 
     @classmethod
-    def of_user(cls) -> SequenceCache:
+    def of_user(cls) -> RecordingCache:
         """The one in the user's cache folder."""
         return cls(cache_folder() / "synthetic")
 
-    def entry(self, key: str, make: Callable[[], DepthSequence]) -> Path:
-        """The folder of a sequence, written by whoever needs it first.
+    def entry(self, key: str, make: Callable[[], DepthRecording]) -> Path:
+        """The folder of a recording, written by whoever needs it first.
 
         Several processes may ask for the same one; each finds it whole.
 
         Args:
-            key: Stands for all that the sequence depends on.
+            key: Stands for all that the recording depends on.
             make: Makes it.
 
         Raises:
@@ -58,13 +58,13 @@ class SequenceCache:
         entry = self.folder / key
         if _is_intact(entry):
             return entry
-        sequence = make()
+        recording = make()
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
             _remove_abandoned(self.folder)
             with tempfile.TemporaryDirectory(dir=self.folder, prefix=_SCRATCH) as scratch:
                 new = Path(scratch) / key
-                sequence.write_into(new)
+                recording.write_into(new)
                 _write_checksums(new)
                 _put(new, entry, Path(scratch))
         except OSError as error:

@@ -46,7 +46,7 @@ class CameraNumbers(Model):
 
 
 class CameraFile(Model):
-    """A file with intrinsics, as a recorded sequence has."""
+    """A file with intrinsics, as a recorded recording has."""
 
     file: InputPath
     """Open3D's ``PinholeCameraIntrinsic`` JSON."""

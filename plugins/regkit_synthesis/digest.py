@@ -1,4 +1,4 @@
-"""A name for all that a rendered sequence depends on."""
+"""A name for all that a rendered recording depends on."""
 
 from __future__ import annotations
 

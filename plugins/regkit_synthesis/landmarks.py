@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from regkit.geometry.rigid import moved
+from regkit.geometry.rigid import transformed
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.system.arrays import Array, Indices
 
@@ -66,7 +66,7 @@ def placed(landmarks: Mapping[str, Landmark], mesh: SkinnedMesh, bone_poses: Arr
     motions = mesh.motions(bone_poses)
     bones = [landmark.bone for landmark in landmarks.values()]
     positions = np.array([landmark.position for landmark in landmarks.values()])
-    return moved(motions[bones], positions)
+    return transformed(motions[bones], positions)
 
 
 def _tip(mesh: SkinnedMesh, bone: int) -> Landmark:

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from regkit.geometry.camera import Camera
-from regkit.geometry.rigid import moved, rigid
+from regkit.geometry.rigid import rigid, transformed
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.system.arrays import Array
 from regkit.system.files import write_arrays, write_text
@@ -45,14 +45,14 @@ def main(folder: Path) -> None:
     rows = ["frame,joint,x,y,z"]
     for frame in range(FRAMES):
         T_camera_body = motion(mesh.vertices, frame)
-        depth = ray_cast(moved(T_camera_body, mesh.vertices), mesh.faces, camera)
+        depth = ray_cast(transformed(T_camera_body, mesh.vertices), mesh.faces, camera)
         seen = depth > 0.0
         depth[seen] += NOISE * random.standard_normal(int(seen.sum()))
         cloud = camera.back_projected(depth)
         name = f"{frame:06d}.npz"
         write_arrays(folder / "clouds" / name, {"points": cloud.astype(np.float32)})
         for joint, point in points.items():
-            place = moved(T_camera_body, point[None])[0]
+            place = transformed(T_camera_body, point[None])[0]
             rows.append(f"{frame},{joint}," + ",".join(f"{value:.4f}" for value in place))
     write_text(folder / "truth.csv", "\n".join(rows) + "\n")
     write_text(folder / "sequence.yaml", DESCRIPTION)

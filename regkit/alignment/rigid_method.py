@@ -12,8 +12,8 @@ from scipy.spatial import KDTree
 
 from regkit.body import Body
 from regkit.clouds import spacing
-from regkit.geometry.rigid import moved, rigid
-from regkit.interfaces import Fit, Method, Registered, Registrar
+from regkit.geometry.rigid import rigid, transformed
+from regkit.interfaces import Evaluation, Method, Registrar, RegistrationResult
 from regkit.observation import Observation
 from regkit.primitives import Primitives
 from regkit.skeleton import Pose
@@ -87,7 +87,7 @@ class RigidMethod(Method, ABC):
             size: Of the source [m], by which lengths are scaled.
         """
 
-    def prepare(self, body: Body) -> RigidRegistrar:
+    def bind(self, body: Body) -> BoundRigidMethod:
         """Nothing is done once, but what cannot be is told.
 
         Raises:
@@ -117,11 +117,11 @@ class RigidMethod(Method, ABC):
             scales=np.zeros((len(points), 3)),
             weights=np.ones(len(points)),
         )
-        return RigidRegistrar(self, body, primitives)
+        return BoundRigidMethod(self, body, primitives)
 
 
 @dataclass(frozen=True)
-class RigidRegistrar(Registrar):
+class BoundRigidMethod(Registrar):
     """A library's method for one body of one segment.
 
     Attributes:
@@ -137,21 +137,19 @@ class RigidRegistrar(Registrar):
     def register(
         self,
         observation: Observation,
-        expected: Pose,
-        *others: Pose,
-        blurs: Sequence[float] | None = None,
-        after: Registered | None = None,
-    ) -> Registered:
-        """What the library finds from the best of the given poses.
-
-        Blurs and former frames mean nothing to it.
+        candidates: Sequence[Pose],
+        *,
+        prior: Pose | None = None,
+        warm_start: RegistrationResult | None = None,
+    ) -> RegistrationResult:
+        """What the library finds from the best candidate; priors and warm starts are not used.
 
         Raises:
             DataError: If the library fails, or finds no rigid motion.
         """
-        start = expected
-        if others:
-            start = min((expected, *others), key=lambda pose: self.fit(observation, pose).energy)
+        start = candidates[0]
+        if len(candidates) > 1:
+            start = min(candidates, key=lambda pose: self.evaluate(observation, pose).energy)
         target = np.ascontiguousarray(observation.points)
         try:
             found = self.method.aligned(self.primitives.centres, target, start.root, self.body.size)
@@ -163,17 +161,23 @@ class RigidRegistrar(Registrar):
             ) from error
         _check_rigid(found.transform, self.method.kind)
         pose = Pose(np.asarray(found.transform), start.balls, start.hinges)
-        fit = self.fit(observation, pose)
-        return Registered(
-            pose, fit.energy, fit.share, found.converged, found.iterations, 0, found.message
+        evaluation = self.evaluate(observation, pose)
+        return RegistrationResult(
+            pose,
+            evaluation.energy,
+            evaluation.inlier_share,
+            found.converged,
+            found.iterations,
+            0,
+            found.message,
         )
 
-    def fit(self, observation: Observation, pose: Pose) -> Fit:
+    def evaluate(self, observation: Observation, pose: Pose) -> Evaluation:
         """How far the points of the data are from those of the body, against their own spacing."""
-        tree = KDTree(moved(pose.root, self.primitives.centres))
+        tree = KDTree(transformed(pose.root, self.primitives.centres))
         distances = tree.query(observation.points)[0] / self._spacing
-        explained = np.exp(-0.5 * distances**2)
-        return Fit(float(1.0 - explained.mean()), explained)
+        inliers = np.exp(-0.5 * distances**2)
+        return Evaluation(float(1.0 - inliers.mean()), inliers)
 
     @cached_property
     def _spacing(self) -> float:

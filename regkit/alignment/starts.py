@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 
 from regkit.alignment.features import by_features
-from regkit.clouds import thinned, voxel_for
+from regkit.clouds import voxel_downsampled, voxel_for
 from regkit.config.model import did_you_mean
-from regkit.geometry.rigid import moved
+from regkit.geometry.rigid import transformed
 from regkit.interfaces import Method
 from regkit.search.rotations import by_rotations
 from regkit.system.arrays import Array
@@ -70,7 +70,7 @@ def nearest(source: Array, target: Array) -> Beginning:
 
     few, tree = _sketch(source), KDTree(_sketch(target))
     gaps = [
-        float(np.median(tree.query(moved(transform, few))[0]))
+        float(np.median(tree.query(transformed(transform, few))[0]))
         for transform in (np.eye(4), _centroids(source, target))
     ]
     told = "half of the source is within {:.3g} m of the target, {:.3g} m {} are"
@@ -124,4 +124,4 @@ def _centroids(source: Array, target: Array) -> Array:
 
 def _sketch(points: Array) -> Array:
     voxel = voxel_for(points, SKETCH)
-    return points if voxel is None else thinned(points, voxel)
+    return points if voxel is None else voxel_downsampled(points, voxel)

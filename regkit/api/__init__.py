@@ -2,7 +2,7 @@
 
 from regkit.api.aligning import CloudAlignment, align
 from regkit.api.choices import load_template
-from regkit.api.frames import load_sequence
+from regkit.api.frames import load_recording
 from regkit.api.registering import register, track
 from regkit.api.results import Registration, Tracking
 from regkit.geometry.camera import Camera
@@ -15,7 +15,7 @@ __all__ = [
     "Tracking",
     "Truth",
     "align",
-    "load_sequence",
+    "load_recording",
     "load_template",
     "register",
     "track",

@@ -14,7 +14,7 @@ from regkit.api.choices import Choice, chosen_method, told
 from regkit.api.numbers import checked_numbers
 from regkit.api.tables import Summary
 from regkit.clouds import check_writable, read_cloud, write_cloud
-from regkit.geometry.rigid import moved
+from regkit.geometry.rigid import transformed
 from regkit.interfaces import Method
 from regkit.system.arrays import Array, checked_points
 from regkit.system.errors import RegkitError
@@ -50,7 +50,7 @@ class CloudAlignment(Summary):
     @property
     def aligned(self) -> Array:
         """The source's points on the target, (N, 3) [m]."""
-        return moved(self.transform, self.source)
+        return transformed(self.transform, self.source)
 
     @property
     def fitness(self) -> float:
@@ -104,8 +104,8 @@ def align(
         target: Points (M, 3) [m] that rest, or a file.
         method: The preset ``"rigid"``, a kind such as ``"open3d_icp"`` or ``"small_gicp"``, a
             mapping such as ``{"kind": "open3d_icp", "estimation": "generalized"}``, or a method.
-        voxel: Side of the cubes to which both are thinned [m]; 0 for not at all. Without it some
-            5000 points are left.
+        voxel: Side of the cubes to which both are downsampled [m]; 0 for not at all. Without it
+            some 5000 points are left.
         start: Where to set out from: ``"nearest"`` of identity and centroids, ``"identity"``,
             ``"centroids"``, ``"rotations"`` or ``"features"`` for any orientation, or a file with a
             4x4 matrix.

@@ -13,7 +13,7 @@ from regkit.config.document import Document
 from regkit.config.model import Model, did_you_mean
 from regkit.config.plugin import Plugin
 from regkit.config.preset import presets_of
-from regkit.interfaces import Method, Observer, Template, Tracker
+from regkit.interfaces import Method, Preprocessor, Template, Tracker
 from regkit.skeleton import PoseDescription
 from regkit.system.errors import ConfigError
 
@@ -35,8 +35,8 @@ class _OfStart(Model):
 
 class _OfMethod(Model):
     method: Method
-    observer: Observer | None = None
-    tracker: Tracker = Field(default="hold", validate_default=True)
+    preprocessor: Preprocessor | None = None
+    tracker: Tracker = Field(default="constant_pose", validate_default=True)
 
 
 def load_template(source: Choice[Template], **options: object) -> Template:
@@ -63,16 +63,16 @@ def load_template(source: Choice[Template], **options: object) -> Template:
 
 def chosen_method(
     method: Choice[Method],
-    observer: Choice[Observer] | None = None,
-    tracker: Choice[Tracker] = "hold",
+    preprocessor: Choice[Preprocessor] | None = None,
+    tracker: Choice[Tracker] = "constant_pose",
     *,
     place: str,
-) -> tuple[Method, Observer | None, Tracker]:
+) -> tuple[Method, Preprocessor | None, Tracker]:
     """A method, what makes its data, and what leads it from frame to frame.
 
     Args:
         method: A preset's name or file, a kind, a mapping, or the method.
-        observer: Likewise; None if it is left to the data.
+        preprocessor: Likewise; None if it is left to the data.
         tracker: Likewise; a method that brings its own has that one.
         place: The function that was called, for messages.
 
@@ -81,11 +81,11 @@ def chosen_method(
     """
     data = {
         "method": _method(method, place),
-        "observer": None if observer is None else _mapping(observer),
+        "preprocessor": None if preprocessor is None else _mapping(preprocessor),
         "tracker": _mapping(tracker),
     }
     chosen = Document(data, {(): place}).validated(_OfMethod)
-    return chosen.method, chosen.observer, chosen.method.tracker or chosen.tracker
+    return chosen.method, chosen.preprocessor, chosen.method.tracker or chosen.tracker
 
 
 def described_start(start: Mapping[str, Any], *, place: str) -> PoseDescription:

@@ -14,7 +14,7 @@ from regkit.api.numbers import checked_numbers
 from regkit.config.document import Document
 from regkit.config.model import Model
 from regkit.geometry.camera import Camera
-from regkit.interfaces import Dataset, Sequence
+from regkit.interfaces import Dataset, Recording
 from regkit.observation import Frame
 from regkit.system.arrays import checked_points
 from regkit.system.errors import ConfigError, DataError
@@ -22,16 +22,16 @@ from regkit.system.errors import ConfigError, DataError
 Measured = Frame | ArrayLike
 """A depth image (H, W) [m], a cloud (N, 3) [m], or a frame."""
 
-Frames = Sequence | Dataset | str | Path | Many[Measured] | ArrayLike
-"""Depth images (T, H, W) [m], a list of images or clouds, a folder, a dataset or a sequence."""
+Frames = Recording | Dataset | str | Path | Many[Measured] | ArrayLike
+"""Depth images (T, H, W) [m], a list of images or clouds, a folder, a dataset or a recording."""
 
 Intrinsics = Camera | str | Path | ArrayLike
 """A camera, its ``camera.json``, or its matrix K (3, 3) [px]."""
 
 
 @dataclass(frozen=True)
-class GivenFrames(Sequence):
-    """A sequence of frames that are there already.
+class GivenFrames(Recording):
+    """A recording of frames that are there already.
 
     Attributes:
         given: The frames.
@@ -51,8 +51,8 @@ class _OfDataset(Model):
     dataset: Dataset
 
 
-def load_sequence(folder: str | Path, *, frames: int | None = None) -> Sequence:
-    """A recorded sequence: a folder with ``depth/`` or ``clouds/`` and a ``sequence.yaml``.
+def load_recording(folder: str | Path, *, frames: int | None = None) -> Recording:
+    """A recorded recording: a folder with ``depth/`` or ``clouds/`` and a ``sequence.yaml``.
 
     ``frames()`` yields its frames, ``truth()`` its reference joints if there are any.
 
@@ -61,26 +61,26 @@ def load_sequence(folder: str | Path, *, frames: int | None = None) -> Sequence:
         frames: Take only so many of its frames.
 
     Raises:
-        RegkitError: If there is no sequence, or there are several, or it is damaged.
+        RegkitError: If there is no recording, or there are several, or it is damaged.
     """
     kind = "clouds" if (Path(folder) / "clouds").is_dir() else "depth"
     data = {"dataset": {"kind": kind, "root": str(folder), "frames": frames}}
-    document = Document(data, {(): "load_sequence"})
+    document = Document(data, {(): "load_recording"})
     return _only(document.validated(_OfDataset).dataset)
 
 
-def sequence_of(frames: Frames, camera: Intrinsics | None, fps: float) -> Sequence:
-    """The sequence that was given, or one of the arrays that were.
+def recording_of(frames: Frames, camera: Intrinsics | None, fps: float) -> Recording:
+    """The recording that was given, or one of the arrays that were.
 
     Raises:
         RegkitError: If these are no frames.
     """
-    if isinstance(frames, (Sequence, Dataset, str, Path)):
+    if isinstance(frames, (Recording, Dataset, str, Path)):
         if camera is not None:
             raise ConfigError("frames that are read have a camera of their own", place="camera")
-        if isinstance(frames, Sequence):
+        if isinstance(frames, Recording):
             return frames
-        return _only(frames) if isinstance(frames, Dataset) else load_sequence(frames)
+        return _only(frames) if isinstance(frames, Dataset) else load_recording(frames)
     if isinstance(frames, np.ndarray) and frames.ndim < 3:
         raise DataError(
             f"one array of shape {frames.shape}; these must be many: depth images (T, H, W) or a "
@@ -145,16 +145,16 @@ def frame_of(measured: Measured, camera: Intrinsics | None, *, place: str) -> Fr
         raise error.at(place) from None
 
 
-def _only(dataset: Dataset) -> Sequence:
-    sequences = dataset.chosen()
-    if len(sequences) > 1:
-        names = ", ".join(sequence.name for sequence in sequences[:5])
+def _only(dataset: Dataset) -> Recording:
+    recordings = dataset.chosen()
+    if len(recordings) > 1:
+        names = ", ".join(recording.name for recording in recordings[:5])
         raise ConfigError(
-            f"there are {len(sequences)} sequences ({names}{', ...' * (len(sequences) > 5)}); "
-            "name one (sequences), or take one of .chosen()",
+            f"there are {len(recordings)} recordings ({names}{', ...' * (len(recordings) > 5)}); "
+            "name one (recordings), or take one of .chosen()",
             place="dataset",
         )
-    return sequences[0]
+    return recordings[0]
 
 
 def _camera(camera: Intrinsics, shape: tuple[int, ...]) -> Camera:

@@ -28,12 +28,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, repr=False)
 class Tracking(Summary):
-    """A tracked sequence of T frames.
+    """A tracked recording of T frames.
 
     ``len`` is T, and an index gives the ``Registration`` of a frame.
 
     Attributes:
-        name: What the sequence is called.
+        name: What the recording is called.
         method: What the method is called.
         fps: Frames per second at which it was recorded.
         registrar: What registered the frames.
@@ -151,7 +151,7 @@ class Tracking(Summary):
         """What a table says of it."""
         measure = self.measure()
         return {
-            "sequence": f"{self.name}, {len(self)} frames",
+            "recording": f"{self.name}, {len(self)} frames",
             **_rows(self, measure),
             "converged": f"{len(self) - int(measure.unconverged_frames or 0)} of {len(self)}",
             "speed": f"{measure.fps:.3g} frames per second",
@@ -163,7 +163,7 @@ class Registration(Summary):
     """A body's pose in one frame.
 
     Attributes:
-        tracking: The same as a sequence of one frame.
+        tracking: The same as a recording of one frame.
     """
 
     tracking: Tracking

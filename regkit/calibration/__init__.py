@@ -1,4 +1,4 @@
-"""The proportions of the person or hand that a sequence shows."""
+"""The proportions of the person or hand that a recording shows."""
 
 from regkit.calibration.calibration import Calibration, Watcher
 from regkit.calibration.subject import Subject

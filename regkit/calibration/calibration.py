@@ -1,4 +1,4 @@
-"""Calibration: a template that has the proportions of the person or hand in a sequence."""
+"""Calibration: a template that has the proportions of the person or hand in a recording."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from regkit.calibration.problem import SubjectProblem
 from regkit.calibration.shape import Shape
 from regkit.calibration.subject import Subject
 from regkit.config.model import Model
-from regkit.interfaces import Method, Observer, Sequence, Solver, Template, Tracker
+from regkit.interfaces import Method, Preprocessor, Recording, Solver, Template, Tracker
 from regkit.skeleton import PoseDescription
 from regkit.start import Start, found_start, given_start
 from regkit.system.arrays import Array
@@ -49,60 +49,60 @@ class Calibration(Model):
 
     template: Template
     """What is seen, of usual proportions."""
-    observer: Observer | None = None
+    preprocessor: Preprocessor | None = None
     """How frames become data; points averaged in cubes that suit the body's size without it."""
     start: PoseDescription | None = None
     """Pose in the first frame; found from the cloud without it. It needs the template's size."""
     frames: Annotated[int, Field(ge=1)] = 12
     """In how many frames the body is looked at, spread over those that are tracked."""
     longest: Annotated[int, Field(ge=1)] = 300
-    """How many frames are tracked at most, from the start of the sequence."""
+    """How many frames are tracked at most, from the start of the recording."""
     method: Method = Field(default={"preset": "best"}, validate_default=True)
-    """What registers the body to each frame of the sequence."""
-    tracker: Tracker = Field(default="hold", validate_default=True)
+    """What registers the body to each frame of the recording."""
+    tracker: Tracker = Field(default="constant_pose", validate_default=True)
     """How one frame's pose leads to the next, if the method does not say."""
     solver: Solver = Field(default=SOLVER, validate_default=True)
     """What makes the gaps of all frames small."""
 
-    def subject(self, sequence: Sequence, watcher: Watcher) -> Subject:
-        """The subject of a sequence.
+    def subject(self, recording: Recording, watcher: Watcher) -> Subject:
+        """The subject of a recording.
 
         Raises:
-            RegkitError: If the template has no capsules, the sequence cannot be tracked, or the
+            RegkitError: If the template has no capsules, the recording cannot be tracked, or the
                 body that comes out is none.
         """
         with one_blas_thread():
-            return self._subject(sequence, watcher)
+            return self._subject(recording, watcher)
 
-    def _subject(self, sequence: Sequence, watcher: Watcher) -> Subject:
+    def _subject(self, recording: Recording, watcher: Watcher) -> Subject:
         shape = Shape(self.template.description())
-        start = self._start(sequence)
+        start = self._start(recording)
         x = shape.origin(start.body.size)
         for _ in range(ROUNDS):
-            looks = self._looks(sequence, start, watcher)
+            looks = self._looks(recording, start, watcher)
             x, looks = self._fitted(shape, x, looks, watcher)
             start = Start(shape.body(x), looks.first)
-        return Subject.found(shape, x, looks, sequence.name)
+        return Subject.found(shape, x, looks, recording.name)
 
-    def _observer(self) -> Observer:
-        """The given observer, or one for a body of the usual size."""
-        if self.observer is not None:
-            return self.observer
+    def _preprocessor(self) -> Preprocessor:
+        """The given preprocessor, or one for a body of the usual size."""
+        if self.preprocessor is not None:
+            return self.preprocessor
         size = float(np.median(self.template.candidate_sizes()))
         voxel = max(VOXEL * size, SMALLEST_VOXEL)
         points = {"kind": "points", "voxel": voxel, "sigma": max(voxel / 3.0, SMALLEST_VOXEL / 2.0)}
-        return TypeAdapter[Observer](Observer).validate_python(points)
+        return TypeAdapter[Preprocessor](Preprocessor).validate_python(points)
 
-    def _start(self, sequence: Sequence) -> Start:
+    def _start(self, recording: Recording) -> Start:
         """The given start, or the one found in the first frame."""
         if self.start is not None:
             start = given_start(self.template, self.start)
         else:
-            frame = next(sequence.frames())
+            frame = next(recording.frames())
             try:
-                observation = self._observer().observe(frame)
+                observation = self._preprocessor().preprocess(frame)
             except RegkitError as error:
-                raise error.at(frame.place or sequence.name) from None
+                raise error.at(frame.place or recording.name) from None
             start = found_start(self.template, observation)
         if not len(start.body.capsules):
             raise ConfigError(
@@ -111,13 +111,13 @@ class Calibration(Model):
             )
         return start
 
-    def _looks(self, sequence: Sequence, start: Start, watcher: Watcher) -> Looks:
+    def _looks(self, recording: Recording, start: Start, watcher: Watcher) -> Looks:
         """The body tracked, and the frames chosen in which it is looked at."""
-        length = min(sequence.length, self.longest)
+        length = min(recording.length, self.longest)
         watcher.begin("tracking", length)
-        registrar = self.method.prepare(start.body)
+        registrar = self.method.bind(start.body)
         tracker = self.method.tracker or self.tracker
-        track = tracked(sequence, self._observer(), registrar, tracker, start.pose)
+        track = tracked(recording, self._preprocessor(), registrar, tracker, start.pose)
         return spread(_watched(islice(track, length), watcher), length, self.frames)
 
     def _fitted(

@@ -1,4 +1,4 @@
-"""The frames of a sequence in which a body is looked at."""
+"""The frames of a recording in which a body is looked at."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class Looks:
     """A body seen in several frames.
 
     Attributes:
-        first: Its pose in the sequence's first frame.
+        first: Its pose in the recording's first frame.
         clouds: The data of the frames that are looked at.
         poses: The body's poses in them.
     """
@@ -30,7 +30,7 @@ class Looks:
 
 
 def spread(track: Iterable[TrackedFrame], length: int, count: int) -> Looks:
-    """Of each of ``count`` equal parts of a track the frame that was explained best.
+    """Of each of ``count`` equal parts of a track the frame with the most inliers.
 
     Only these are kept, for a long track of depth images is large.
 
@@ -47,7 +47,7 @@ def spread(track: Iterable[TrackedFrame], length: int, count: int) -> Looks:
             first.append(frame.registered.pose)
         rival = best.setdefault(index * count // length, frame)
         # A method that cannot tell says NaN, which is never more.
-        if frame.registered.explained > rival.registered.explained:
+        if frame.registered.inlier_share > rival.registered.inlier_share:
             best[index * count // length] = frame
     return Looks(
         first[0],

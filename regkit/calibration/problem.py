@@ -56,7 +56,7 @@ class SubjectProblem(Problem):
         self._charts = [TangentCoordinates(body.skeleton, pose) for pose in poses]
         self._weight = EVIDENCE / len(clouds)
         self._spring = np.full(len(self._charts[0].origin()), STIFFNESS**2)
-        self._spring[: body.skeleton.ball_freedoms.start] = 0.0
+        self._spring[: body.skeleton.ball_dofs.start] = 0.0
         lower, upper = zip(*(chart.bounds() for chart in self._charts), strict=True)
         free = np.full(len(shape), np.inf)
         self.start = np.concatenate([start, *(chart.origin() for chart in self._charts)])
@@ -115,7 +115,7 @@ class SubjectProblem(Problem):
         weights = np.concatenate([side.weights for side in sides])
         factors = np.concatenate([slopes.to_proportions(side) for side in sides])
         turns = np.concatenate([slopes.to_pose(side) for side in sides])
-        rows = np.column_stack([factors.sum(axis=1), factors, turns @ chart.differential(step)])
+        rows = np.column_stack([factors.sum(axis=1), factors, turns @ chart.jacobian(step)])
         rows /= self._reach
         tensions = weights / (1.0 + gaps**2)
         spring = np.concatenate([np.zeros(len(self._shape)), self._spring])
@@ -134,8 +134,6 @@ class SubjectProblem(Problem):
 
     def _places(self) -> list[Indices]:
         """Where the steps of each pose stand among the coordinates."""
-        freedoms = len(self._spring)
+        dofs = len(self._spring)
         first = len(self._shape)
-        return [
-            first + frame * freedoms + np.arange(freedoms) for frame in range(len(self._charts))
-        ]
+        return [first + frame * dofs + np.arange(dofs) for frame in range(len(self._charts))]

@@ -42,8 +42,8 @@ class Subject:
     strange: float
 
     @classmethod
-    def found(cls, shape: Shape, x: Array, looks: Looks, sequence: str) -> Subject:
-        """The subject whose shape is the vector x (1 + 2 G), seen in frames of a sequence.
+    def found(cls, shape: Shape, x: Array, looks: Looks, recording: str) -> Subject:
+        """The subject whose shape is the vector x (1 + 2 G), seen in frames of a recording.
 
         Raises:
             DataError: If no body is like that, or the data are elsewhere.
@@ -54,9 +54,9 @@ class Subject:
         try:
             check(shape, x, off)
         except DataError as error:
-            raise error.at(sequence) from None
+            raise error.at(recording) from None
         return cls(
-            description=_named(shape.description(x), sequence, len(looks.poses)),
+            description=_named(shape.description(x), recording, len(looks.poses)),
             proportions=shape.proportions(x),
             frames=len(looks.poses),
             distance=off,
@@ -64,12 +64,12 @@ class Subject:
         )
 
 
-def _named(description: BodyDescription, sequence: str, frames: int) -> BodyDescription:
+def _named(description: BodyDescription, recording: str, frames: int) -> BodyDescription:
     """The description, which says where its proportions come from."""
-    source = f"Lengths and girths: fitted to {frames} frames of the sequence {sequence}"
+    source = f"Lengths and girths: fitted to {frames} frames of the recording {recording}"
     return description.model_copy(
         update={
-            "title": f"{description.title}; with the proportions seen in {sequence}",
+            "title": f"{description.title}; with the proportions seen in {recording}",
             "sources": (*description.sources, source),
         }
     )
@@ -81,7 +81,7 @@ def check(shape: Shape, x: Array, off: float) -> None:
     Raises:
         DataError: If the surface is far from the data, or a bone's length is extreme.
     """
-    cure = "the body was not found; give its size or a start, or take another sequence"
+    cure = "the body was not found; give its size or a start, or take another recording"
     size = shape.description(x).size.value
     if off > FARTHEST * size:
         raise DataError(f"the body's surface lies {100.0 * off:.1f} cm from the data: {cure}")

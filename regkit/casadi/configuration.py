@@ -91,17 +91,17 @@ def retract(skeleton: Skeleton) -> Any:
     """
     ca = casadi()
     numbers = ca.SX.sym("configuration", length(skeleton))
-    step = ca.SX.sym("step", skeleton.freedoms)
+    step = ca.SX.sym("step", skeleton.dofs)
     parts = split(skeleton, numbers)
     moved = []
     if skeleton.free:
         turned = rotations.product(parts.rotation, rotations.exponential(step[3:6]))
         moved += [parts.position + step[:3], turned]
-    first = skeleton.ball_freedoms.start
+    first = skeleton.ball_dofs.start
     for index, ball in enumerate(parts.balls):
         at = first + 3 * index
         moved.append(rotations.product(ball, rotations.exponential(step[at : at + 3])))
-    moved.append(parts.hinges + step[skeleton.hinge_freedoms])
+    moved.append(parts.hinges + step[skeleton.hinge_dofs])
     return ca.Function(
         "retract", [numbers, step], [ca.vertcat(*moved)],
         ["configuration", "step"], ["moved"],

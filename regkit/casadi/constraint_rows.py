@@ -42,7 +42,7 @@ class Row:
     upper: float
 
 
-def gathered(name: str, numbers: Any, rows: list[Row]) -> ConstraintRows:
+def accumulated(name: str, numbers: Any, rows: list[Row]) -> ConstraintRows:
     """Rows as one function, called ``name``, of the configuration ``numbers``."""
     ca = casadi()
     function = ca.Function(

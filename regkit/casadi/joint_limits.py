@@ -20,7 +20,7 @@ import numpy as np
 
 from regkit.casadi import rotations
 from regkit.casadi.configuration import length, split
-from regkit.casadi.constraint_rows import ConstraintRows, Row, gathered
+from regkit.casadi.constraint_rows import ConstraintRows, Row, accumulated
 from regkit.geometry.rotation import conjugate, cross
 from regkit.skeleton import Skeleton
 from regkit.system.arrays import Array
@@ -34,7 +34,7 @@ NOWHERE = 1e-30
 def ball_limits(skeleton: Skeleton) -> ConstraintRows:
     """The rows of all ball joints that have a limit: swing, then twist, joint by joint."""
     numbers = casadi().SX.sym("configuration", length(skeleton))
-    return gathered("ball_limits", numbers, list(_ball_rows(skeleton, numbers)))
+    return accumulated("ball_limits", numbers, list(_ball_rows(skeleton, numbers)))
 
 
 @lru_cache(maxsize=16)
@@ -42,12 +42,12 @@ def joint_limits(skeleton: Skeleton) -> ConstraintRows:
     """All limits of a skeleton: those of its ball joints, of its hinges, and couplings."""
     numbers = casadi().SX.sym("configuration", length(skeleton))
     rows = [*_ball_rows(skeleton, numbers), *_hinge_rows(skeleton, numbers)]
-    return gathered("joint_limits", numbers, rows)
+    return accumulated("joint_limits", numbers, rows)
 
 
 def _ball_rows(skeleton: Skeleton, numbers: Any) -> Iterator[Row]:
     limits = skeleton.limits
-    names = _names(skeleton, skeleton.ball_freedoms, 3)
+    names = _names(skeleton, skeleton.ball_dofs, 3)
     for index, ball in enumerate(split(skeleton, numbers).balls):
         centre = conjugate(limits.centre[index])
         relative = rotations.product(casadi().DM(centre), rotations.normalized(ball))
@@ -66,7 +66,7 @@ def _ball_rows(skeleton: Skeleton, numbers: Any) -> Iterator[Row]:
 
 def _hinge_rows(skeleton: Skeleton, numbers: Any) -> Iterator[Row]:
     hinges = split(skeleton, numbers).hinges
-    names = _names(skeleton, skeleton.hinge_freedoms, 1)
+    names = _names(skeleton, skeleton.hinge_dofs, 1)
     # Within the limits of a leader and with its coupling a follower keeps its own.
     for index in skeleton.limits.couplings.independent.tolist():
         low, high = skeleton.limits.hinge[index]
@@ -80,10 +80,10 @@ def _hinge_rows(skeleton: Skeleton, numbers: Any) -> Iterator[Row]:
         yield Row(f"{names[follower]}.coupling", misfit, 0.0, 0.0)
 
 
-def _names(skeleton: Skeleton, freedoms: slice, each: int) -> list[str]:
-    """The segment of each joint in a range of freedoms."""
-    owners = {int(one): name for name, own in skeleton.joint_freedoms.items() for one in own}
-    return [owners[first] for first in range(freedoms.start, freedoms.stop, each)]
+def _names(skeleton: Skeleton, dofs: slice, each: int) -> list[str]:
+    """The segment of each joint in a range of dofs."""
+    owners = {int(one): name for name, own in skeleton.joint_dofs.items() for one in own}
+    return [owners[first] for first in range(dofs.start, dofs.stop, each)]
 
 
 def _twist_from(quaternion: Any, axis: Array, middle: float) -> Any:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from regkit.calibration import Subject
 
 OPENING = """\
-What `regkit calibrate` found in {frames} frames of the sequence {sequence}. To use it:
+What `regkit calibrate` found in {frames} frames of the recording {recording}. To use it:
 template: {{kind: file, path: {file}}}
 
 Lengths are in metres and angles in degrees."""
@@ -29,8 +29,8 @@ def calibrate(
     source: Annotated[
         Path,
         typer.Argument(
-            metavar="SEQUENCE",
-            help="Folder of a depth sequence, or an experiment's YAML file that names its data.",
+            metavar="RECORDING",
+            help="Folder of a depth recording, or an experiment's YAML file that names its data.",
             show_default=False,
         ),
     ],
@@ -46,12 +46,12 @@ def calibrate(
     out: Annotated[
         Path, typer.Option(metavar="FILE", help="The template to write, or to replace.")
     ] = Path("subject.yaml"),
-    sequence: Annotated[
+    recording: Annotated[
         str | None,
-        typer.Option(metavar="NAME", help="Which sequence to look at, if there are several."),
+        typer.Option(metavar="NAME", help="Which recording to look at, if there are several."),
     ] = None,
     frames: Annotated[
-        int, typer.Option(min=1, help="In how many frames, spread over the sequence, to look.")
+        int, typer.Option(min=1, help="In how many frames, spread over the recording, to look.")
     ] = 12,
     settings: Annotated[
         list[str] | None,
@@ -59,17 +59,17 @@ def calibrate(
     ] = None,
     plugin: PluginFiles = None,
 ) -> None:
-    """Make a template with the proportions of the person or hand that a sequence shows."""
+    """Make a template with the proportions of the person or hand that a recording shows."""
     from regkit.cli.calibration_source import Source
     from regkit.cli.template_file import check_replaceable, write_template
 
     run_plugin_files(plugin)
     check_replaceable(out)
     found = Source.read(source, template, settings or ())
-    seen = found.sequence(sequence)
+    seen = found.recording(recording)
     with _ProgressBars() as bars:
         subject = found.calibration(frames).subject(seen, bars)
-    opening = OPENING.format(frames=subject.frames, sequence=seen.name, file=out.name)
+    opening = OPENING.format(frames=subject.frames, recording=seen.name, file=out.name)
     skin = subject.proportions.skin(found.template.description())
     write_template(out, subject.description, skin, opening)
     _tell(subject, found.template.description().size.value)
@@ -104,7 +104,7 @@ def _tell(subject: Subject, template_size: float) -> None:
         errors.print(
             f"warning: {100.0 * subject.strange:.0f} % of the data are far from the body; if they "
             "do not show other things, the body was not found: give its size, or take another "
-            "sequence",
+            "recording",
             style="yellow",
             highlight=False,
             soft_wrap=True,

@@ -9,12 +9,12 @@ from regkit.calibration import Calibration
 from regkit.config.document import Document
 from regkit.config.model import Model
 from regkit.experiment import Experiment
-from regkit.interfaces import Dataset, Observer, Sequence, Template
+from regkit.interfaces import Dataset, Preprocessor, Recording, Template
 from regkit.skeleton import PoseDescription
 from regkit.system.errors import ConfigError
 
 SHOWN = 5
-"""So many sequences are named to a user who has to choose one."""
+"""So many recordings are named to a user who has to choose one."""
 
 
 class _Named(Model):
@@ -30,7 +30,7 @@ class Source(Model):
     """Where the frames come from."""
     template: Template
     """What is seen in them."""
-    observer: Observer | None = None
+    preprocessor: Preprocessor | None = None
     """How frames become data."""
     start: PoseDescription | None = None
     """Pose in the first frame."""
@@ -52,7 +52,7 @@ class Source(Model):
             return cls(
                 dataset=experiment.dataset,
                 template=experiment.template if template is None else template_named(template),
-                observer=experiment.observer,
+                preprocessor=experiment.preprocessor,
                 start=experiment.start if template is None else None,
             )
         for setting in settings:
@@ -66,30 +66,30 @@ class Source(Model):
             return source
         return source.model_copy(update={"template": template_named(template)})
 
-    def sequence(self, name: str | None) -> Sequence:
-        """The sequence called ``name``, or the only one that there is.
+    def recording(self, name: str | None) -> Recording:
+        """The recording called ``name``, or the only one that there is.
 
         Raises:
-            RegkitError: If there is no such sequence, or there are several.
+            RegkitError: If there is no such recording, or there are several.
         """
         if name is not None:
             try:
-                return self.dataset.model_copy(update={"sequences": (name,)}).chosen()[0]
+                return self.dataset.model_copy(update={"recordings": (name,)}).chosen()[0]
             except ConfigError as error:
-                raise ConfigError(error.message, place="--sequence") from None
+                raise ConfigError(error.message, place="--recording") from None
         found = self.dataset.chosen()
         if len(found) > 1:
-            names = ", ".join(sequence.name for sequence in found[:SHOWN])
+            names = ", ".join(recording.name for recording in found[:SHOWN])
             more = ", ..." if len(found) > SHOWN else ""
             raise ConfigError(
-                f"there are {len(found)} sequences ({names}{more}); name one", place="--sequence"
+                f"there are {len(found)} recordings ({names}{more}); name one", place="--recording"
             )
         return found[0]
 
     def calibration(self, frames: int) -> Calibration:
         """How the subject is calibrated, in so many frames."""
         return Calibration(
-            template=self.template, observer=self.observer, start=self.start, frames=frames
+            template=self.template, preprocessor=self.preprocessor, start=self.start, frames=frames
         )
 
 

@@ -23,8 +23,8 @@ def export(
     results: Annotated[
         Path,
         typer.Argument(
-            metavar="RESULTS/METHOD/SEQUENCE",
-            help="The folder of a finished sequence.",
+            metavar="RESULTS/METHOD/RECORDING",
+            help="The folder of a finished recording.",
             show_default=False,
         ),
     ],
@@ -39,7 +39,7 @@ def export(
     unit: Annotated[Unit, typer.Option(help="Unit of length of a .bvh file.")] = Unit.M,
     fps: Annotated[
         float | None,
-        typer.Option(help="Frames per second, if not those of the sequence.", show_default=False),
+        typer.Option(help="Frames per second, if not those of the recording.", show_default=False),
     ] = None,
     plugin: PluginFiles = None,
 ) -> None:

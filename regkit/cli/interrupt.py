@@ -12,7 +12,7 @@ class Interrupt:
     """A context that notes Ctrl-C; ``check`` answers it, and a second Ctrl-C ends at once.
 
     An exception in the middle of compiled code would reach the program as another error, and look
-    like a fault of the sequence.
+    like a fault of the recording.
     """
 
     def __init__(self, answer: str = "stopping after this frame") -> None:

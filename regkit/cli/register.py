@@ -39,7 +39,7 @@ def register(
         float | None,
         typer.Option(
             min=0.0,
-            help="Side [m] of the cubes to which both clouds are thinned; 0 for not at all. "
+            help="Side [m] of the cubes to which both clouds are downsampled; 0 for not at all. "
             "(default: about 5000 points are left)",
             show_default=False,
         ),
@@ -68,7 +68,7 @@ def register(
     """Lay a rigid cloud or mesh on another: T_target_source, and how well they agree."""
     from regkit.alignment import align
     from regkit.clouds import check_writable, read_cloud, write_cloud
-    from regkit.geometry.rigid import moved
+    from regkit.geometry.rigid import transformed
 
     run_plugin_files(plugin)
     if out is not None:
@@ -108,7 +108,7 @@ def register(
         )
         raise typer.Exit(1)
     if out is not None:
-        write_cloud(out, moved(found.transform, points))
+        write_cloud(out, transformed(found.transform, points))
         errors.print(f"written: {out}", highlight=False, soft_wrap=True)
 
 
@@ -164,7 +164,7 @@ def _figures(found: Alignment, method: str, aligned: bool) -> dict[str, Any]:
 def _table(found: Alignment, method: str) -> Table:
     agreement = found.agreement
     within = f"within {agreement.distance:.3g}"
-    thinned = "as they are" if found.voxel is None else f"in voxels of {found.voxel:.3g}"
+    downsampled = "as they are" if found.voxel is None else f"in voxels of {found.voxel:.3g}"
     matrix = "\n".join(" ".join(f"{value:11.6f}" for value in row) for row in found.transform)
     table = Table(show_header=False)
     for what, told in (
@@ -175,7 +175,7 @@ def _table(found: Alignment, method: str) -> Table:
         ("overlap", f"{100 * agreement.overlap:.1f} % of the target {within} of the source"),
         ("method", method),
         ("start", found.start),
-        ("points", f"{found.points[0]} and {found.points[1]}, {thinned}"),
+        ("points", f"{found.points[0]} and {found.points[1]}, {downsampled}"),
         ("seconds", f"{found.seconds:.2f}"),
         ("converged", f"{'yes' if found.converged else 'no'}: {found.message}"),
     ):

@@ -54,7 +54,7 @@ def run(
         ),
     ] = True,
 ) -> None:
-    """Run an experiment: register the template to every sequence with every method.
+    """Run an experiment: register the template to every recording with every method.
 
     Lists below sweep: in the YAML make many of it.
     """

@@ -71,7 +71,7 @@ class RunProgress:
 
     def planned(self, tracks: int, finished: int) -> None:
         """Show how much there is to do."""
-        self._whole = self._bars.add_task("sequences x methods", total=tracks, completed=finished)
+        self._whole = self._bars.add_task("recordings x methods", total=tracks, completed=finished)
 
     def begin(self, label: str, frames: int | None) -> None:
         """Show that something is being done."""

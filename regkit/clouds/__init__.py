@@ -2,7 +2,7 @@
 
 from regkit.clouds.neighbourhoods import normals, spacing
 from regkit.clouds.reading import read_cloud
-from regkit.clouds.voxels import thinned, voxel_for
+from regkit.clouds.voxels import voxel_downsampled, voxel_for
 from regkit.clouds.writing import check_writable, write_cloud
 
 __all__ = [
@@ -10,7 +10,7 @@ __all__ = [
     "normals",
     "read_cloud",
     "spacing",
-    "thinned",
+    "voxel_downsampled",
     "voxel_for",
     "write_cloud",
 ]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from regkit.geometry.rigid import moved
+from regkit.geometry.rigid import transformed
 from regkit.system.arrays import Array
 
 
@@ -31,7 +31,7 @@ def agreement(source: Array, target: Array, transform: Array, distance: float) -
     """How well a source (N, 3) lies on a target (M, 3) after T_target_source (4, 4)."""
     from scipy.spatial import KDTree
 
-    aligned = moved(transform, source)
+    aligned = transformed(transform, source)
     to_target, _ = KDTree(target).query(aligned, distance_upper_bound=distance)
     to_source, _ = KDTree(aligned).query(target, distance_upper_bound=distance)
     found = np.asarray(to_target)

@@ -1,4 +1,4 @@
-"""Thinning clouds: one point for each occupied cube."""
+"""Downsampling clouds: one point for each occupied cube."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ FINEST = 1e-6
 """Voxels smaller than this part of a cloud's extent are not tried."""
 
 
-def thinned(points: Array, voxel: float) -> Array:
+def voxel_downsampled(points: Array, voxel: float) -> Array:
     """The mean of the points (N, 3) in each occupied cube of side ``voxel`` [m], (M, 3)."""
     _, cell, counts = np.unique(_numbers(points, voxel), return_inverse=True, return_counts=True)
     sums = [np.bincount(cell, weights=column) for column in points.T]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 from pydantic import (
     BaseModel,
@@ -26,6 +26,9 @@ class Model(BaseModel):
     number and a truth value one, not a text that reads like it: what JSON Schema accepts in an
     editor and what is accepted here are the same.
     """
+
+    renamed: ClassVar[dict[str, str]] = {}
+    """Names that fields had before, and the names that they have now."""
 
     model_config = ConfigDict(
         frozen=True,
@@ -73,6 +76,12 @@ def did_you_mean(name: str, known: list[str]) -> str:
 
 
 def _unknown_field(key: object, model: type[Model]) -> PydanticCustomError:
+    if key in model.renamed:
+        return PydanticCustomError(
+            "unknown_field",
+            "'{old}' is now called '{new}'",
+            {"old": str(key), "new": model.renamed[str(key)]},
+        )
     known = sorted(model.model_fields)
     return PydanticCustomError(
         "unknown_field",

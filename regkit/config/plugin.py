@@ -36,6 +36,9 @@ class Plugin(Model):
     declared: ClassVar[tuple[str, ...]] = ()
     """Class variables that each plug-in of a slot must declare; their values are classes."""
 
+    formerly: ClassVar[tuple[str, ...]] = ()
+    """Names that the plug-in had before."""
+
     kind: str
     """Name of the plug-in, equal to its entry-point name."""
 
@@ -56,6 +59,7 @@ class Plugin(Model):
         available = cls.available()
         found = available.get(kind)
         if found is None:
+            cls._check_renamed(kind)
             raise PluginError(
                 f"no plug-in '{kind}' in {cls.group} (installed: {', '.join(available)})"
                 + did_you_mean(kind, list(available))
@@ -70,6 +74,17 @@ class Plugin(Model):
                 f"plug-in '{kind}' of {found.distributions[0]} {error.message}"
             ) from None
         return cast(type[Self], plugin)
+
+    @classmethod
+    def _check_renamed(cls, kind: str) -> None:
+        """Refuse a name that a plug-in had before, with the name that it has now."""
+        for name in cls.available():
+            try:
+                plugin = cls.load(name)
+            except PluginError:
+                continue
+            if kind in plugin.formerly:
+                raise PluginError(f"'{kind}' is now called '{name}'")
 
     @classmethod
     def __get_pydantic_core_schema__(

@@ -11,7 +11,7 @@ from pydantic import AfterValidator, Field, ValidationInfo, WithJsonSchema, fiel
 
 from regkit.config.document import Document
 from regkit.config.model import Model
-from regkit.interfaces import Dataset, Method, Observer, Sequence, Template, Tracker
+from regkit.interfaces import Dataset, Method, Preprocessor, Recording, Template, Tracker
 from regkit.skeleton import PoseDescription
 from regkit.start import given_start
 from regkit.system.errors import ConfigError
@@ -49,7 +49,7 @@ def _not_reserved(name: str) -> str:
 
 
 class Experiment(Model):
-    """Methods that register one template to the sequences of one dataset, on equal terms."""
+    """Methods that register one template to the recordings of one dataset, on equal terms."""
 
     name: Name
     """What the results folder is called."""
@@ -59,12 +59,12 @@ class Experiment(Model):
     """What is seen in them."""
     subjects: dict[str, Template] = Field(default_factory=dict)
     """Templates of single people, by the dataset's names for them; all others get ``template``."""
-    observer: Observer = Field(default="points", validate_default=True)
+    preprocessor: Preprocessor = Field(default="points", validate_default=True)
     """How frames become data."""
-    tracker: Tracker = Field(default="hold", validate_default=True)
+    tracker: Tracker = Field(default="constant_pose", validate_default=True)
     """How one frame's pose leads to the next."""
     start: PoseDescription | None = None
-    """Pose in the first frame of every sequence; found from the cloud without it. It needs the
+    """Pose in the first frame of every recording; found from the cloud without it. It needs the
     template's size."""
     methods: dict[Annotated[Name, AfterValidator(_not_reserved)], Method] = Field(min_length=1)
     """What is compared, by a name of your own."""
@@ -100,10 +100,10 @@ class Experiment(Model):
             )
         return document.without("sweep").validated(cls)
 
-    def template_of(self, sequence: Sequence) -> Template:
-        """The template of who is seen in a sequence."""
+    def template_of(self, recording: Recording) -> Template:
+        """The template of who is seen in a recording."""
         return (
             self.template
-            if sequence.subject is None
-            else self.subjects.get(sequence.subject, self.template)
+            if recording.subject is None
+            else self.subjects.get(recording.subject, self.template)
         )

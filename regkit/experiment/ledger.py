@@ -23,14 +23,14 @@ WRITING = 0.05
 
 @dataclass(frozen=True)
 class Outcome:
-    """The figures in a results folder, by method and sequence, and what failed with its reason."""
+    """The figures in a results folder, by method and recording, and what failed with its reason."""
 
     measures: dict[str, dict[str, Measure]]
     failures: dict[str, dict[str, str]]
 
 
 Track = tuple[str, str]
-"""The names of a method and of a sequence."""
+"""The names of a method and of a recording."""
 
 
 @dataclass
@@ -41,7 +41,7 @@ class Ledger:
         experiment: What is run.
         results: Where to.
         methods: Names of the methods that are run now.
-        lengths: The number of frames of the dataset's sequences, by their names.
+        lengths: The number of frames of the dataset's recordings, by their names.
         setting: Name of the experiment among those of a sweep, or nothing.
     """
 
@@ -70,27 +70,27 @@ class Ledger:
         """
         failed = self.results.failures()
         for method in self.experiment.methods:
-            for sequence in self.lengths:
-                track = (method, sequence)
+            for recording in self.lengths:
+                track = (method, recording)
                 try:
-                    measure = self.results.finished(method, sequence)
+                    measure = self.results.finished(method, recording)
                 except RegkitError as error:
                     self._failures[track] = str(error)
-                    yield self._task(sequence, method).label, error
+                    yield self._task(recording, method).label, error
                 else:
                     if measure is not None:
                         self._measures[track] = measure
-                    elif method not in self.methods and sequence in failed.get(method, {}):
-                        self._failures[track] = failed[method][sequence]
+                    elif method not in self.methods and recording in failed.get(method, {}):
+                        self._failures[track] = failed[method][recording]
 
     def tracks(self) -> Iterator[tuple[Task, list[Task]]]:
-        """For each sequence, the task that makes it ready and those that are still to be done."""
+        """For each recording, the task that makes it ready and those that are still to be done."""
         known = self._measures.keys() | self._failures.keys()
-        for sequence in self.lengths:
-            missing = [method for method in self.methods if (method, sequence) not in known]
+        for recording in self.lengths:
+            missing = [method for method in self.methods if (method, recording) not in known]
             if missing:
-                opening = self._task(sequence, missing[0], opening=True)
-                yield opening, [self._task(sequence, method) for method in missing]
+                opening = self._task(recording, missing[0], opening=True)
+                yield opening, [self._task(recording, method) for method in missing]
 
     @property
     def planned(self) -> int:
@@ -99,7 +99,7 @@ class Ledger:
 
     def frames(self, task: Task) -> int | None:
         """How many frames a task will tell of."""
-        return None if task.method is None else self.lengths[task.sequence]
+        return None if task.method is None else self.lengths[task.recording]
 
     @property
     def finished(self) -> int:
@@ -110,7 +110,7 @@ class Ledger:
     def ended(self, task: Task, result: Measure | RegkitError) -> None:
         """Take in what became of a track."""
         assert task.method is not None
-        track = (task.method, task.sequence)
+        track = (task.method, task.recording)
         if isinstance(result, RegkitError):
             self._failures[track] = str(result)
         else:
@@ -144,9 +144,9 @@ class Ledger:
         outcome = self.outcome
         report(self.results.folder, outcome.measures, outcome.failures, figures=figures)
 
-    def _task(self, sequence: str, method: str, *, opening: bool = False) -> Task:
+    def _task(self, recording: str, method: str, *, opening: bool = False) -> Task:
         # Each worker reads the experiment anew: it shall not read a hundred methods for one.
         methods = {method: self.experiment.methods[method]}
         alone = self.experiment.model_copy(update={"methods": methods})
         chosen = None if opening else method
-        return Task(alone, self.results.folder, sequence, chosen, self.setting)
+        return Task(alone, self.results.folder, recording, chosen, self.setting)

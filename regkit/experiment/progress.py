@@ -11,10 +11,10 @@ class Progress(Protocol):
     """Who wants to know how far a run is, and may end it by raising ``KeyboardInterrupt``."""
 
     def planned(self, tracks: int, finished: int) -> None:
-        """A run begins: so many sequences times methods, of which some were finished before."""
+        """A run begins: so many recordings times methods, of which some were finished before."""
 
     def begin(self, label: str, frames: int | None) -> None:
-        """A track of so many frames is begun, or a sequence is made ready."""
+        """A track of so many frames is begun, or a recording is made ready."""
 
     def advance(self) -> None:
         """One more frame is done of the only thing that is being done; workers do not tell."""

@@ -15,10 +15,10 @@ from regkit.report import Run, write_report, write_summary
 from regkit.system.errors import DataError
 
 Measures = Mapping[str, Mapping[str, Measure]]
-"""Figures by method and sequence; a method of a sweep is called ``SETTING/METHOD``."""
+"""Figures by method and recording; a method of a sweep is called ``SETTING/METHOD``."""
 
 Failures = Mapping[str, Mapping[str, str]]
-"""Why sequences failed, by method and sequence."""
+"""Why recordings failed, by method and recording."""
 
 
 def summarise(folder: Path, measures: Measures, failures: Failures) -> None:
@@ -38,8 +38,8 @@ def report(
 
     Args:
         folder: The results.
-        measures: Figures by method and sequence.
-        failures: Why sequences failed, by method and sequence.
+        measures: Figures by method and recording.
+        failures: Why recordings failed, by method and recording.
         pairs: Methods to be compared beside the best one with the others.
         figures: Whether figures are drawn.
 
@@ -52,11 +52,11 @@ def report(
     results = Results(folder)
     records = {
         method: {
-            sequence: record
-            for sequence in by_sequence
-            if (record := results.record(method, sequence)) is not None
+            recording: record
+            for recording in by_recording
+            if (record := results.record(method, recording)) is not None
         }
-        for method, by_sequence in measures.items()
+        for method, by_recording in measures.items()
     }
     run = replace(_run(folder, measures, failures), records=records, chosen=tuple(pairs))
     write_report(run, folder, figures=figures)
@@ -64,9 +64,9 @@ def report(
 
 
 def found(folder: Path) -> tuple[dict[str, dict[str, Measure]], dict[str, dict[str, str]]]:
-    """The figures of all finished sequences, and why others failed, as a folder tells.
+    """The figures of all finished recordings, and why others failed, as a folder tells.
 
-    Methods and sequences are in the order of the configuration and of ``metrics.json``; those
+    Methods and recordings are in the order of the configuration and of ``metrics.json``; those
     that neither names come last.
 
     Raises:
@@ -86,15 +86,15 @@ def found(folder: Path) -> tuple[dict[str, dict[str, Measure]], dict[str, dict[s
     measures: dict[str, dict[str, Measure]] = {}
     failures: dict[str, dict[str, str]] = {}
     for method in dict.fromkeys([*named, *told, *(one.parent.as_posix() for one in written)]):
-        sequences = told.get(method, {}).get("sequences", {})
+        recordings = told.get(method, {}).get("recordings", {})
         own = [one.name for one in written if one.parent.as_posix() == method]
         measures[method], failures[method] = {}, {}
-        for sequence in dict.fromkeys([*sequences, *own]):
-            measure = results.finished(method, sequence)
+        for recording in dict.fromkeys([*recordings, *own]):
+            measure = results.finished(method, recording)
             if measure is not None:
-                measures[method][sequence] = measure
-            elif "error" in sequences.get(sequence, {}):
-                failures[method][sequence] = sequences[sequence]["error"]
+                measures[method][recording] = measure
+            elif "error" in recordings.get(recording, {}):
+                failures[method][recording] = recordings[recording]["error"]
     return measures, failures
 
 

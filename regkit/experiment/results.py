@@ -16,7 +16,7 @@ from regkit.body import Body
 from regkit.config.document import Document, yaml_data, yaml_text
 from regkit.experiment.differences import differences
 from regkit.experiment.environment import environment
-from regkit.experiment.hold import MARK
+from regkit.experiment.lock import MARK
 from regkit.metrics import Measure
 from regkit.report import Record, draw_overlay, method_styles
 from regkit.system.errors import ConfigError, DataError, PluginError, RegkitError
@@ -30,11 +30,11 @@ class Results:
 
     config.yaml               the experiment with every default filled in
     environment.json          versions, machine and workers
-    starts/SEQUENCE.json      where every method begins
-    metrics.json              figures by method and sequence, and what they say together
+    starts/RECORDING.json      where every method begins
+    metrics.json              figures by method and recording, and what they say together
     report.html, report.md    the same as tables, figures and pictures
     figures/, tables/         the figures, and all numbers as CSV
-    METHOD/SEQUENCE/          measure.json, poses.npz, record.npz and overlay.png of a finished one
+    METHOD/RECORDING/          measure.json, poses.npz, record.npz and overlay.png of a finished one
 
     Attributes:
         folder: Where it is.
@@ -77,48 +77,48 @@ class Results:
         write_json(folder / "environment.json", environment(folder / "environment.json", workers))
         return cls(folder)
 
-    def sequence_folder(self, method: str, sequence: str) -> Path:
-        """Where a method's results on a sequence are."""
-        return self.folder / method / sequence
+    def recording_folder(self, method: str, recording: str) -> Path:
+        """Where a method's results on a recording are."""
+        return self.folder / method / recording
 
-    def finished(self, method: str, sequence: str) -> Measure | None:
-        """The figures of a sequence that was finished before, or None.
+    def finished(self, method: str, recording: str) -> Measure | None:
+        """The figures of a recording that was finished before, or None.
 
         Raises:
             DataError: If the file was damaged since.
         """
-        file = self.sequence_folder(method, sequence) / "measure.json"
+        file = self.recording_folder(method, recording) / "measure.json"
         if not file.exists():
             return None
         try:
             return Measure(**json.loads(file.read_text(encoding="utf-8")))
         except (ValueError, TypeError) as error:
             raise DataError(
-                f"damaged ({error}); delete the file to have the sequence done again",
+                f"damaged ({error}); delete the file to have the recording done again",
                 place=str(file),
             ) from None
 
     def failures(self) -> dict[str, dict[str, str]]:
-        """Why sequences failed before, by method and sequence, if ``metrics.json`` is there."""
+        """Why recordings failed before, by method and recording, if ``metrics.json`` is there."""
         with suppress(OSError, ValueError, KeyError, TypeError, AttributeError):
             told = json.loads((self.folder / "metrics.json").read_text(encoding="utf-8"))
             return {
                 method: {
-                    sequence: str(figures["error"])
-                    for sequence, figures in one["sequences"].items()
+                    recording: str(figures["error"])
+                    for recording, figures in one["recordings"].items()
                     if "error" in figures
                 }
                 for method, one in told["methods"].items()
             }
         return {}
 
-    def record(self, method: str, sequence: str) -> Record | None:
-        """What is kept of a finished sequence for the report, or None.
+    def record(self, method: str, recording: str) -> Record | None:
+        """What is kept of a finished recording for the report, or None.
 
         Raises:
             DataError: If the file was damaged since.
         """
-        file = self.sequence_folder(method, sequence) / "record.npz"
+        file = self.recording_folder(method, recording) / "record.npz"
         if not file.exists():
             return None
         try:
@@ -126,26 +126,26 @@ class Results:
                 return Record.from_arrays(dict(arrays))
         except (ValueError, KeyError, EOFError, OSError, BadZipFile) as error:
             raise DataError(
-                f"damaged ({error}); delete measure.json beside it to have the sequence done again",
+                f"damaged ({error}); delete measure.json beside it to track the recording again",
                 place=str(file),
             ) from None
 
     def write(
         self,
         method: str,
-        sequence: str,
+        recording: str,
         track: Track,
         body: Body,
         measure: Measure,
         record: Record,
     ) -> None:
-        """Write a finished sequence; its figures come last, and with them it counts as finished."""
-        folder = self.sequence_folder(method, sequence)
+        """Write a finished recording; its metrics come last and mark it as finished."""
+        folder = self.recording_folder(method, recording)
         write_arrays(folder / "poses.npz", track.named_arrays(body))
         write_arrays(folder / "record.npz", record.arrays())
         config = Document.read(self.folder / "config.yaml").data
         colour = method_styles(config, [method])[method].colour
-        draw_overlay(folder / "overlay.png", f"{method} on {sequence}", record, colour)
+        draw_overlay(folder / "overlay.png", f"{method} on {recording}", record, colour)
         (folder / "error.txt").unlink(missing_ok=True)
         write_json(folder / "measure.json", measure.to_dict())
 

@@ -1,4 +1,4 @@
-"""Running experiments: every method on every sequence, what is finished being kept."""
+"""Running experiments: every method on every recording, what is finished being kept."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from pathlib import Path
 
 from regkit.config.model import did_you_mean
 from regkit.experiment.experiment import Experiment
-from regkit.experiment.hold import held
 from regkit.experiment.ledger import Ledger, Outcome
+from regkit.experiment.lock import locked
 from regkit.experiment.progress import Progress, Silent
 from regkit.experiment.reporting import report, summarise
 from regkit.experiment.results import Results
@@ -33,7 +33,7 @@ def run(
 ) -> Outcome:
     """Run an experiment into its folder; what the folder holds already is not done again.
 
-    A sequence that fails does not stop the others. The figures are the same to the last bit,
+    A recording that fails does not stop the others. The figures are the same to the last bit,
     whoever does the work, but for the frames per second. While the run goes on ``metrics.json``
     and ``report.md`` tell what is finished, also when it is interrupted; the page and the figures
     are written when all is done.
@@ -50,8 +50,8 @@ def run(
         All that the folder holds; methods of a sweep are called ``SETTING/METHOD``.
 
     Raises:
-        RegkitError: If nothing can be run: an unknown method, a dataset without sequences, a folder
-            that holds something else, workers that cannot be had.
+        RegkitError: If nothing can be run: an unknown method, a dataset without recordings, a
+            folder that holds something else, workers that are not available.
     """
     study = Study.of_one(experiment) if isinstance(experiment, Experiment) else experiment
     workers, progress = workers or ThisProcess(), progress or Silent()
@@ -61,8 +61,8 @@ def run(
             check_shared(one)
     if folder.exists() and not folder.is_dir():
         raise ConfigError("this is a file, not a folder", place=f"--out {folder}")
-    with workers.team() as team, held(folder) as hold:
-        team.serve(hold)
+    with workers.team() as team, locked(folder) as lock:
+        team.serve(lock)
         Results.opened(folder, study.config(), workers.described)
         if study.lists:
             for ledger in ledgers:
@@ -88,7 +88,7 @@ def _ledgers(study: Study, folder: Path, only: tuple[str, ...]) -> list[Ledger]:
     """What is known of each experiment before anything is run.
 
     Raises:
-        RegkitError: If a method, a sequence or a subject is named that there is not.
+        RegkitError: If a method, a recording or a subject is named that there is not.
     """
     methods = _chosen(study.methods, only)
     ledgers: list[Ledger] = []
@@ -102,20 +102,20 @@ def _ledgers(study: Study, folder: Path, only: tuple[str, ...]) -> list[Ledger]:
 
 
 def _lengths(experiment: Experiment) -> dict[str, int]:
-    """The number of frames of each sequence, by its name."""
-    sequences = experiment.dataset.chosen()
-    unknown = experiment.subjects.keys() - {sequence.subject for sequence in sequences}
+    """The number of frames of each recording, by its name."""
+    recordings = experiment.dataset.chosen()
+    unknown = experiment.subjects.keys() - {recording.subject for recording in recordings}
     if unknown:
-        # Those of other sequences may be given templates, too.
-        everything = experiment.dataset.model_copy(update={"sequences": None}).chosen()
+        # Those of other recordings may be given templates, too.
+        everything = experiment.dataset.model_copy(update={"recordings": None}).chosen()
         known = sorted({one.subject for one in everything if one.subject is not None})
         for name in sorted(unknown - set(known)):
             raise ConfigError(
-                f"no sequence shows a subject '{name}' (there are: {', '.join(known) or 'none'})"
+                f"no recording shows a subject '{name}' (there are: {', '.join(known) or 'none'})"
                 + did_you_mean(name, known),
                 place="subjects",
             )
-    return {sequence.name: sequence.length for sequence in sequences}
+    return {recording.name: recording.length for recording in recordings}
 
 
 def _chosen(known: list[str], only: tuple[str, ...]) -> list[str]:

@@ -38,14 +38,14 @@ class _Configuration(Model):
 
 
 def read_tracked_motion(folder: Path, fps: float | None = None) -> TrackedMotion:
-    """The motion in ``RESULTS/METHOD/SEQUENCE``, and the body made again from the configuration.
+    """The motion in ``RESULTS/METHOD/RECORDING``, and the body made again from the configuration.
 
     Args:
-        folder: The folder of a finished sequence.
-        fps: Frames per second, where they are not those that the sequence was recorded with.
+        folder: The folder of a finished recording.
+        fps: Frames per second, where they are not those that the recording was recorded with.
 
     Raises:
-        RegkitError: If there is no finished sequence, or the template is another one since.
+        RegkitError: If there is no finished recording, or the template is another one since.
     """
     arrays = _arrays(folder)
     given = _fps(folder, arrays) if fps is None else fps
@@ -91,8 +91,8 @@ def _arrays(folder: Path) -> dict[str, NDArray[Any]]:
         others = sorted(folder.glob("**/poses.npz"))
         hint = f"; there are: {', '.join(str(other.parent) for other in others)}" if others else ""
         raise ConfigError(
-            f"no poses.npz is here; name the folder of a finished sequence, "
-            f"RESULTS/METHOD/SEQUENCE{hint}",
+            f"no poses.npz is here; name the folder of a finished recording, "
+            f"RESULTS/METHOD/RECORDING{hint}",
             place=str(folder),
         )
     arrays = _read(file)
@@ -103,7 +103,7 @@ def _arrays(folder: Path) -> dict[str, NDArray[Any]]:
 
 
 def _fps(folder: Path, arrays: Mapping[str, NDArray[Any]]) -> float:
-    """Frames per second at which the sequence was recorded.
+    """Frames per second at which the recording was recorded.
 
     Raises:
         ConfigError: If the results do not say it.

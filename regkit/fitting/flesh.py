@@ -11,7 +11,7 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from regkit.fitting.layout import Layout, SegmentFrame
-from regkit.geometry.rigid import moved
+from regkit.geometry.rigid import transformed
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.system.arrays import Array, Indices
 from regkit.system.optional import open3d
@@ -60,7 +60,7 @@ def divided(
         names: The segments.
         spacing: Distance of the points of the grid [m].
     """
-    vertices = moved(T_template_mesh, mesh.vertices)
+    vertices = transformed(T_template_mesh, mesh.vertices)
     followed = np.zeros((len(vertices), len(names)))
     owners = np.array([names.index(owner_of_bone[label]) for label in mesh.labels])
     np.add.at(followed, (np.arange(len(vertices))[:, None], owners[mesh.indices]), mesh.weights)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from regkit.geometry.rigid import moved
+from regkit.geometry.rigid import transformed
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.system.arrays import Array
 
@@ -48,5 +48,5 @@ class Layout:
         turn = self.T_template_mesh[:3, :3]
         frames = [self.frames[self.owners[label]] for label in mesh.labels]
         rotations = np.array([turn.T @ frame.rotation @ turn for frame in frames])
-        posed = mesh.posed(mesh.turned(rotations, mesh.rest[0, :3, 3]))
-        return moved(self.T_template_mesh, posed)
+        posed = mesh.posed(mesh.rotated(rotations, mesh.rest[0, :3, 3]))
+        return transformed(self.T_template_mesh, posed)

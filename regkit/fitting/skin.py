@@ -12,7 +12,7 @@ from scipy.spatial import cKDTree
 from regkit.body import BodyDescription
 from regkit.fitting.layout import Layout
 from regkit.fitting.moments import spread
-from regkit.geometry.rigid import moved, rigid
+from regkit.geometry.rigid import rigid, transformed
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.geometry.surface import vertex_normals
 from regkit.system.arrays import Indices
@@ -32,7 +32,7 @@ def on_segments(mesh: SkinnedMesh, layout: Layout, template: BodyDescription) ->
     weights = np.take_along_axis(weights, indices, axis=1)
     frames = [layout.frames[name] for name in names]
     return SkinnedMesh(
-        vertices=moved(layout.T_template_mesh, mesh.vertices),
+        vertices=transformed(layout.T_template_mesh, mesh.vertices),
         faces=mesh.faces,
         labels=names,
         parents=np.array([_parent(template, name) for name in names]),

@@ -15,7 +15,7 @@ from regkit.fitting.layout import Layout
 from regkit.fitting.mesh_shape import MeshShape
 from regkit.fitting.posture import Posture
 from regkit.fitting.skin import decimated, on_segments
-from regkit.geometry.rigid import inverse, moved, rigid
+from regkit.geometry.rigid import inverse, rigid, transformed
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.skeleton.description import parents_first
 from regkit.system.arrays import Array
@@ -75,7 +75,7 @@ class FittedTemplate:
         joints = {name: starts[bone] for name, bone in first_bones(mesh, owners).items()}
         axes, origin = Posture(template, joints).root()
         T_template_mesh = inverse(rigid(axes, origin))
-        joints = {name: moved(T_template_mesh, at[None])[0] for name, at in joints.items()}
+        joints = {name: transformed(T_template_mesh, at[None])[0] for name, at in joints.items()}
         joints[parents_first(template.segments)[0]] = np.zeros(3)
         size = _rough_size(template, joints)
         parts = divided(mesh, T_template_mesh, owners, list(template.segments), size / FINENESS)

@@ -34,7 +34,7 @@ class CloudShape(ShapeModel, ABC):
         """The same shape model with another width [m]."""
         return self.model_copy(update={"width": width})
 
-    def attach(self, body: Body) -> Gaussians:
+    def bind(self, body: Body) -> Gaussians:
         """One Gaussian for each point of the surface, on the segment that carries most of it.
 
         Raises:

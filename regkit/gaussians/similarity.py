@@ -40,7 +40,7 @@ class GaussianSimilarity(Similarity):
         start: The primitives in the start pose.
         data_weights: Of the points, (N,), summing to one.
         log_weights: Of the primitives, (K,), part of log_scale.
-        blur: Standard deviation [m] of the Gaussian that smooths the data.
+        smoothing: Standard deviation [m] of the Gaussian that smooths the data.
         frozen: Whether covariances keep their orientation of the start pose.
     """
 
@@ -54,7 +54,7 @@ class GaussianSimilarity(Similarity):
         *,
         data_weights: Array,
         log_weights: Array,
-        blur: float,
+        smoothing: float,
         frozen: bool,
     ) -> None:
         self._camera = observation.camera
@@ -67,7 +67,7 @@ class GaussianSimilarity(Similarity):
         points = observation.points - self._centre
         variances, self._group_of = _distinct(observation.variances)
         self._groups = [
-            self._group(float(variance) + blur**2, points[own], data_weights[own])
+            self._group(float(variance) + smoothing**2, points[own], data_weights[own])
             for variance, own in ((v, self._group_of == g) for g, v in enumerate(variances))
         ]
 
@@ -80,21 +80,21 @@ class GaussianSimilarity(Similarity):
         """
 
     @abstractmethod
-    def explains(self, densities: Array, data_weights: Array) -> Array:
-        """How far densities (K, N), which hold the data weights (N,) already, explain each point.
+    def inliers(self, densities: Array, data_weights: Array) -> Array:
+        """Inlier probabilities by densities (K, N), which hold the data weights (N,) already.
 
         Returns:
             (N,), from 0 to 1.
         """
 
-    def explained(self, placed: Placed[Gaussians]) -> Array:
-        """How far the primitives explain each point, (N,), from 0 to 1."""
+    def inlier_probability(self, placed: Placed[Gaussians]) -> Array:
+        """The probability (N,) that each point is an inlier."""
         view = self._view(placed)
-        explained = np.empty(len(self._group_of))
+        probability = np.empty(len(self._group_of))
         for index, group in enumerate(self._groups):
             densities, _ = self._densities(group, view)
-            explained[self._group_of == index] = self.explains(densities, group.weights)
-        return explained
+            probability[self._group_of == index] = self.inliers(densities, group.weights)
+        return probability
 
     def __call__(self, placed: Placed[Gaussians], *, curvature: bool = False) -> Response:
         """The energy, the wrenches about the primitives' centres, and the Gauss-Newton blocks."""

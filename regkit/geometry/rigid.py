@@ -24,7 +24,7 @@ def inverse(transform: Array) -> Array:
     return rigid(transposed, -(transposed @ transform[..., :3, 3:])[..., 0])
 
 
-def moved(transform: Array, points: Array) -> Array:
+def transformed(transform: Array, points: Array) -> Array:
     """Points (N, 3) of frame b in frame a, by one T_a_b (4, 4) or one for each (N, 4, 4)."""
     if transform.ndim == 2:
         return np.asarray(points @ transform[:3, :3].T + transform[:3, 3])

@@ -114,7 +114,7 @@ def vector_to_matrix(vector: Array) -> Array:
     return to_matrix(from_vector(vector))
 
 
-def between(start: Array, goal: Array) -> Array:
+def rotation_between(start: Array, goal: Array) -> Array:
     """The smallest rotation matrix (3, 3) that turns the direction ``start`` (3,) into ``goal``.
 
     Between opposite directions every axis at right angles to them will do.

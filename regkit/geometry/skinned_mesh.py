@@ -159,7 +159,7 @@ class SkinnedMesh:
         carriers[:, 3, 3] = 1.0
         return replace(self, vertices=self.posed(carriers), rest=rest)
 
-    def turned(self, rotations: Array, root: Array) -> Array:
+    def rotated(self, rotations: Array, root: Array) -> Array:
         """Bone poses ``T_world_bone`` (J, 4, 4) with every bone turned from its direction at rest.
 
         The joints stay together, so that bone lengths are those at rest.

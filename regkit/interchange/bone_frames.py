@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from regkit.geometry.rigid import rigid
-from regkit.geometry.rotation import between
+from regkit.geometry.rotation import rotation_between
 from regkit.system.arrays import Array
 
 CANCELLED = 0.2
@@ -38,7 +38,7 @@ def along_bones(origins: Array, axes: Array, parents: Sequence[int]) -> Array:
             along = frames[parent, :3, 1]
         else:
             continue
-        frames[bone, :3, :3] = between(axes[bone, :, 1], along) @ axes[bone]
+        frames[bone, :3, :3] = rotation_between(axes[bone, :, 1], along) @ axes[bone]
     return frames
 
 

@@ -1,10 +1,10 @@
 """What can be swapped: the abstract plug-ins and the types that pass between them."""
 
-from regkit.interfaces.dataset import Dataset, Sequence
+from regkit.interfaces.dataset import Dataset, Recording
 from regkit.interfaces.kernel import Kernel, Response, Similarity
 from regkit.interfaces.method import Method
-from regkit.interfaces.observer import Observer
-from regkit.interfaces.registrar import Fit, Registered, Registrar
+from regkit.interfaces.preprocessor import Preprocessor
+from regkit.interfaces.registrar import Evaluation, Registrar, RegistrationResult
 from regkit.interfaces.shape import ShapeModel
 from regkit.interfaces.solver import (
     Constraints,
@@ -15,37 +15,38 @@ from regkit.interfaces.solver import (
     Solver,
 )
 from regkit.interfaces.template import Template
-from regkit.interfaces.term import JointEnergy, Scene, Shares, Strain, Term
-from regkit.interfaces.tracker import Follower, Tracker
+from regkit.interfaces.term import JointEnergy, JointResponse, Scene, Term, VisibilityWeights
+from regkit.interfaces.tracker import BoundTracker, Past, Tracker
 
-SLOTS = (Dataset, Template, Observer, ShapeModel, Kernel, Term, Solver, Tracker, Method)
+SLOTS = (Dataset, Template, Preprocessor, ShapeModel, Kernel, Term, Solver, Tracker, Method)
 """Every group of plug-ins, in the order in which data passes them."""
 
 __all__ = [
     "SLOTS",
+    "BoundTracker",
     "Constraints",
     "Dataset",
-    "Fit",
-    "Follower",
+    "Evaluation",
     "JointEnergy",
+    "JointResponse",
     "Kernel",
     "LimitKeeping",
     "Method",
     "Multipliers",
-    "Observer",
+    "Past",
+    "Preprocessor",
     "Problem",
-    "Registered",
+    "Recording",
     "Registrar",
+    "RegistrationResult",
     "Response",
     "Scene",
-    "Sequence",
     "ShapeModel",
-    "Shares",
     "Similarity",
     "Solution",
     "Solver",
-    "Strain",
     "Template",
     "Term",
     "Tracker",
+    "VisibilityWeights",
 ]

@@ -1,4 +1,4 @@
-"""Datasets: sequences of frames, with reference joints where there are any."""
+"""Datasets: recordings of frames, with reference joints where there are any."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from regkit.system.errors import ConfigError, DataError
 
 
 @dataclass(frozen=True)
-class Sequence(ABC):
+class Recording(ABC):
     """Frames in the order of time.
 
     Attributes:
@@ -31,7 +31,7 @@ class Sequence(ABC):
     length: int
     subject: str | None = field(default=None, kw_only=True)
 
-    def prepare(self) -> None:  # noqa: B027 - most sequences have nothing to prepare.
+    def prepare(self) -> None:  # noqa: B027 - most recordings have nothing to prepare.
         """Make what the frames are read from, where that takes a while: render or unpack them.
 
         It is called before the frames are asked for, which must come all the same without it.
@@ -58,50 +58,50 @@ class Sequence(ABC):
 
 
 class Dataset(Plugin, ABC):
-    """A set of sequences."""
+    """A set of recordings."""
 
     group = "regkit.datasets"
 
-    sequences: tuple[str, ...] | None = None
-    """Names of the sequences to use; all that there are without it."""
+    recordings: tuple[str, ...] | None = None
+    """Names of the recordings to use; all that there are without it."""
     frames: Annotated[int, Field(ge=1)] | None = None
-    """Use only so many frames from the start of each sequence."""
+    """Use only so many frames from the start of each recording."""
     compared: bool = True
     """Whether poses are compared with the reference joints, where there are any."""
     joints: dict[str, str] = Field(default_factory=dict)
     """Names of the data's reference joints to the template's markers, where they differ."""
 
     @abstractmethod
-    def found(self) -> list[Sequence]:
-        """Every sequence that there is, cut to ``frames``.
+    def found(self) -> list[Recording]:
+        """Every recording that there is, cut to ``frames``.
 
         Raises:
             DataError: If there is none, or one is damaged.
         """
 
     def wanted(self, name: str) -> bool:
-        """Whether a sequence is used; what is not need not even be read."""
-        return self.sequences is None or name in self.sequences
+        """Whether a recording is used; what is not need not even be read."""
+        return self.recordings is None or name in self.recordings
 
-    def chosen(self) -> list[Sequence]:
-        """The sequences to use.
+    def chosen(self) -> list[Recording]:
+        """The recordings to use.
 
         Raises:
             DataError: If there is none, one is damaged, or two have the same name.
             ConfigError: If one is named that there is not.
         """
-        found: dict[str, Sequence] = {}
-        for sequence in self.found():
-            if sequence.name in found:
-                raise DataError(f"two sequences are called '{sequence.name}'", place="dataset")
-            found[sequence.name] = sequence
-        if self.sequences is None:
+        found: dict[str, Recording] = {}
+        for recording in self.found():
+            if recording.name in found:
+                raise DataError(f"two recordings are called '{recording.name}'", place="dataset")
+            found[recording.name] = recording
+        if self.recordings is None:
             return list(found.values())
-        for name in self.sequences:
+        for name in self.recordings:
             if name not in found:
                 raise ConfigError(
-                    f"no sequence '{name}' (there are: {', '.join(found)})"
+                    f"no recording '{name}' (there are: {', '.join(found)})"
                     + did_you_mean(name, list(found)),
-                    place="dataset.sequences",
+                    place="dataset.recordings",
                 )
-        return [found[name] for name in self.sequences]
+        return [found[name] for name in self.recordings]

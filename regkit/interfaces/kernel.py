@@ -44,8 +44,8 @@ class Similarity(ABC):
     def __call__(self, placed: Placed[Any], *, curvature: bool = False) -> Response:
         """The energy of primitives in the world, its derivative, and the stiffness if asked for."""
 
-    def explained(self, placed: Placed[Any]) -> Array | None:
-        """How far the primitives explain each point, (N,), from 0 to 1; None if it cannot tell."""
+    def inlier_probability(self, placed: Placed[Any]) -> Array | None:
+        """The probability (N,) that each point is an inlier; None if the kernel cannot tell."""
         return None
 
 
@@ -71,14 +71,14 @@ class Kernel(Plugin, ABC):
             )
 
     @abstractmethod
-    def against(
-        self, observation: Observation, start: Placed[Any], *, blur: float = 0.0
+    def bind(
+        self, observation: Observation, start: Placed[Any], *, smoothing: float = 0.0
     ) -> Similarity:
         """Bind the kernel to a frame.
 
         Args:
             observation: The data.
             start: The primitives in the pose from which the frame is registered.
-            blur: Standard deviation [m] of a Gaussian that smooths the energy over space; a first,
-                coarse look uses it to see further.
+            smoothing: Standard deviation [m] of a Gaussian that smooths the energy over space, by
+                which a first, coarse solution sees farther.
         """

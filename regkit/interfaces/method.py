@@ -20,7 +20,7 @@ class Method(Plugin, ABC):
     it."""
 
     @abstractmethod
-    def prepare(self, body: Body) -> Registrar:
+    def bind(self, body: Body) -> Registrar:
         """Do once what does not depend on the data.
 
         Raises:

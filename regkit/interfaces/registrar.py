@@ -17,13 +17,13 @@ from regkit.system.arrays import Array
 
 
 @dataclass(frozen=True)
-class Registered:
+class RegistrationResult:
     """The outcome of one registration.
 
     Attributes:
         pose: The pose found.
         energy: Its energy, in the method's own units.
-        explained: The share of the data that it explains, from 0 to 1; NaN where the method cannot
+        inlier_share: Share of the points that are inliers, from 0 to 1; NaN where the method cannot
             tell.
         converged: Whether the solver met a tolerance.
         iterations: Its steps.
@@ -34,7 +34,7 @@ class Registered:
 
     pose: Pose
     energy: float
-    explained: float
+    inlier_share: float
     converged: bool
     iterations: int
     evaluations: int
@@ -42,33 +42,33 @@ class Registered:
     multipliers: Multipliers | None = None
 
     @classmethod
-    def given(cls, pose: Pose) -> Registered:
+    def given(cls, pose: Pose) -> RegistrationResult:
         """A pose that was given, not found."""
         return cls(pose, np.nan, np.nan, True, 0, 0, "given")
 
 
 @dataclass(frozen=True)
-class Fit:
+class Evaluation:
     """How well a pose explains a frame.
 
     Attributes:
         energy: The method's energy there, bound to the frame at this very pose, so that poses can
             be compared with one another.
-        explained: How far each point is explained, (N,), from 0 to 1.
+        inlier_probability: Of each point, (N,), from 0 to 1.
     """
 
     energy: float
-    explained: Array
+    inlier_probability: Array
 
     @property
-    def share(self) -> float:
-        """The share of the points that are not left to outliers all but wholly."""
-        known = np.isfinite(self.explained).all()
-        return float((self.explained >= BARELY).mean()) if known else float("nan")
+    def inlier_share(self) -> float:
+        """The share of the points that are inliers with more than little probability."""
+        known = np.isfinite(self.inlier_probability).all()
+        return float((self.inlier_probability >= LITTLE).mean()) if known else float("nan")
 
 
-BARELY = 0.1
-"""A point that is explained by less is left to outliers: nine parts of ten are theirs."""
+LITTLE = 0.1
+"""A point of less inlier probability counts as an outlier."""
 
 
 class Registrar(ABC):
@@ -86,25 +86,24 @@ class Registrar(ABC):
     def register(
         self,
         observation: Observation,
-        expected: Pose,
-        *others: Pose,
-        blurs: Sequence[float] | None = None,
-        after: Registered | None = None,
-    ) -> Registered:
+        candidates: Sequence[Pose],
+        *,
+        prior: Pose | None = None,
+        warm_start: RegistrationResult | None = None,
+    ) -> RegistrationResult:
         """The body's pose in a frame.
 
-        The search sets out from the pose that explains the frame best.
+        The search starts from the candidate that explains the frame best, and everything is bound
+        to that candidate.
 
         Args:
             observation: The frame's data.
-            expected: A pose near the one sought; where the data say nothing, it is kept.
-            others: More poses from which the search may set out.
-            blurs: Standard deviations [m] to smooth the energy with, one registration after the
-                other; without them the method's own.
-            after: The registration of the frame before, from which a solver may take more than the
+            candidates: Poses from which the search may start, one at least.
+            prior: The pose that is kept where the data say nothing; the first candidate without it.
+            warm_start: The result of the frame before, from which a solver may take more than the
                 pose.
         """
 
     @abstractmethod
-    def fit(self, observation: Observation, pose: Pose) -> Fit:
+    def evaluate(self, observation: Observation, pose: Pose) -> Evaluation:
         """How well a pose explains a frame, without moving it."""

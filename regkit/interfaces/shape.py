@@ -20,5 +20,5 @@ class ShapeModel(Plugin, ABC):
     """The type of the primitives."""
 
     @abstractmethod
-    def attach(self, body: Body) -> Primitives:
+    def bind(self, body: Body) -> Primitives:
         """Primitives in the frames of the body's segments."""

@@ -84,6 +84,10 @@ class Problem(ABC):
         """
         return None
 
+    def without_curvature(self) -> tuple[str, ...]:
+        """What the problem has no such matrix for; empty if it has one."""
+        return () if self.normal_equations(self.start) else ("the problem",)
+
     def constraints(self) -> Constraints | None:
         """What else a solution keeps, for solvers that can hold it; None if nothing."""
         return None

@@ -22,18 +22,18 @@ class Scene:
     Attributes:
         body: What is registered.
         observation: The frame's data.
-        expected: The pose that is expected where the data say nothing.
+        prior: The pose that is kept where the data say nothing.
         placed: The primitives in the pose from which the frame is registered.
     """
 
     body: Body
     observation: Observation
-    expected: Pose
+    prior: Pose
     placed: Placed[Any]
 
 
 @dataclass(frozen=True)
-class Strain:
+class JointResponse:
     """An energy of the joints and its derivative.
 
     Attributes:
@@ -51,18 +51,18 @@ class JointEnergy(ABC):
     """An energy that looks at the joints alone."""
 
     @abstractmethod
-    def __call__(self, pose: Pose) -> Strain:
+    def __call__(self, pose: Pose) -> JointResponse:
         """The energy in a pose, its derivative and its curvature."""
 
 
 @dataclass(frozen=True)
-class Shares:
-    """By how much each primitive takes part: factors (K,) on the weights, from 0 to 1."""
+class VisibilityWeights:
+    """By how much each primitive is visible: factors (K,) on the weights, from 0 to 1."""
 
     factors: Array
 
 
-Effect = Shares | Similarity | JointEnergy
+Effect = VisibilityWeights | Similarity | JointEnergy
 """What a term does: weigh the primitives, or add an energy of them or of the joints."""
 
 
@@ -82,5 +82,5 @@ class Term(Plugin, ABC):
         """
 
     @abstractmethod
-    def against(self, scene: Scene) -> Effect:
+    def bind(self, scene: Scene) -> Effect:
         """Bind the term to a frame."""

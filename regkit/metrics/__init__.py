@@ -1,21 +1,21 @@
-"""How well sequences were tracked, as the literature measures it, and how sure that is."""
+"""How well recordings were tracked, as the literature measures it, and how sure that is."""
 
 from regkit.metrics.joints import JointErrors, joint_errors, matched
 from regkit.metrics.losses import Losses
-from regkit.metrics.measure import NEAR, TEN_CM, Measure, mean_of, measured
+from regkit.metrics.measure import PCK_PART, TEN_CM, Measure, mean_of, measured
 from regkit.metrics.pairs import Pair, compared
 from regkit.metrics.statistics import Summary, summary
-from regkit.metrics.thresholds import area_under, share_within
+from regkit.metrics.thresholds import auc, share_within
 
 __all__ = [
-    "NEAR",
+    "PCK_PART",
     "TEN_CM",
     "JointErrors",
     "Losses",
     "Measure",
     "Pair",
     "Summary",
-    "area_under",
+    "auc",
     "compared",
     "joint_errors",
     "matched",

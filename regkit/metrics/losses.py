@@ -39,7 +39,7 @@ class Losses:
     def recovery(self, fps: float) -> float | None:
         """Mean length of the stretches [s]; None if there is none.
 
-        One that the sequence's end cuts short counts as long as it was seen to be.
+        One that the recording's end cuts short counts as long as it was seen to be.
         """
         lengths = [end - first for first, end in self.stretches()]
         return float(np.mean(lengths)) / fps if lengths else None

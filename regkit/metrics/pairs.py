@@ -1,4 +1,4 @@
-"""Two methods held against each other, sequence by sequence."""
+"""Two methods held against each other, recording by recording."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from regkit.metrics.measure import Measure
 from regkit.metrics.statistics import Interval, bootstrapped, holm, signed_rank
 
 Measures = Mapping[str, Mapping[str, Measure]]
-"""Figures by method and sequence."""
+"""Figures by method and recording."""
 
 
 @dataclass(frozen=True)
 class Pair:
-    """A figure, of which less is better, of two methods on the sequences that both finished.
+    """A figure, of which less is better, of two methods on the recordings that both finished.
 
     Attributes:
         figure: Its name in ``Measure``.
         method: The one method.
         other: The other.
-        n: Number of sequences.
+        n: Number of recordings.
         won: On how many the figure of ``method`` is smaller.
         tied: On how many both are the same.
         difference: Median of ``method`` less ``other``, in the figure's unit.
@@ -47,7 +47,7 @@ def compared(measures: Measures, figure: str, chosen: Iterable[tuple[str, str]] 
     """The best method against each other one, and chosen pairs, corrected together.
 
     Args:
-        measures: Figures by method and sequence.
+        measures: Figures by method and recording.
         figure: Which of them; less is better.
         chosen: Further pairs of methods.
     """
@@ -66,8 +66,8 @@ def compared(measures: Measures, figure: str, chosen: Iterable[tuple[str, str]] 
 
 
 def best(measures: Measures, figure: str) -> str | None:
-    """The method whose mean is least on the sequences that all finished; None if there are none."""
-    values = {name: _values(by_sequence, figure) for name, by_sequence in measures.items()}
+    """The method of the least mean on the recordings that all finished; None if there are none."""
+    values = {name: _values(by_recording, figure) for name, by_recording in measures.items()}
     values = {name: known for name, known in values.items() if known}
     if not values:
         return None
@@ -79,10 +79,10 @@ def best(measures: Measures, figure: str) -> str | None:
 
 def _pair(measures: Measures, figure: str, method: str, other: str) -> Pair | None:
     ours, theirs = (_values(measures.get(name, {}), figure) for name in (method, other))
-    shared = [sequence for sequence in ours if sequence in theirs]
+    shared = [recording for recording in ours if recording in theirs]
     if not shared:
         return None
-    differences = np.array([ours[sequence] - theirs[sequence] for sequence in shared])
+    differences = np.array([ours[recording] - theirs[recording] for recording in shared])
     return Pair(
         figure=figure,
         method=method,
@@ -96,6 +96,6 @@ def _pair(measures: Measures, figure: str, method: str, other: str) -> Pair | No
     )
 
 
-def _values(by_sequence: Mapping[str, Measure], figure: str) -> dict[str, float]:
-    found = {sequence: getattr(measure, figure) for sequence, measure in by_sequence.items()}
-    return {sequence: value for sequence, value in found.items() if value is not None}
+def _values(by_recording: Mapping[str, Measure], figure: str) -> dict[str, float]:
+    found = {recording: getattr(measure, figure) for recording, measure in by_recording.items()}
+    return {recording: value for recording, value in found.items() if value is not None}

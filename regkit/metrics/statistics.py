@@ -1,4 +1,4 @@
-"""What a figure's values on several sequences say together, and how sure that is."""
+"""What a figure's values on several recordings say together, and how sure that is."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from regkit.system.arrays import Array
 
 FEWEST = 6
-"""So many sequences allow an interval or a test: of five pairs, none can be significant at 5 %."""
+"""So many recordings allow an interval or a test: of five pairs, none can be significant at 5 %."""
 
 RESAMPLES = 4999
 SEED = 20140711
@@ -26,10 +26,10 @@ Interval = tuple[float, float]
 
 @dataclass(frozen=True)
 class Summary:
-    """A figure over n sequences.
+    """A figure over n recordings.
 
     Attributes:
-        n: How many sequences have it.
+        n: How many recordings have it.
         mean: The mean, or None if n is 0.
         median: The median, or None if n is 0.
         interval: The 95 % bootstrap interval of the mean, or None if n is too small for one.

@@ -14,7 +14,7 @@ def share_within(distances: Array, threshold: float, axis: int | None = None) ->
     return np.asarray(np.where(known > 0, below / np.maximum(known, 1), np.nan))
 
 
-def area_under(distances: Array, widest: float) -> float | None:
+def auc(distances: Array, widest: float) -> float | None:
     """The area under the curve of ``share_within`` from 0 to the widest threshold, from 0 to 1.
 
     It is exact: a distance d is within every threshold from d on, a part 1 - d / widest of them.

@@ -17,7 +17,7 @@ from regkit.system.errors import DataError
 Distance = Annotated[float, Field(gt=0.0)]
 
 LEAST = 4
-"""Fewer points than this after thinning tell that the cubes are larger than the body."""
+"""Fewer points than this after downsampling tell that the cubes are larger than the body."""
 
 
 class Crop(Model):
@@ -53,7 +53,7 @@ class Crop(Model):
         if len(kept) < self.min_points:
             raise DataError(
                 f"{len(kept)} of the frame's {len(points)} points are left after cropping; at "
-                f"least {self.min_points} are needed (observer.crop)",
+                f"least {self.min_points} are needed (preprocessor.crop)",
                 place=frame.place,
             )
         if len(kept) == len(points):
@@ -70,9 +70,9 @@ class Crop(Model):
         """Refuse cubes so large that hardly a point is left, as of millimetres given for metres.
 
         Args:
-            left: How many points there are after thinning.
-            frame: What was thinned.
-            field: The observer's field that says how large the cubes are.
+            left: How many points there are after downsampling.
+            frame: What was downsampled.
+            field: The preprocessor's field that says how large the cubes are.
             side: Its value [m].
 
         Raises:
@@ -82,7 +82,7 @@ class Crop(Model):
         if left < least:
             raise DataError(
                 f"{side:g} m is too large: the frame's {len(frame.points)} points become {left}; "
-                f"at least {least} are needed (observer.{field}, in metres)",
+                f"at least {least} are needed (preprocessor.{field}, in metres)",
                 place=frame.place,
             )
 

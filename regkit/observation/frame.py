@@ -10,7 +10,7 @@ from regkit.system.arrays import Array
 
 @dataclass(frozen=True)
 class Frame:
-    """One measurement of a sequence.
+    """One measurement of a recording.
 
     Attributes:
         points: Measured points in the camera's frame (x right, y down, z forward), (N, 3) [m].

@@ -18,7 +18,7 @@ class Observation:
         points: Means, (N, 3) [m].
         weights: (N,).
         variances: sigma^2 of each, (N,) [m^2]. A kernel's time grows with the number of different
-            values, so an observer that has many rounds them.
+            values, so a preprocessor that has many rounds them.
         camera: The camera, if it is known; it looks along z from the origin.
         depth: The depth image (H, W) [m] that the points come from, zero where nothing was
             measured, if there is one.

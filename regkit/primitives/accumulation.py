@@ -1,4 +1,4 @@
-"""Forces on primitives gathered on the segments that carry them, in compiled loops."""
+"""Forces on primitives accumulated on the segments that carry them, in compiled loops."""
 
 from __future__ import annotations
 
@@ -9,34 +9,34 @@ from regkit.system.compiled import compiled
 
 
 @compiled
-def gathered_wrenches(wrenches: Array, arms: Array, owners: Indices, segments: int) -> Array:
+def accumulated_wrenches(wrenches: Array, arms: Array, owners: Indices, segments: int) -> Array:
     """Wrenches (K, 6) summed on their owners, (S, 6), about points that arms (K, 3) start from."""
-    gathered = np.zeros((segments, 6))
+    accumulated = np.zeros((segments, 6))
     for k in range(len(wrenches)):
         f, g, h = wrenches[k, 0], wrenches[k, 1], wrenches[k, 2]
         x, y, z = arms[k]
-        own = gathered[owners[k]]
+        own = accumulated[owners[k]]
         own[0] += f
         own[1] += g
         own[2] += h
         own[3] += wrenches[k, 3] + y * h - z * g
         own[4] += wrenches[k, 4] + z * f - x * h
         own[5] += wrenches[k, 5] + x * g - y * f
-    return gathered
+    return accumulated
 
 
 @compiled
-def gathered_stiffness(blocks: Array, arms: Array, owners: Indices, segments: int) -> Array:
+def accumulated_stiffness(blocks: Array, arms: Array, owners: Indices, segments: int) -> Array:
     """Blocks (K, 6, 6) summed on their owners, (S, 6, 6), about the same points.
 
     A centre moves with its segment's translation and by its rotation times the arm: M^T B M with
     M = [[I, -[arm]x], [0, I]].
     """
-    gathered = np.zeros((segments, 6, 6))
+    accumulated = np.zeros((segments, 6, 6))
     half = np.empty((6, 6))
     for k in range(len(blocks)):
         x, y, z = arms[k]
-        block, own = blocks[k], gathered[owners[k]]
+        block, own = blocks[k], accumulated[owners[k]]
         for i in range(6):
             a, b, c = block[i, 0], block[i, 1], block[i, 2]
             half[i, 0], half[i, 1], half[i, 2] = a, b, c
@@ -51,4 +51,4 @@ def gathered_stiffness(blocks: Array, arms: Array, owners: Indices, segments: in
             own[3, j] += half[3, j] - z * b + y * c
             own[4, j] += half[4, j] + z * a - x * c
             own[5, j] += half[5, j] - y * a + x * b
-    return gathered
+    return accumulated

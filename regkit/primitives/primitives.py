@@ -11,7 +11,7 @@ from typing import Generic, Self, TypeVar
 
 import numpy as np
 
-from regkit.primitives.accumulation import gathered_stiffness, gathered_wrenches
+from regkit.primitives.accumulation import accumulated_stiffness, accumulated_wrenches
 from regkit.system.arrays import Array, Indices
 
 
@@ -76,12 +76,12 @@ class Placed(Generic[P_co]):
         """``R diag(scales^2) R^T`` in the world, (K, 3, 3) [m^2]."""
         return (self.axes * self.primitives.scales[:, None, :] ** 2) @ np.swapaxes(self.axes, 1, 2)
 
-    def gather(self, wrenches: Array, segments: int) -> Array:
+    def accumulate(self, wrenches: Array, segments: int) -> Array:
         """Wrenches (K, 6) on the primitives as (S, 6), summed about the segments' origins."""
         arms = self.centres - self.carriers
-        return gathered_wrenches(wrenches, arms, self.primitives.segments, segments)
+        return accumulated_wrenches(wrenches, arms, self.primitives.segments, segments)
 
-    def gather_stiffness(self, stiffness: Array, segments: int) -> Array:
+    def accumulate_stiffness(self, stiffness: Array, segments: int) -> Array:
         """Blocks (K, 6, 6) on the primitives as (S, 6, 6), summed about the segments' origins."""
         arms = self.centres - self.carriers
-        return gathered_stiffness(stiffness, arms, self.primitives.segments, segments)
+        return accumulated_stiffness(stiffness, arms, self.primitives.segments, segments)

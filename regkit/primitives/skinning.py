@@ -61,7 +61,7 @@ def place_blended(
 
 
 @compiled
-def gathered_wrenches(
+def accumulated_wrenches(
     wrenches: Array,
     segments: Indices,
     blend: Array,
@@ -72,7 +72,7 @@ def gathered_wrenches(
     count: int,
 ) -> Array:
     """Wrenches (K, 6) on points and normals as (S, 6), summed about the segments' origins."""
-    gathered = np.zeros((count, 6))
+    accumulated = np.zeros((count, 6))
     for k in range(len(wrenches)):
         f, n = wrenches[k], axes[k, :, 2]
         # The transpose of [n]x [m]x is [m]x [n]x.
@@ -81,7 +81,7 @@ def gathered_wrenches(
             weight = blend[k, a]
             if weight == 0.0:
                 continue
-            arm, m, own = arms[k, a], turned[k, a], gathered[segments[k, a]]
+            arm, m, own = arms[k, a], turned[k, a], accumulated[segments[k, a]]
             u, v, w = _crossed(arm[0], arm[1], arm[2], f[0], f[1], f[2])
             p, q, r = _crossed(m[0], m[1], m[2], x, y, z)
             own[0] += weight * f[0]
@@ -90,11 +90,11 @@ def gathered_wrenches(
             own[3] += weight * (u - p / lengths[k])
             own[4] += weight * (v - q / lengths[k])
             own[5] += weight * (w - r / lengths[k])
-    return gathered
+    return accumulated
 
 
 @compiled
-def gathered_stiffness(
+def accumulated_stiffness(
     blocks: Array,
     segments: Indices,
     blend: Array,
@@ -108,7 +108,7 @@ def gathered_stiffness(
 
     Each carrier gets M^T B M with its own map M; the blocks between different ones are left out.
     """
-    gathered = np.zeros((count, 6, 6))
+    accumulated = np.zeros((count, 6, 6))
     carried, half = np.zeros((6, 6)), np.empty((6, 6))
     for k in range(len(blocks)):
         block = blocks[k]
@@ -118,7 +118,7 @@ def gathered_stiffness(
             if blend[k, a] == 0.0:
                 continue
             _set_map(carried, blend[k, a], arms[k, a], turned[k, a], axes[k, :, 2], lengths[k])
-            own = gathered[segments[k, a]]
+            own = accumulated[segments[k, a]]
             for i in range(6):
                 for j in range(6):
                     half[i, j] = 0.0
@@ -128,7 +128,7 @@ def gathered_stiffness(
                 for j in range(6):
                     for e in range(6):
                         own[i, j] += carried[e, i] * half[e, j]
-    return gathered
+    return accumulated
 
 
 @compiled

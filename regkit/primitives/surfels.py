@@ -9,7 +9,7 @@ import numpy as np
 
 from regkit.geometry.surface import SkinnedSurface
 from regkit.primitives import Placed, Primitives
-from regkit.primitives.skinning import gathered_stiffness, gathered_wrenches, place_blended
+from regkit.primitives.skinning import accumulated_stiffness, accumulated_wrenches, place_blended
 from regkit.system.arrays import Array
 
 
@@ -90,13 +90,13 @@ class PlacedSurfels(Placed[S_co]):
     turned: Array
     lengths: Array
 
-    def gather(self, wrenches: Array, segments: int) -> Array:
+    def accumulate(self, wrenches: Array, segments: int) -> Array:
         """Wrenches (K, 6) on the surfels as (S, 6), summed about the segments' origins.
 
         What would only turn a surfel about its own normal does nothing.
         """
         skin = self.primitives.surface
-        return gathered_wrenches(
+        return accumulated_wrenches(
             wrenches,
             skin.segments,
             skin.blend,
@@ -107,10 +107,10 @@ class PlacedSurfels(Placed[S_co]):
             segments,
         )
 
-    def gather_stiffness(self, stiffness: Array, segments: int) -> Array:
+    def accumulate_stiffness(self, stiffness: Array, segments: int) -> Array:
         """Blocks (K, 6, 6) on the surfels as (S, 6, 6), about the segments' origins."""
         skin = self.primitives.surface
-        return gathered_stiffness(
+        return accumulated_stiffness(
             stiffness,
             skin.segments,
             skin.blend,

@@ -79,7 +79,7 @@ def tangent_constraints(skeleton: Skeleton, balls: Array, count: int) -> Constra
     rows = _tangent_rows(skeleton)
     if not rows.names:
         return None
-    return ChartConstraints(rows, balls.ravel(), skeleton.ball_freedoms, count)
+    return ChartConstraints(rows, balls.ravel(), skeleton.ball_dofs, count)
 
 
 def quaternion_constraints(skeleton: Skeleton, count: int) -> Constraints | None:

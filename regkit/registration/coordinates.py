@@ -13,7 +13,7 @@ from regkit.geometry.rotation import conjugate, from_matrix, normalized, product
 from regkit.interfaces import Constraints
 from regkit.registration.constraints import quaternion_constraints, tangent_constraints
 from regkit.skeleton import Couplings, Pose, Skeleton
-from regkit.skeleton.compiled_steps import step_differential
+from regkit.skeleton.compiled_steps import step_jacobian
 from regkit.system.arrays import Array
 
 CoordinatesName = Literal["tangent", "quaternion"]
@@ -51,7 +51,7 @@ class Coordinates(ABC):
         """The coordinates (m,) of a pose."""
 
     @abstractmethod
-    def differential(self, x: Array) -> Array:
+    def jacobian(self, x: Array) -> Array:
         """D (n, m) at x: a change dx moves the degrees of freedom at ``pose(x)`` by D dx.
 
         So a generalised force f has the gradient D^T f, and a normal matrix H the form D^T H D.
@@ -77,7 +77,7 @@ class TangentCoordinates(Coordinates):
 
     def origin(self) -> Array:
         """Zero."""
-        return np.zeros(self.skeleton.freedoms - len(self._couplings))
+        return np.zeros(self.skeleton.dofs - len(self._couplings))
 
     def pose(self, x: Array) -> Pose:
         """``retract(start, x)``, followers made to follow."""
@@ -90,24 +90,24 @@ class TangentCoordinates(Coordinates):
         """The step from the start to a pose, its rotations of at most half a turn."""
         return self._independent(self.skeleton.difference(self.start, pose))
 
-    def differential(self, x: Array) -> Array:
+    def jacobian(self, x: Array) -> Array:
         """By the right Jacobian of each rotation vector: exp(w + dw) = exp(w) exp(J dw)."""
         first = 3 if self.skeleton.free else 0
-        hinges = self.skeleton.hinge_freedoms
-        differential = step_differential(self._step(x), first, hinges.start)
+        hinges = self.skeleton.hinge_dofs
+        jacobian = step_jacobian(self._step(x), first, hinges.start)
         if not len(self._couplings):
-            return differential
+            return jacobian
         return np.hstack([
-            differential[:, : hinges.start], differential[:, hinges] @ self._couplings.spread
+            jacobian[:, : hinges.start], jacobian[:, hinges] @ self._couplings.spread
         ])  # fmt: skip
 
     def bounds(self) -> tuple[Array, Array]:
         """The hinges' limits, and half a turn for each part of a rotation vector."""
-        lower, upper = np.full((2, self.skeleton.freedoms), np.pi)
+        lower, upper = np.full((2, self.skeleton.dofs), np.pi)
         lower = -lower
         if self.skeleton.free:
             lower[:3], upper[:3] = -np.inf, np.inf
-        hinges = self.skeleton.hinge_freedoms
+        hinges = self.skeleton.hinge_dofs
         lower[hinges] = self.skeleton.limits.hinge[:, 0] - self.start.hinges
         upper[hinges] = self.skeleton.limits.hinge[:, 1] - self.start.hinges
         lower, upper = self._independent(lower), self._independent(upper)
@@ -121,12 +121,12 @@ class TangentCoordinates(Coordinates):
         """The step (n,) of all degrees of freedom at x (m,)."""
         if not len(self._couplings):
             return x
-        hinges = self.skeleton.hinge_freedoms.start
+        hinges = self.skeleton.hinge_dofs.start
         return np.concatenate([x[:hinges], self._couplings.spread @ x[hinges:]])
 
     def _independent(self, step: Array) -> Array:
         """The part (m,) of a step (n,) that followers have no part in."""
-        return np.delete(step, self.skeleton.hinge_freedoms.start + self._couplings.followers)
+        return np.delete(step, self.skeleton.hinge_dofs.start + self._couplings.followers)
 
 
 @dataclass(frozen=True)
@@ -151,7 +151,7 @@ class QuaternionCoordinates(Coordinates):
             return Pose(self.start.root, unit, hinges)
         return Pose(rigid(to_matrix(unit[0]), x[:3]), unit[1:], hinges)
 
-    def differential(self, x: Array) -> Array:
+    def jacobian(self, x: Array) -> Array:
         """By the angular rate ``2 vec(p* dr) / |r|``; the part of dr along r turns nothing."""
         quaternions, _ = self._split(x)
         inverse = conjugate(normalized(quaternions)) * (
@@ -159,14 +159,14 @@ class QuaternionCoordinates(Coordinates):
         )
         rates = product(inverse[:, None, :], np.eye(4))[..., :3]  # (L, 4, 3), a row for each of r
         start = 3 if self.skeleton.free else 0
-        differential = np.zeros((self.skeleton.freedoms, len(x)))
-        differential[:start, :start] = np.eye(start)
+        jacobian = np.zeros((self.skeleton.dofs, len(x)))
+        jacobian[:start, :start] = np.eye(start)
         rows = start + np.arange(3 * len(rates)).reshape(-1, 3)
         columns = start + np.arange(4 * len(rates)).reshape(-1, 4)
-        differential[rows[:, :, None], columns[:, None, :]] = np.swapaxes(rates, 1, 2)
+        jacobian[rows[:, :, None], columns[:, None, :]] = np.swapaxes(rates, 1, 2)
         last = len(x) - len(self._couplings.independent)
-        differential[self.skeleton.hinge_freedoms, last:] = self._couplings.spread
-        return differential
+        jacobian[self.skeleton.hinge_dofs, last:] = self._couplings.spread
+        return jacobian
 
     def bounds(self) -> tuple[Array, Array]:
         """The hinges' limits; a quaternion has none."""

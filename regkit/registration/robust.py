@@ -23,17 +23,17 @@ class Robust(Model):
     """Standard deviation of the residuals that are the model's own [m]; without it, that of each
     frame's residuals where its registration begins."""
 
-    def bound(self, residuals: Array, *, least: float, blur: float = 0.0) -> Loss:
+    def bound(self, residuals: Array, *, least: float, smoothing: float = 0.0) -> Loss:
         """The loss whose scale is that of the data, one function for the whole solution.
 
         Args:
             residuals: At the start, (N,) [m].
             least: What an estimated scale is at least [m], such as the data's own standard
                 deviation: residuals that happen to be all alike tell nothing of noise.
-            blur: A standard deviation [m] that widens the scale.
+            smoothing: A standard deviation [m] that widens the scale.
         """
         scale = max(median_scale(residuals), least) if self.scale is None else self.scale
-        return _LOSSES[self.loss](float(np.hypot(scale, blur)))
+        return _LOSSES[self.loss](float(np.hypot(scale, smoothing)))
 
 
 def median_scale(residuals: Array) -> float:
@@ -68,9 +68,9 @@ class Loss(ABC):
 
     def weights(self, residuals: Array) -> Array:
         """The derivative over the residual, for Gauss-Newton, (N,) [1/m^2]: 1 / s^2 near zero."""
-        return self.shares(residuals) / self.scale**2
+        return self.inlier_probability(residuals) / self.scale**2
 
-    def shares(self, residuals: Array) -> Array:
+    def inlier_probability(self, residuals: Array) -> Array:
         """By how much residuals (N,) [m] are taken for the model's own, (N,), from 0 to 1."""
         return self._shares((residuals / self.scale) ** 2)
 

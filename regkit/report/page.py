@@ -19,7 +19,7 @@ from regkit.report.overlay import draw_overlay
 from regkit.report.plot import DARK, LIGHT, Plot
 from regkit.report.run import Run
 from regkit.report.summary import metrics, write_tables
-from regkit.report.tables import main_table, pair_table, sequence_table
+from regkit.report.tables import main_table, pair_table, recording_table
 from regkit.report.words import BY_NAME, NAMES, many
 from regkit.system.files import write_json, write_text
 
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from jinja2 import Environment
 
 PICTURES = 12
-"""So many overlays are on the page, the worst sequences of each method, or the worst one of the
+"""So many overlays are on the page, the worst recordings of each method, or the worst one of the
 first methods; the others are linked."""
 
 ROWS = 40
@@ -40,13 +40,13 @@ class Picture:
 
     Attributes:
         method: Of which method.
-        sequence: On which sequence.
+        recording: On which recording.
         file: Where it is.
         link: The same from the results folder, as a URL.
     """
 
     method: str
-    sequence: str
+    recording: str
     file: Path
     link: str
 
@@ -83,11 +83,11 @@ def write_report(run: Run, folder: Path, *, figures: bool = True) -> None:
     for one in drawn:
         one.plot.write(folder / "figures", one.light)
     for picture in _pictures(run, folder):
-        if not picture.file.exists() and picture.sequence in run.records.get(picture.method, {}):
+        if not picture.file.exists() and picture.recording in run.records.get(picture.method, {}):
             draw_overlay(
                 picture.file,
-                f"{picture.method} on {picture.sequence}",
-                run.records[picture.method][picture.sequence],
+                f"{picture.method} on {picture.recording}",
+                run.records[picture.method][picture.recording],
                 run.style(picture.method).colour,
             )
     write_text(folder / "report.md", _text("report.md", run, folder, drawn))
@@ -97,7 +97,7 @@ def write_report(run: Run, folder: Path, *, figures: bool = True) -> None:
 def _text(template: str, run: Run, folder: Path, drawn: list[Drawn]) -> str:
     pictures = list(_pictures(run, folder))
     worst = set(_worst(run))
-    shown = [one for one in pictures if (one.method, one.sequence) in worst and one.file.exists()]
+    shown = [one for one in pictures if (one.method, one.recording) in worst and one.file.exists()]
     machine = run.environment
     return _environment().get_template(template).render(
         run=run,
@@ -117,7 +117,7 @@ def _text(template: str, run: Run, folder: Path, drawn: list[Drawn]) -> str:
         written_at=f"{datetime.now():%Y-%m-%d %H:%M}",
         main=main_table(run.measures),
         pairs=pair_table(run.pairs()),
-        sequences=sequence_table(run.measures),
+        recordings=recording_table(run.measures),
         folded=ROWS,
         failures=[(m, s, why) for m, by in run.failures.items() for s, why in by.items()],
         tracks=sum(len(by) for all_of in (run.measures, run.failures) for by in all_of.values()),
@@ -130,42 +130,42 @@ def _text(template: str, run: Run, folder: Path, drawn: list[Drawn]) -> str:
 
 def _finding(run: Run) -> str:
     """The comparison in one sentence."""
-    counts = f"{many(len(run.measures), 'method')} on {many(len(run.sequences), 'sequence')}"
+    counts = f"{many(len(run.measures), 'method')} on {many(len(run.recordings), 'recording')}"
     first = best(run.finished, run.figure)
     if first is None:
         return f"{counts}."
-    shared = [run.measures[first][sequence] for sequence in run.shared]
+    shared = [run.measures[first][recording] for recording in run.shared]
     column = BY_NAME[run.figure]
     least = f"{column.shown(getattr(mean_of(shared), run.figure))} {column.unit}"
     if len(run.finished) == 1:
         return f"{counts}: its {NAMES[run.figure]} is {least}."
     part = (
-        "" if len(run.shared) == len(run.sequences) else f" on the {len(run.shared)} that all did"
+        "" if len(run.shared) == len(run.recordings) else f" on the {len(run.shared)} that all did"
     )
     return f"{counts}: {first} has the least {NAMES[run.figure]}, {least}{part}."
 
 
 def _compared(run: Run) -> list[tuple[str, str]]:
-    parts = ("dataset", "template", "observer", "tracker", "start")
+    parts = ("dataset", "template", "preprocessor", "tracker", "start")
     lines = [(name, flow(run.config.get(name))) for name in parts]
     return [(name, text) for name, text in lines if text]
 
 
 def _worst(run: Run) -> Iterator[tuple[str, str]]:
-    """The overlays that are shown: of each method, the sequences that went worst."""
+    """The overlays that are shown: of each method, the recordings that went worst."""
     if sum(map(len, run.finished.values())) <= PICTURES:
-        each = len(run.sequences)
+        each = len(run.recordings)
     else:
         each = max(1, PICTURES // max(1, len(run.finished)))
     for method in list(run.finished)[:PICTURES]:
-        yield from ((method, sequence) for sequence in run.worst(method)[:each])
+        yield from ((method, recording) for recording in run.worst(method)[:each])
 
 
 def _pictures(run: Run, folder: Path) -> Iterator[Picture]:
-    for method, by_sequence in run.finished.items():
-        for sequence in by_sequence:
-            place = Path(method, sequence, "overlay.png")
-            yield Picture(method, sequence, folder / place, quote(place.as_posix()))
+    for method, by_recording in run.finished.items():
+        for recording in by_recording:
+            place = Path(method, recording, "overlay.png")
+            yield Picture(method, recording, folder / place, quote(place.as_posix()))
 
 
 @cache

@@ -1,4 +1,4 @@
-"""What is kept of a tracked sequence for figures and pictures, so that they can be made anew."""
+"""What is kept of a tracked recording for figures and pictures, so that they can be made anew."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any, Self
 import numpy as np
 
 from regkit.interfaces import Registrar
-from regkit.metrics import NEAR, JointErrors, Losses
+from regkit.metrics import PCK_PART, JointErrors, Losses
 from regkit.observation import Truth
 from regkit.report.look import Look
 from regkit.system.arrays import Array
@@ -20,7 +20,7 @@ Arrays = dict[str, np.ndarray[Any, Any]]
 
 @dataclass(frozen=True)
 class Record:
-    """A tracked sequence of T frames as its figures need it.
+    """A tracked recording of T frames as its figures need it.
 
     Attributes:
         fps: Frames per second at which it was recorded.
@@ -29,7 +29,7 @@ class Record:
         surface_distances: Median distance of a frame's points to the body's surface, (T,) [m]; NaN
             for a body without one.
         seconds: To observe and register, (T,).
-        observing: To observe, (T,) [s].
+        preprocessing: To observe, (T,) [s].
         evaluations: Of the energy, (T,).
         looks: The first, the worst and the last frame; one that is two of these is there once.
     """
@@ -39,7 +39,7 @@ class Record:
     errors: JointErrors | None
     surface_distances: Array
     seconds: Array
-    observing: Array
+    preprocessing: Array
     evaluations: Array
     looks: tuple[Look, ...]
 
@@ -61,7 +61,7 @@ class Record:
             registrar: What registered them.
             errors: Of the joints, if they have references.
             truth: The references themselves, which the pictures show.
-            fps: Frames per second at which the sequence was recorded.
+            fps: Frames per second at which the recording was recorded.
         """
         positions = None if truth is None else truth.positions
         looks = [
@@ -80,7 +80,7 @@ class Record:
             errors=errors,
             surface_distances=track.surface_distances,
             seconds=track.seconds,
-            observing=track.observing,
+            preprocessing=track.preprocessing,
             evaluations=track.evaluations,
             looks=tuple(looks),
         )
@@ -88,7 +88,7 @@ class Record:
     @property
     def near(self) -> float:
         """Within which distance [m] a joint is near its reference."""
-        return NEAR * self.size
+        return PCK_PART * self.size
 
     @property
     def losses(self) -> Losses | None:
@@ -102,7 +102,7 @@ class Record:
             "size": np.array(self.size),
             "surface_distances": self.surface_distances,
             "seconds": self.seconds,
-            "observing": self.observing,
+            "preprocessing": self.preprocessing,
             "evaluations": self.evaluations,
         }
         if self.errors is not None:
@@ -138,7 +138,7 @@ class Record:
             errors=errors,
             surface_distances=named["surface_distances"],
             seconds=named["seconds"],
-            observing=named["observing"],
+            preprocessing=named["preprocessing"],
             evaluations=named["evaluations"],
             looks=tuple(looks),
         )

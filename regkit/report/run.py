@@ -26,9 +26,9 @@ class Run:
         config: The experiment with every default filled in.
         text: The same as YAML.
         environment: Versions and machine.
-        measures: Figures by method and sequence.
-        failures: Why a sequence failed, by method and sequence.
-        records: What is kept of each finished sequence, by method and sequence.
+        measures: Figures by method and recording.
+        failures: Why a recording failed, by method and recording.
+        records: What is kept of each finished recording, by method and recording.
         chosen: Pairs of methods that the user wants compared.
     """
 
@@ -46,30 +46,30 @@ class Run:
         return str(self.config.get("name", "results"))
 
     @cached_property
-    def sequences(self) -> list[str]:
-        """The names of all sequences, in the order in which they were met."""
+    def recordings(self) -> list[str]:
+        """The names of all recordings, in the order in which they were met."""
         found = [name for by in (*self.measures.values(), *self.failures.values()) for name in by]
         return list(dict.fromkeys(found))
 
     @cached_property
     def finished(self) -> dict[str, Mapping[str, Measure]]:
-        """The figures of the methods that finished a sequence."""
-        return {name: by_sequence for name, by_sequence in self.measures.items() if by_sequence}
+        """The figures of the methods that finished a recording."""
+        return {name: by_recording for name, by_recording in self.measures.items() if by_recording}
 
     @cached_property
     def shared(self) -> list[str]:
-        """The sequences that every method finished, of those that finished any."""
-        return [s for s in self.sequences if all(s in by for by in self.finished.values())]
+        """The recordings that every method finished, of those that finished any."""
+        return [s for s in self.recordings if all(s in by for by in self.finished.values())]
 
     @cached_property
     def drawn(self) -> list[str]:
-        """The methods that share a figure: all that finished a sequence, or the best of many."""
+        """The methods that share a figure: all that finished a recording, or the best of many."""
         names = list(self.finished)
         if len(names) <= MOST_DRAWN:
             return names
 
         def mean(name: str) -> float:
-            values = [self.value(name, sequence) for sequence in self.finished[name]]
+            values = [self.value(name, recording) for recording in self.finished[name]]
             known = [value for value in values if value is not None]
             return float(np.mean(known)) if known else np.inf
 
@@ -94,9 +94,9 @@ class Run:
         """The figure that methods are judged by: the joint error where anyone has it."""
         return "joint_error_raw_cm" if self.compared else "surface_distance_mm"
 
-    def value(self, method: str, sequence: str, figure: str | None = None) -> float | None:
-        """A figure of a method on a sequence, or None."""
-        measure = self.measures.get(method, {}).get(sequence)
+    def value(self, method: str, recording: str, figure: str | None = None) -> float | None:
+        """A figure of a method on a recording, or None."""
+        measure = self.measures.get(method, {}).get(recording)
         value: float | None = None if measure is None else getattr(measure, figure or self.figure)
         return value
 
@@ -137,7 +137,7 @@ class Run:
         return [pair for figure in figures for pair in compared(self.finished, figure, chosen)]
 
     def worst(self, method: str) -> list[str]:
-        """The sequences that a method finished, the worst first; those without a figure last."""
+        """The recordings that a method finished, the worst first; those without a figure last."""
         values = {name: self.value(method, name) for name in self.measures.get(method, {})}
         return sorted(values, key=lambda name: -_or(values[name], -np.inf))
 

@@ -17,19 +17,19 @@ FIGURES = [field.name for field in fields(Measure)]
 
 
 def metrics(run: Run) -> dict[str, Any]:
-    """``metrics.json``: figures by method and sequence, and what they say together.
+    """``metrics.json``: figures by method and recording, and what they say together.
 
-    A failed sequence has all its figures None, and says why.
+    A failed recording has all its figures None, and says why.
     """
     methods = {}
-    for method, by_sequence in run.measures.items():
-        sequences: dict[str, Any] = {name: one.to_dict() for name, one in by_sequence.items()}
-        for sequence, reason in run.failures.get(method, {}).items():
-            sequences[sequence] = mean_of([]).to_dict() | {"error": reason}
-        found = list(by_sequence.values())
+    for method, by_recording in run.measures.items():
+        recordings: dict[str, Any] = {name: one.to_dict() for name, one in by_recording.items()}
+        for recording, reason in run.failures.get(method, {}).items():
+            recordings[recording] = mean_of([]).to_dict() | {"error": reason}
+        found = list(by_recording.values())
         over = {name: summary([getattr(one, name) for one in found]) for name in FIGURES}
         methods[method] = {
-            "sequences": sequences,
+            "recordings": recordings,
             "mean": mean_of(found).to_dict(),
             "median": {name: one.median for name, one in over.items()},
             "interval": {name: _listed(one.interval) for name, one in over.items()},
@@ -41,13 +41,13 @@ def metrics(run: Run) -> dict[str, Any]:
 
 def write_tables(run: Run, folder: Path) -> None:
     """Write the same as CSV."""
-    write_csv(folder / "sequences.csv", ["method", "sequence", *FIGURES, "error"], _each(run))
+    write_csv(folder / "recordings.csv", ["method", "recording", *FIGURES, "error"], _each(run))
     rows = []
-    for method, by_sequence in run.finished.items():
+    for method, by_recording in run.finished.items():
         for name in FIGURES:
-            over = summary([getattr(one, name) for one in by_sequence.values()])
+            over = summary([getattr(one, name) for one in by_recording.values()])
             rows.append([method, name, over.n, over.mean, over.median, *_ends(over.interval)])
-    columns = ["method", "figure", "sequences", "mean", "median"]
+    columns = ["method", "figure", "recordings", "mean", "median"]
     write_csv(folder / "methods.csv", [*columns, "mean, 95 % from", "to"], rows)
     joints = [
         [method, joint, one["raw_cm"], one["adjusted_cm"]]
@@ -57,7 +57,7 @@ def write_tables(run: Run, folder: Path) -> None:
     write_csv(folder / "joints.csv", ["method", "joint", "raw [cm]", "adjusted [cm]"], joints)
     write_csv(
         folder / "pairs.csv",
-        ["figure", "method", "other", "sequences", "won", "tied", "median difference",
+        ["figure", "method", "other", "recordings", "won", "tied", "median difference",
          "95 % from", "to", "p (Wilcoxon)", "p (Holm)"],
         [
             [one.figure, one.method, one.other, one.n, one.won, one.tied, one.difference,
@@ -68,11 +68,11 @@ def write_tables(run: Run, folder: Path) -> None:
 
 
 def _each(run: Run) -> Iterator[list[Value]]:
-    for method, by_sequence in run.measures.items():
-        for sequence, measure in by_sequence.items():
-            yield [method, sequence, *measure.to_dict().values(), None]
-        for sequence, reason in run.failures.get(method, {}).items():
-            yield [method, sequence, *(None for _ in FIGURES), reason]
+    for method, by_recording in run.measures.items():
+        for recording, measure in by_recording.items():
+            yield [method, recording, *measure.to_dict().values(), None]
+        for recording, reason in run.failures.get(method, {}).items():
+            yield [method, recording, *(None for _ in FIGURES), reason]
 
 
 def _joints(run: Run, method: str) -> dict[str, dict[str, float | None]]:

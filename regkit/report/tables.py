@@ -13,7 +13,7 @@ from regkit.report.words import BY_NAME, COLUMNS, NAMES, Column
 TERMINAL = {
     "joint_error_raw_cm": "raw [cm]",
     "joint_error_adjusted_cm": "adj. [cm]",
-    "near_percent": "near [%]",
+    "pck_percent": "near [%]",
     "lost_frames": "lost",
     "surface_distance_mm": "surf. [mm]",
     "limit_violation_deg": "limits [°]",
@@ -66,14 +66,14 @@ def shown(figure: float | None) -> str:
 
 
 def rows(measures: Mapping[str, Mapping[str, Measure]]) -> list[list[str]]:
-    """One row for each method: its name, the number of its sequences, and the mean figures."""
+    """One row for each method: its name, the number of its recordings, and the mean figures."""
     table = []
-    for method, by_sequence in measures.items():
-        if not by_sequence:
+    for method, by_recording in measures.items():
+        if not by_recording:
             continue
-        mean = mean_of(list(by_sequence.values()))
+        mean = mean_of(list(by_recording.values()))
         figures = [shown(getattr(mean, name)) for name in TERMINAL]
-        table.append([method, str(len(by_sequence)), *figures])
+        table.append([method, str(len(by_recording)), *figures])
     return table
 
 
@@ -101,22 +101,22 @@ def main_table(measures: Measures) -> Table:
         table.append(cells)
     return Table(
         "methods",
-        "The mean of each figure over the sequences that a method finished; below it the 95 % "
-        "bootstrap interval of the mean, where there are sequences enough."
-        + ("" if alike else " Nothing is bold, for the methods finished different sequences."),
-        ["method", "sequences", *(column.heading for column in columns)],
+        "The mean of each figure over the recordings that a method finished; below it the 95 % "
+        "bootstrap interval of the mean, where there are recordings enough."
+        + ("" if alike else " Nothing is bold, for the methods finished different recordings."),
+        ["method", "recordings", *(column.heading for column in columns)],
         table,
     )
 
 
-def sequence_table(measures: Measures) -> Table:
-    """Every method on every sequence."""
+def recording_table(measures: Measures) -> Table:
+    """Every method on every recording."""
     each = [(m, s, one) for m, by in measures.items() for s, one in by.items()]
     columns = _known([one for _, _, one in each])
     table = []
-    for method, sequence, measure in each:
-        cells = [Cell(sequence, sequence, number=False), Cell(method, method, number=False)]
-        rivals = [one for _, name, one in each if name == sequence]
+    for method, recording, measure in each:
+        cells = [Cell(recording, recording, number=False), Cell(method, method, number=False)]
+        rivals = [one for _, name, one in each if name == recording]
         for column in columns:
             value = getattr(measure, column.figure)
             best = len(rivals) > 1 and _is_best(
@@ -125,15 +125,15 @@ def sequence_table(measures: Measures) -> Table:
             cells.append(Cell(column.shown(value), value, best))
         table.append(cells)
     return Table(
-        "sequences",
-        "Every method on every sequence; bold is the best method of a sequence.",
-        ["sequence", "method", *(column.heading for column in columns)],
+        "recordings",
+        "Every method on every recording; bold is the best method of a recording.",
+        ["recording", "method", *(column.heading for column in columns)],
         table,
     )
 
 
 def pair_table(pairs: list[Pair]) -> Table:
-    """The tests between pairs of methods; of one sequence alone they say nothing."""
+    """The tests between pairs of methods; of one recording alone they say nothing."""
     table = []
     if all(pair.n < 2 for pair in pairs):
         pairs = []
@@ -157,7 +157,7 @@ def pair_table(pairs: list[Pair]) -> Table:
     return Table(
         "pairs",
         "The best method against each other one, methods that differ in their shape model alone, "
-        "and pairs that were asked for: in how many sequences the first one is better, and by how "
+        "and pairs that were asked for: in how many recordings the first one is better, and by how "
         "much; a negative difference is in its favour.",
         ["pair", "figure", "won", "median difference", "p (Wilcoxon)", "p (Holm)"],
         table,

@@ -37,9 +37,9 @@ class Column:
 COLUMNS = (
     Column("joint_error_raw_cm", "raw", "cm", "less", 2),
     Column("joint_error_adjusted_cm", "adjusted", "cm", "less", 2),
-    Column("near_percent", "near", "%", "more"),
+    Column("pck_percent", "near", "%", "more"),
     Column("within_10cm_percent", "in 10 cm", "%", "more"),
-    Column("area_percent", "area", "%", "more"),
+    Column("auc_percent", "area", "%", "more"),
     Column("lost_frames", "lost", "frames", "less"),
     Column("recovery_s", "lost for", "s", digits=2),
     Column("surface_distance_mm", "surface", "mm"),
@@ -48,7 +48,8 @@ COLUMNS = (
     Column("fps", "speed", "fps", "more"),
 )
 """The figures of the page's tables; what counts as better where a surface distance depends on the
-observer, evaluations cost differently, and only who was lost has a time, is left to the reader."""
+preprocessor, evaluations cost differently, and only who was lost has a time, is left to the
+reader."""
 
 BY_NAME = {column.figure: column for column in COLUMNS}
 

@@ -119,7 +119,7 @@ class Scaffold:
             "distribution": self.distribution,
             "module": self.module,
             "class_name": "".join(map(str.capitalize, self.name.split("_"))) + self.what.title(),
-            "sequence": _sample_sequence(),
+            "recording": _sample_recording(),
         }
         for folder in ("package", self.what):
             for path in sorted((FOLDER / folder).rglob("*")):
@@ -131,7 +131,7 @@ class Scaffold:
                 yield Path(place), template.render(values)
 
 
-def _sample_sequence() -> str:
+def _sample_recording() -> str:
     """A recording that examples can use: the sample beside a checkout, else one to be named."""
     sample = FOLDER.parents[1] / "docs" / "examples" / "data" / "human_walk"
     return str(sample) if sample.is_dir() else "path/to/a/recording"

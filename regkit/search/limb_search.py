@@ -59,7 +59,7 @@ class LimbSearch:
             own = np.isin(body.capsules.segments, limb.segments)
             if not own.any():
                 continue
-            poses = limb.turned(rest, balls, hinges)
+            poses = limb.rotated(rest, balls, hinges)
             axes = body.capsules.some(own).axis_points(SPACING * body.size)
             transforms = Placement.of(body.skeleton, poses).transforms
             places = axes.place(transforms) - transforms[:, limb.parent, None, :3, 3]
@@ -88,7 +88,7 @@ class LimbSearch:
         for index in np.argsort(misfits)[:most]:
             if misfits[index] < BETTER * now:
                 chosen = likely[index]
-                yield self.limb.turned(pose, self.balls[chosen], self.hinges[chosen])
+                yield self.limb.rotated(pose, self.balls[chosen], self.hinges[chosen])
 
     def _bare(self, points: Array, placement: Placement, root: Array) -> Array:
         """The points within the limb's reach that the rest of the body does not explain."""

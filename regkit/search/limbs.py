@@ -28,7 +28,7 @@ class Limb:
     balls: Indices
     hinges: Indices
 
-    def turned(self, pose: Pose, balls: Array, hinges: Array) -> Pose:
+    def rotated(self, pose: Pose, balls: Array, hinges: Array) -> Pose:
         """A pose with this limb's joints from (..., n_ball, 4) and (..., n_hinge) [rad]."""
         all_balls = np.tile(pose.balls, (*hinges.shape[:-1], 1, 1))
         all_hinges = np.tile(pose.hinges, (*hinges.shape[:-1], 1))
@@ -52,10 +52,8 @@ def limbs_of(skeleton: Skeleton) -> list[Limb]:
         if len(children[chain[-1]]):
             continue
         nothing = np.zeros(0, dtype=np.intp)
-        own = np.concatenate(
-            [skeleton.joint_freedoms.get(skeleton.names[s], nothing) for s in chain]
-        )
-        balls, hinges = skeleton.ball_freedoms, skeleton.hinge_freedoms
+        own = np.concatenate([skeleton.joint_dofs.get(skeleton.names[s], nothing) for s in chain])
+        balls, hinges = skeleton.ball_dofs, skeleton.hinge_dofs
         of_balls = own[(own >= balls.start) & (own < balls.stop)] - balls.start
         of_hinges = own[own >= hinges.start] - hinges.start
         if len(own):

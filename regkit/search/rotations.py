@@ -7,7 +7,7 @@ from itertools import product
 import numpy as np
 
 from regkit.body.cloud import cloud_body
-from regkit.clouds import spacing, thinned, voxel_for
+from regkit.clouds import spacing, voxel_downsampled, voxel_for
 from regkit.clouds.agreement import agreement
 from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import to_matrix
@@ -22,9 +22,9 @@ SKETCH = 400
 def by_rotations(source: Array, target: Array, method: Method) -> tuple[Array, str]:
     """T_target_source (4, 4) that lies best of all that a method finds from many rotations.
 
-    The centroids are laid on one another, and both clouds are thinned to a sketch. Each result is
-    judged by its fitness and overlap at the distance of neighbouring points, so that a method need
-    not tell energies.
+    The centroids are laid on one another, and both clouds are downsampled to a sketch. Each
+    result is judged by its fitness and overlap at the distance of neighbouring points, so that a
+    method need not tell energies.
 
     Raises:
         RegkitError: If the method cannot register such a cloud.
@@ -32,13 +32,13 @@ def by_rotations(source: Array, target: Array, method: Method) -> tuple[Array, s
     few, seen = _sketch(source), _sketch(target)
     centre, aim = few.mean(axis=0), seen.mean(axis=0)
     body = cloud_body("source", few - centre)
-    registrar = method.prepare(body)
+    registrar = method.bind(body)
     observation = Observation(seen, np.ones(len(seen)), np.full(len(seen), spacing(seen) ** 2))
     distance = max(spacing(few), spacing(seen))
     back = rigid(np.eye(3), -centre)
     best, score = np.eye(4), -1.0
     for rotation in icosahedral():
-        found = registrar.register(observation, body.skeleton.rest(rigid(rotation, aim)))
+        found = registrar.register(observation, [body.skeleton.rest(rigid(rotation, aim))])
         transform = found.pose.root @ back
         its = agreement(few, seen, transform, distance)
         if its.fitness + its.overlap > score:
@@ -69,4 +69,4 @@ def icosahedral() -> Array:
 
 def _sketch(points: Array) -> Array:
     voxel = voxel_for(points, SKETCH)
-    return points if voxel is None else thinned(points, voxel)
+    return points if voxel is None else voxel_downsampled(points, voxel)

@@ -28,7 +28,7 @@ _UNLIMITED = (-np.inf, np.inf)
 
 @dataclass
 class _Links:
-    """The links gathered so far."""
+    """The links accumulated so far."""
 
     parents: list[int] = field(default_factory=list)
     offsets: list[Array] = field(default_factory=list)
@@ -97,7 +97,7 @@ def _skeleton(
         ball_links=ball_links,
         hinge_links=hinge_links,
         hinge_axes=read_only([axis for _, axis, _ in links.hinges]).reshape(-1, 3),
-        joint_freedoms=_joint_freedoms(links, segment_links, first=6 if free else 0),
+        joint_dofs=_joint_dofs(links, segment_links, first=6 if free else 0),
         moves=read_only(
             [[mover in chains[segment_links[name]] for name in names] for mover in movers]
         ).reshape(len(movers), len(names)),
@@ -105,22 +105,20 @@ def _skeleton(
     )
 
 
-def _joint_freedoms(
-    links: _Links, segment_links: dict[str, int], *, first: int
-) -> dict[str, Indices]:
+def _joint_dofs(links: _Links, segment_links: dict[str, int], *, first: int) -> dict[str, Indices]:
     """Three for a ball, one for a hinge, and for a universal joint those of two links."""
-    freedoms: dict[int, list[int]] = {}
+    dofs: dict[int, list[int]] = {}
     for link, _ in links.balls:
-        freedoms[link] = [first, first + 1, first + 2]
+        dofs[link] = [first, first + 1, first + 2]
         first += 3
     for link, _, _ in links.hinges:
-        freedoms[link] = [first]
+        dofs[link] = [first]
         first += 1
     joints: dict[str, Indices] = {}
     for name, link in segment_links.items():
         parent = links.parents[link]
         virtual = parent >= 0 and parent not in segment_links.values()
-        own = (freedoms.get(parent, []) if virtual else []) + freedoms.get(link, [])
+        own = (dofs.get(parent, []) if virtual else []) + dofs.get(link, [])
         if own:
             joints[name] = np.array(own, dtype=np.intp)
     return joints

@@ -79,11 +79,11 @@ def joint_twists(
     ball_links: Indices,
     hinge_links: Indices,
     hinge_axes: Array,
-    freedoms: int,
+    dofs: int,
     root: Array,
 ) -> Array:
-    """The world twists (n, 6) about a reference of the freedoms at unit rate."""
-    twists = np.zeros((freedoms, 6))
+    """The world twists (n, 6) about a reference of the dofs at unit rate."""
+    twists = np.zeros((dofs, 6))
     if first == 6:
         for i in range(3):
             twists[i, i] = 1.0
@@ -112,12 +112,12 @@ def joint_twists(
 
 @compiled
 def segment_jacobian(twists: Array, moves: Array, arms: Array) -> Array:
-    """(S, 6, n) of the freedoms' twists (n, 6), of what they move (n, S), and of arms (S, 3)."""
-    freedoms, segments = moves.shape
-    jacobian = np.zeros((segments, 6, freedoms))
+    """(S, 6, n) of the dofs' twists (n, 6), of what they move (n, S), and of arms (S, 3)."""
+    dofs, segments = moves.shape
+    jacobian = np.zeros((segments, 6, dofs))
     for segment in range(segments):
         x, y, z = arms[segment]
-        for freedom in range(freedoms):
+        for freedom in range(dofs):
             if moves[freedom, segment] == 0.0:
                 continue
             v0, v1, v2, w0, w1, w2 = twists[freedom]

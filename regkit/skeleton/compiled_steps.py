@@ -56,9 +56,9 @@ def ball_steps(starts: Array, ends: Array) -> Array:
 
 
 @compiled
-def step_differential(step: Array, first: int, last: int) -> Array:
+def step_jacobian(step: Array, first: int, last: int) -> Array:
     """The identity (n, n) but for the right Jacobians of the rotation vectors step[first:last]."""
-    differential = np.eye(len(step))
+    jacobian = np.eye(len(step))
     for start in range(first, last, 3):
         v = step[start : start + 3]
         square = v[0] ** 2 + v[1] ** 2 + v[2] ** 2
@@ -72,12 +72,12 @@ def step_differential(step: Array, first: int, last: int) -> Array:
                 entry = two * v[i] * v[j]
                 if i == j:
                     entry += 1.0 - two * square
-                differential[start + i, start + j] = entry
+                jacobian[start + i, start + j] = entry
             j, k = (i + 1) % 3, (i + 2) % 3
             # The matrix [v]x has -v_k at (i, j) and v_j at (i, k).
-            differential[start + i, start + j] += one * v[k]
-            differential[start + i, start + k] -= one * v[j]
-    return differential
+            jacobian[start + i, start + j] += one * v[k]
+            jacobian[start + i, start + k] -= one * v[j]
+    return jacobian
 
 
 @compiled

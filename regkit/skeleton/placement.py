@@ -64,27 +64,27 @@ class Placement:
         return joint_twists(
             self.links,
             self._reference,
-            bones.ball_freedoms.start,
+            bones.ball_dofs.start,
             bones.ball_links,
             bones.hinge_links,
             bones.hinge_axes,
-            bones.freedoms,
+            bones.dofs,
             self.pose.root,
         )
 
-    def pull_back(self, wrenches: Array) -> Array:
+    def jacobian_transpose(self, wrenches: Array) -> Array:
         """The generalised force (n,) of wrenches (S, 6) about the segments' origins.
 
         If the wrenches are an energy's derivative to the segments' motion, this is its derivative
         to the steps that ``Skeleton.retract`` takes, at a zero step.
         """
-        return np.asarray(wrenches.ravel() @ self.jacobian.reshape(-1, self.skeleton.freedoms))
+        return np.asarray(wrenches.ravel() @ self.jacobian.reshape(-1, self.skeleton.dofs))
 
     def normal_matrix(self, stiffness: Array) -> Array:
         """The Gauss-Newton matrix (n, n) of (S, 6, 6) blocks about the segments' origins."""
-        freedoms = self.skeleton.freedoms
+        dofs = self.skeleton.dofs
         loaded = stiffness @ self.jacobian
-        return np.asarray(self.jacobian.reshape(-1, freedoms).T @ loaded.reshape(-1, freedoms))
+        return np.asarray(self.jacobian.reshape(-1, dofs).T @ loaded.reshape(-1, dofs))
 
     @cached_property
     def jacobian(self) -> Array:

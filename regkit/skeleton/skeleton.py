@@ -46,7 +46,7 @@ class Skeleton:
         ball_links: The link of each ball joint, (n_ball,).
         hinge_links: The link of each hinge, (n_hinge,).
         hinge_axes: Unit axis of each hinge in its link's frame, (n_hinge, 3).
-        joint_freedoms: The degrees of freedom of each segment's own joint, by the segment's name.
+        joint_dofs: The degrees of freedom of each segment's own joint, by the segment's name.
         moves: 1 where a degree of freedom moves a segment, else 0, (n, S).
         limits: Joint limits.
     """
@@ -61,7 +61,7 @@ class Skeleton:
     ball_links: Indices
     hinge_links: Indices
     hinge_axes: Array
-    joint_freedoms: Mapping[str, Indices]
+    joint_dofs: Mapping[str, Indices]
     moves: Array
     limits: Limits
 
@@ -76,20 +76,20 @@ class Skeleton:
         return tuple(self.link_parents[level] for level in self.levels)
 
     @property
-    def freedoms(self) -> int:
+    def dofs(self) -> int:
         """Number n of degrees of freedom."""
         return len(self.moves)
 
     @property
-    def ball_freedoms(self) -> slice:
+    def ball_dofs(self) -> slice:
         """Where the ball joints stand among the degrees of freedom."""
         start = 6 if self.free else 0
         return slice(start, start + 3 * len(self.ball_links))
 
     @property
-    def hinge_freedoms(self) -> slice:
+    def hinge_dofs(self) -> slice:
         """Where the hinges stand among the degrees of freedom."""
-        return slice(self.ball_freedoms.stop, self.freedoms)
+        return slice(self.ball_dofs.stop, self.dofs)
 
     def rest(self, root: Array | None = None) -> Pose:
         """The pose of zero angles, but for coupled ones, its root at T_world_root (4, 4)."""
@@ -104,8 +104,8 @@ class Skeleton:
         rotation vectors in the frames that they turn, R exp(w); hinge angles add.
         """
         root = moved_root(pose.root, step) if self.free else pose.root
-        balls = turned_balls(pose.balls, step[self.ball_freedoms].reshape(-1, 3))
-        return Pose(root, balls, pose.hinges + step[self.hinge_freedoms])
+        balls = turned_balls(pose.balls, step[self.ball_dofs].reshape(-1, 3))
+        return Pose(root, balls, pose.hinges + step[self.hinge_dofs])
 
     def difference(self, start: Pose, end: Pose) -> Array:
         """The step (n,) with ``retract(start, step) = end``, of at most half a turn each."""
@@ -117,16 +117,16 @@ class Skeleton:
         return np.concatenate([*(root if self.free else []), turns, end.hinges - start.hinges])
 
     def violations(self, pose: Pose) -> tuple[Array, Array]:
-        """How far each limit is violated, (R,) [rad], and the derivative to the freedoms (R, n)."""
+        """How far each limit is violated, (R,) [rad], and the derivative to the dofs (R, n)."""
         violations, balls, hinges = self.limits.slopes(pose)
-        jacobian = np.zeros((len(violations), self.freedoms))
+        jacobian = np.zeros((len(violations), self.dofs))
         count = len(self.ball_links)
-        columns = self.ball_freedoms.start + np.arange(3 * count).reshape(count, 3)
+        columns = self.ball_dofs.start + np.arange(3 * count).reshape(count, 3)
         rows = np.arange(count)
         jacobian[rows[:, None], columns] = balls[0]
         jacobian[count + rows[:, None], columns] = balls[1]
         own = np.arange(len(hinges))
-        jacobian[2 * count + own, self.hinge_freedoms.start + own] = hinges
+        jacobian[2 * count + own, self.hinge_dofs.start + own] = hinges
         return violations, jacobian
 
     @cached_property
@@ -134,7 +134,7 @@ class Skeleton:
         """Which segments are one or are tied by a joint, (S, S); rigidly tied ones count as one."""
         groups = np.arange(len(self.names))
         for segment, name in enumerate(self.names):
-            if self.parents[segment] >= 0 and name not in self.joint_freedoms:
+            if self.parents[segment] >= 0 and name not in self.joint_dofs:
                 groups[segment] = groups[self.parents[segment]]
         joined = np.eye(len(groups), dtype=np.bool_)
         for segment, parent in enumerate(self.parents):
@@ -149,13 +149,13 @@ class Skeleton:
         Raises:
             ConfigError: If there is no such joint, or it does not move.
         """
-        if joint not in self.joint_freedoms:
-            known = list(self.joint_freedoms)
+        if joint not in self.joint_dofs:
+            known = list(self.joint_dofs)
             raise ConfigError(
                 f"there is no joint '{joint}' (there are: {', '.join(known)})"
                 + did_you_mean(joint, known)
             )
-        return self.joint_freedoms[joint]
+        return self.joint_dofs[joint]
 
     def pose(self, description: PoseDescription) -> Pose:
         """The pose that a person wrote down in degrees.
@@ -175,9 +175,9 @@ class Skeleton:
                 raise ConfigError(
                     f"a pose gives {len(values)} angles for '{name}', which has {len(where)}"
                 )
-            if where[0] - self.hinge_freedoms.start in self.limits.couplings.followers:
+            if where[0] - self.hinge_dofs.start in self.limits.couplings.followers:
                 raise ConfigError(f"the angle of '{name}' follows another joint's; leave it out")
-            step = np.zeros(self.freedoms)
+            step = np.zeros(self.dofs)
             step[where] = values
             pose = self.retract(pose, step)
         return Pose(pose.root, pose.balls, self.limits.couplings.coupled(pose.hinges))

@@ -1,4 +1,4 @@
-"""The first pose of a sequence, found from its cloud alone."""
+"""The first pose of a recording, found from its cloud alone."""
 
 from regkit.start.search import Start, found_start, given_start
 

@@ -10,7 +10,7 @@ from scipy.spatial import KDTree
 
 from regkit.body import Body
 from regkit.clouds import normals
-from regkit.geometry.rigid import exp, inverse, moved, rigid
+from regkit.geometry.rigid import exp, inverse, rigid, transformed
 from regkit.geometry.surface import SkinnedSurface
 from regkit.observation import Observation
 from regkit.search.rotations import icosahedral
@@ -76,14 +76,14 @@ class _Fitting:
 
     def _pairs(self, transform: Array) -> tuple[Indices, Array, NDArray[np.bool_]]:
         """The nearest points, the data in the body's frame (both only if kept), and which are."""
-        seen = moved(inverse(transform), self.some)
+        seen = transformed(inverse(transform), self.some)
         distances, nearest = self.tree.query(seen)
         kept = np.asarray(distances <= np.quantile(distances, KEPT))
         return np.asarray(nearest)[kept], seen[kept], kept
 
     def gap(self, transform: Array) -> float:
         """The root mean square distance [m] of the nearest data to the surface."""
-        distances = np.sort(self.tree.query(moved(inverse(transform), self.some))[0])
+        distances = np.sort(self.tree.query(transformed(inverse(transform), self.some))[0])
         return float(np.sqrt((distances[: int(KEPT * len(distances))] ** 2).mean()))
 
 

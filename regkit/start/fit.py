@@ -100,10 +100,10 @@ class _GapsAt:
         )
         gaps = [_weight(side) / self._reach * side.lengths for side in sides]
         rows = [_weight(side) / self._reach * _rows(side, placement) for side in sides]
-        differential = self._coordinates.differential(x)
+        jacobian = self._coordinates.jacobian(x)
         return (
             np.concatenate([*gaps, self._spring @ x]),
-            np.concatenate([np.concatenate(rows) @ differential, self._spring]),
+            np.concatenate([np.concatenate(rows) @ jacobian, self._spring]),
         )
 
 

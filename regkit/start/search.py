@@ -43,7 +43,7 @@ REFINEMENTS = 2
 
 @dataclass(frozen=True)
 class Start:
-    """Where a sequence begins.
+    """Where a recording begins.
 
     Attributes:
         body: The body at its size.

@@ -54,18 +54,18 @@ class Bound:
         """The primitives in a pose; without one, at the start."""
         return self.primitives.place(self.body.place(pose or self.start).transforms)
 
-    def similarity(self, blur: float = 0.0) -> Similarity:
+    def similarity(self, smoothing: float = 0.0) -> Similarity:
         """The kernel against the data."""
-        return self.kernel.against(self.data, self.placed(), blur=blur)
+        return self.kernel.bind(self.data, self.placed(), smoothing=smoothing)
 
-    def problem(self, blur: float = 0.0) -> RegistrationProblem:
+    def problem(self, smoothing: float = 0.0) -> RegistrationProblem:
         """The energy on the degrees of freedom."""
         chart = TangentCoordinates(self.body.skeleton, self.start)
-        return RegistrationProblem(chart, self.primitives, [self.similarity(blur)])
+        return RegistrationProblem(chart, self.primitives, {"kernel": self.similarity(smoothing)})
 
     def near_start(self, random: np.random.Generator, by: float = 0.05) -> Array:
         """A point about the start, where nothing is special."""
-        return np.asarray(by * random.normal(size=self.body.skeleton.freedoms))
+        return np.asarray(by * random.normal(size=self.body.skeleton.dofs))
 
     def moved(self, motion: Array) -> Bound:
         """The same after a rigid motion of the body and the data."""

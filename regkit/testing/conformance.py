@@ -12,9 +12,9 @@ from regkit.testing.dataset_laws import DatasetLaws
 from regkit.testing.kernel_laws import KernelLaws
 from regkit.testing.laws import Laws
 from regkit.testing.method_laws import MethodLaws
-from regkit.testing.observer_laws import ObserverLaws
 from regkit.testing.partner_laws import KernelPartnerLaws, ShapePartnerLaws
 from regkit.testing.plugin_laws import PluginLaws
+from regkit.testing.preprocessor_laws import PreprocessorLaws
 from regkit.testing.shape_laws import ShapeLaws
 from regkit.testing.solver_laws import SolverLaws
 from regkit.testing.template_laws import TemplateLaws
@@ -25,7 +25,7 @@ LAWS: Mapping[str, tuple[type[Laws], ...]] = {
     "plugin": (PluginLaws,),
     "dataset": (DatasetLaws,),
     "template": (TemplateLaws,),
-    "observer": (ObserverLaws,),
+    "preprocessor": (PreprocessorLaws,),
     "shape": (ShapeLaws, ShapePartnerLaws),
     "kernel": (KernelPartnerLaws,),
     "pair": (KernelLaws,),

@@ -7,13 +7,13 @@ import re
 import numpy as np
 import pytest
 
-from regkit.interfaces import Dataset, Sequence
+from regkit.interfaces import Dataset, Recording
 from regkit.testing.laws import Laws
 from regkit.testing.verdict import require, same
 
 FRAMES = 2
-"""No more are read of each sequence."""
-SEQUENCES = 3
+"""No more are read of each recording."""
+RECORDINGS = 3
 """The frames of no more are read."""
 
 
@@ -21,60 +21,66 @@ class DatasetLaws(Laws):
     """Laws of datasets."""
 
     @pytest.fixture
-    def sequences(self, dataset: Dataset) -> list[Sequence]:
-        """All sequences, of which a few frames are read."""
+    def recordings(self, dataset: Dataset) -> list[Recording]:
+        """All recordings, of which a few frames are read."""
         return dataset.model_copy(update={"frames": FRAMES}).chosen()
 
-    def test_dataset_names_its_sequences(self, dataset: Dataset, sequences: list[Sequence]) -> None:
+    def test_dataset_names_its_recordings(
+        self, dataset: Dataset, recordings: list[Recording]
+    ) -> None:
         """There is one; names are unique and fit for folders; speed and length are positive."""
         at = type(dataset).found
-        names = [sequence.name for sequence in sequences]
-        require(bool(names), dataset, "has no sequence", look_at=at)
-        for sequence in sequences:
+        names = [recording.name for recording in recordings]
+        require(bool(names), dataset, "has no recording", look_at=at)
+        for recording in recordings:
             require(
-                re.fullmatch(r"\w[\w. -]*", sequence.name) is not None, dataset,
-                f"calls a sequence {sequence.name!r}, which cannot be a folder's name", look_at=at,
+                re.fullmatch(r"\w[\w. -]*", recording.name) is not None,
+                dataset,
+                f"calls a recording {recording.name!r}, which cannot be a folder's name",
+                look_at=at,
+            )
+            require(
+                recording.fps > 0.0 and recording.length > 0, dataset,
+                f"has a recording '{recording.name}' of {recording.length} frames at "
+                f"{recording.fps} per second", look_at=at,
             )  # fmt: skip
             require(
-                sequence.fps > 0.0 and sequence.length > 0, dataset,
-                f"has a sequence '{sequence.name}' of {sequence.length} frames at "
-                f"{sequence.fps} per second", look_at=at,
-            )  # fmt: skip
-            require(
-                sequence.length <= FRAMES, dataset, f"does not keep to `frames`: '{sequence.name}' "
-                f"has {sequence.length} of {FRAMES}", look_at=at,
-            )  # fmt: skip
+                recording.length <= FRAMES,
+                dataset,
+                f"does not keep to `frames`: '{recording.name}' has {recording.length} of {FRAMES}",
+                look_at=at,
+            )
 
-    def test_dataset_has_the_sequences_that_are_asked_for(self, dataset: Dataset) -> None:
-        """``sequences`` chooses by name."""
-        names = [sequence.name for sequence in dataset.chosen()]
-        last = dataset.model_copy(update={"sequences": (names[-1],)})
-        found = [sequence.name for sequence in last.chosen()]
+    def test_dataset_has_the_recordings_that_are_asked_for(self, dataset: Dataset) -> None:
+        """``recordings`` chooses by name."""
+        names = [recording.name for recording in dataset.chosen()]
+        last = dataset.model_copy(update={"recordings": (names[-1],)})
+        found = [recording.name for recording in last.chosen()]
         require(
-            found == [names[-1]], dataset, f"gives {found} for sequences: [{names[-1]}]",
+            found == [names[-1]], dataset, f"gives {found} for recordings: [{names[-1]}]",
             look_at=type(dataset).found,
         )  # fmt: skip
 
     def test_dataset_frames_are_finite_and_as_many_as_it_says(
-        self, dataset: Dataset, sequences: list[Sequence]
+        self, dataset: Dataset, recordings: list[Recording]
     ) -> None:
         """Points (N, 3) in metres; a depth image of its camera's size."""
-        for sequence in sequences[:SEQUENCES]:
-            at, frames = type(sequence).frames, list(sequence.frames())
+        for recording in recordings[:RECORDINGS]:
+            at, frames = type(recording).frames, list(recording.frames())
             require(
-                len(frames) == sequence.length, dataset, f"says that '{sequence.name}' has "
-                f"{sequence.length} frames and gives {len(frames)}", look_at=at,
+                len(frames) == recording.length, dataset, f"says that '{recording.name}' has "
+                f"{recording.length} frames and gives {len(frames)}", look_at=at,
             )  # fmt: skip
             for frame in frames:
                 points = np.asarray(frame.points)
                 require(
                     points.ndim == 2 and points.shape[1:] == (3,) and np.isfinite(points).all(),
                     dataset, f"gives points of the shape {points.shape}, or not finite, in "
-                    f"'{sequence.name}'", look_at=at,
+                    f"'{recording.name}'", look_at=at,
                 )  # fmt: skip
                 far = float(np.abs(points).max(initial=0.0))
                 require(
-                    far < 1000.0, dataset, f"gives a point {far:.3g} m away in '{sequence.name}'; "
+                    far < 1000.0, dataset, f"gives a point {far:.3g} m away in '{recording.name}'; "
                     "points are in metres", look_at=at,
                 )  # fmt: skip
                 if frame.depth is not None:
@@ -87,10 +93,10 @@ class DatasetLaws(Laws):
                     )  # fmt: skip
 
     def test_dataset_reads_the_same_twice(
-        self, dataset: Dataset, sequences: list[Sequence]
+        self, dataset: Dataset, recordings: list[Recording]
     ) -> None:
         """Frames come from files, not from a state."""
-        first = sequences[0]
+        first = recordings[0]
         require(
             same([frame.points for frame in first.frames()], [f.points for f in first.frames()]),
             dataset, f"gives other frames of '{first.name}' when it is read again",
@@ -98,20 +104,20 @@ class DatasetLaws(Laws):
         )  # fmt: skip
 
     def test_dataset_truth_has_a_row_for_each_frame(
-        self, dataset: Dataset, sequences: list[Sequence]
+        self, dataset: Dataset, recordings: list[Recording]
     ) -> None:
         """(T, J, 3) positions of J joints with different names; NaN alone is not seen."""
-        for sequence in sequences[:SEQUENCES]:
-            truth, at = sequence.truth(), type(sequence).truth
+        for recording in recordings[:RECORDINGS]:
+            truth, at = recording.truth(), type(recording).truth
             if truth is None:
                 continue
-            expected = (sequence.length, len(truth.joints), 3)
+            expected = (recording.length, len(truth.joints), 3)
             require(
                 truth.positions.shape == expected and not np.isinf(truth.positions).any(), dataset,
-                f"has a truth of the shape {truth.positions.shape} for '{sequence.name}'; it must "
+                f"has a truth of the shape {truth.positions.shape} for '{recording.name}'; it must "
                 f"be {expected}, and finite or NaN", look_at=at,
             )  # fmt: skip
             require(
                 len(set(truth.joints)) == len(truth.joints), dataset,
-                f"has two reference joints of one name in '{sequence.name}'", look_at=at,
+                f"has two reference joints of one name in '{recording.name}'", look_at=at,
             )  # fmt: skip

@@ -53,7 +53,7 @@ class Slopes:
 
     def told(self, body: Body) -> str:
         """What an author should know: the worst degree of freedom, and which ones are right."""
-        names = _freedoms(body)
+        names = _dofs(body)
         worst = int(self.errors.argmax())
         text = (
             f"has a gradient that is not the derivative of its energy: at {names[worst]} it claims "
@@ -67,14 +67,14 @@ class Slopes:
         return text
 
 
-def _freedoms(body: Body) -> list[str]:
+def _dofs(body: Body) -> list[str]:
     """A name for each degree of freedom."""
     bones = body.skeleton
-    names = [f"degree of freedom {index}" for index in range(bones.freedoms)]
+    names = [f"degree of freedom {index}" for index in range(bones.dofs)]
     if bones.free:
         names[:6] = [f"the root's {what} {axis}" for what in ("shift", "turn") for axis in "xyz"]
-    for joint, freedoms in bones.joint_freedoms.items():
-        for freedom in freedoms:
+    for joint, dofs in bones.joint_dofs.items():
+        for freedom in dofs:
             if freedom >= (6 if bones.free else 0):
                 names[freedom] = f"joint '{joint}'"
     return names

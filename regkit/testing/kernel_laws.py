@@ -28,12 +28,12 @@ FAR_AWAY = np.array([0.0, 0.0, 5.0])
 class KernelLaws(BlockLaws):
     """Laws of kernels, beside those of their blocks."""
 
-    @pytest.mark.parametrize("blur", [0.0, 0.02])
+    @pytest.mark.parametrize("smoothing", [0.0, 0.02])
     def test_kernel_gradient_is_the_derivative_of_its_energy(
-        self, bound: Bound, random: np.random.Generator, blur: float
+        self, bound: Bound, random: np.random.Generator, smoothing: float
     ) -> None:
         """Forces and torques, on the joints of a body, by central differences."""
-        slopes = Slopes.of(bound.problem(blur), bound.near_start(random))
+        slopes = Slopes.of(bound.problem(smoothing), bound.near_start(random))
         require(
             slopes.largest > 0.0, bound.kernel,
             "has an energy that no motion of the body changes, with shape "
@@ -80,7 +80,7 @@ class KernelLaws(BlockLaws):
         )  # fmt: skip
         placed = bound.placed()
         plain, weighted, counted = (
-            bound.kernel.against(each, placed)(placed).wrenches for each in (data, heavy, double)
+            bound.kernel.bind(each, placed)(placed).wrenches for each in (data, heavy, double)
         )
         # A loss may find its scale among the points alone, so that a part of it may remain.
         left = np.abs(weighted - counted).max() / max(np.abs(plain - counted).max(), 1e-300)
@@ -151,19 +151,23 @@ class KernelLaws(BlockLaws):
         )
         bound = Bound(pair, body, start, attached(pair.shape, body), data)
         similarity = bound.similarity()
-        explained = similarity.explained(bound.placed())
-        if explained is None:
-            pytest.skip("it does not tell what it explains")
-        at = type(similarity).explained
+        probability = similarity.inlier_probability(bound.placed())
+        if probability is None:
+            pytest.skip("it tells no inliers")
+        at = type(similarity).inlier_probability
         require(
-            explained.shape == (len(points),) and (explained >= 0.0).all()
-            and (explained <= 1.0 + 1e-9).all(), bound.kernel,
-            f"explains points by {np.min(explained):.2g} to {np.max(explained):.2g}, in the shape "
-            f"{explained.shape}; it must be 0 to 1, {(len(points),)}", look_at=at,
-        )  # fmt: skip
-        far, share = explained[-5:].max(), explained[:-5].mean()
+            probability.shape == (len(points),)
+            and (probability >= 0.0).all()
+            and (probability <= 1.0 + 1e-9).all(),
+            bound.kernel,
+            f"gives inlier probabilities of {np.min(probability):.2g} to "
+            f"{np.max(probability):.2g}, in the shape {probability.shape}; they "
+            f"must be 0 to 1, {(len(points),)}",
+            look_at=at,
+        )
+        far, share = probability[-5:].max(), probability[:-5].mean()
         require(
-            far < 0.1 and far < share, bound.kernel, f"explains points 5 m away by {far:.2g}, and "
+            far < 0.1 and far < share, bound.kernel, f"gives points 5 m away {far:.2g}, and "
             f"those on the body's surface by {share:.2g}", look_at=at,
         )  # fmt: skip
 
@@ -171,9 +175,7 @@ class KernelLaws(BlockLaws):
         """Bound twice it answers the same, to the last bit, and writes to nothing it is given."""
         placed = bound.placed()
         before = copied((bound.data.points, bound.data.weights, bound.data.variances, placed))
-        answers = [
-            bound.kernel.against(bound.data, placed)(placed, curvature=True) for _ in range(2)
-        ]
+        answers = [bound.kernel.bind(bound.data, placed)(placed, curvature=True) for _ in range(2)]
         require(
             same(*answers), bound.kernel, "answers something else when it is asked again",
             look_at=bound.answer,

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from regkit.body import Body
-from regkit.interfaces import Method, Registered, Registrar
+from regkit.interfaces import Method, Registrar, RegistrationResult
 from regkit.observation import Observation
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
@@ -34,14 +34,14 @@ class MethodLaws(Laws):
         refusals = []
         for each in (body, rigid_body):
             try:
-                return method.prepare(each)
+                return method.bind(each)
             except DependencyError as error:
                 pytest.skip(str(error))
             except RegkitError as error:
                 refusals.append(str(error))
         require(
             False, method, f"refuses both sample bodies ({'; '.join(refusals)}); override the "
-            "fixture `body` with one that it takes", look_at=type(method).prepare,
+            "fixture `body` with one that it takes", look_at=type(method).bind,
         )  # fmt: skip
         raise AssertionError
 
@@ -64,7 +64,7 @@ class MethodLaws(Laws):
         body, at = registrar.body, type(registrar).register
         truth = posed(body, random)
         data = surface_data(body, truth)
-        step = DISTURBED * random.normal(size=body.skeleton.freedoms)
+        step = DISTURBED * random.normal(size=body.skeleton.dofs)
         step[:3] *= body.size
         start = body.skeleton.limits.projected(body.skeleton.retract(truth, step))
         found = _registered(registrar, data, start)
@@ -73,7 +73,7 @@ class MethodLaws(Laws):
             after < 0.9 * before, method, f"brings a body that is {before:.3g} m off to "
             f"{after:.3g} m", look_at=at,
         )  # fmt: skip
-        first, last = (registrar.fit(data, pose).energy for pose in (start, found.pose))
+        first, last = (registrar.evaluate(data, pose).energy for pose in (start, found.pose))
         require(
             last <= first + 1e-9 * abs(first), method, f"ends with the energy {last:.6g}, worse "
             f"than {first:.6g} at the start", look_at=at,
@@ -85,7 +85,7 @@ class MethodLaws(Laws):
         """From 0 to 1 for each point, or NaN where it cannot tell."""
         truth = posed(registrar.body, random)
         data = surface_data(registrar.body, truth)
-        explained = registrar.fit(data, truth).explained
+        explained = registrar.evaluate(data, truth).inlier_probability
         known = explained[np.isfinite(explained)]
         require(
             not len(known)
@@ -94,7 +94,7 @@ class MethodLaws(Laws):
                 and known.min() >= 0.0
                 and known.max() <= 1.0 + 1e-9
             ), method, f"explains points in the shape {explained.shape}, not as 0 to 1",
-            look_at=type(registrar).fit,
+            look_at=type(registrar).evaluate,
         )  # fmt: skip
 
     def test_method_is_deterministic_and_changes_nothing(
@@ -116,9 +116,9 @@ class MethodLaws(Laws):
         )  # fmt: skip
 
 
-def _registered(registrar: Registrar, data: Observation, start: Pose) -> Registered:
+def _registered(registrar: Registrar, data: Observation, start: Pose) -> RegistrationResult:
     with _foreign_warnings():
-        return registrar.register(data, start)
+        return registrar.register(data, [start])
 
 
 @contextmanager

@@ -13,7 +13,7 @@ from regkit.body import Body, BodyDescription
 from regkit.clouds import normals as fitted_normals
 from regkit.config.document import Document
 from regkit.geometry.camera import Camera
-from regkit.geometry.rigid import moved, rigid
+from regkit.geometry.rigid import rigid, transformed
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.geometry.surface import SkinnedSurface
 from regkit.observation import Observation
@@ -55,7 +55,7 @@ def posed(body: Body, random: np.random.Generator, spread: float = 0.4) -> Pose:
     """A pose before the camera: turned at will, each joint by about ``spread`` [rad]."""
     bones = body.skeleton
     root = rigid(vector_to_matrix(random.normal(size=3)), np.array([0.2, -0.1, 2.0]))
-    pose = bones.retract(bones.rest(root), spread * random.normal(size=bones.freedoms))
+    pose = bones.retract(bones.rest(root), spread * random.normal(size=bones.dofs))
     return bones.limits.projected(pose)
 
 
@@ -97,7 +97,7 @@ def surface_data(body: Body, pose: Pose, sigma: float = 0.01) -> Observation:
 def moved_data(data: Observation, motion: Array) -> Observation:
     """Data after a rigid motion (4, 4); without a depth image, which cannot follow it."""
     normals = None if data.normals is None else data.normals @ motion[:3, :3].T
-    return replace(data, points=moved(motion, data.points), normals=normals, depth=None)
+    return replace(data, points=transformed(motion, data.points), normals=normals, depth=None)
 
 
 def moved_pose(pose: Pose, motion: Array) -> Pose:

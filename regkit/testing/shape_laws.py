@@ -26,18 +26,18 @@ TURNED = 1.5
 def attached(shape: ShapeModel, body: Body) -> Primitives:
     """The primitives of a body; a shape model that makes none of them fails the test."""
     try:
-        primitives = shape.attach(body)
+        primitives = shape.bind(body)
     except RegkitError as error:
         require(
             False, shape,
             f"refuses the sample body ({error}); override the fixture `body` with another",
-            look_at=type(shape).attach,
+            look_at=type(shape).bind,
         )  # fmt: skip
         raise
     require(
         isinstance(primitives, shape.makes), shape,
         f"declares makes = {shape.makes.__name__}, but makes {type(primitives).__name__}",
-        look_at=type(shape).attach,
+        look_at=type(shape).bind,
     )  # fmt: skip
     return primitives
 
@@ -46,8 +46,8 @@ class ShapeLaws(Laws):
     """Laws of shape models."""
 
     def test_shape_makes_what_it_says(self, shape: ShapeModel, body: Body) -> None:
-        """``attach`` gives primitives of the type ``makes``, with arrays of the right shapes."""
-        primitives, make = attached(shape, body), type(shape).attach
+        """``bind`` gives primitives of the type ``makes``, with arrays of the right shapes."""
+        primitives, make = attached(shape, body), type(shape).bind
         count = len(primitives)
         for name, expected in {
             "segments": (count,), "centres": (count, 3), "axes": (count, 3, 3),
@@ -77,7 +77,7 @@ class ShapeLaws(Laws):
         bare = [names[segment] for segment in np.setdiff1d(fleshy, primitives.segments)]
         require(
             not bare, shape, f"leaves segments without a primitive: {', '.join(bare)}",
-            look_at=type(shape).attach,
+            look_at=type(shape).bind,
         )  # fmt: skip
 
     def test_shape_lies_where_its_segments_are(self, shape: ShapeModel, body: Body) -> None:
@@ -90,7 +90,7 @@ class ShapeLaws(Laws):
             require(
                 outside.max() < OUTSIDE * body.size, shape, f"has a primitive {outside.max():.2g} "
                 f"m outside of its segment '{body.skeleton.names[segment]}'; centres are given in "
-                "the frame of the segment that carries them", look_at=type(shape).attach,
+                "the frame of the segment that carries them", look_at=type(shape).bind,
             )  # fmt: skip
 
     def test_shape_has_its_axes_as_columns(self, shape: ShapeModel, body: Body) -> None:
@@ -103,7 +103,7 @@ class ShapeLaws(Laws):
         require(
             given < TURNED * turned + 1e-3 * body.size, shape, f"has surfaces {given:.2g} m "
             f"outside of their segments, which were {turned:.2g} m with the axes transposed; the "
-            "columns are a primitive's own axes", look_at=type(shape).attach,
+            "columns are a primitive's own axes", look_at=type(shape).bind,
         )  # fmt: skip
 
     def test_shape_moves_with_the_body(
@@ -133,7 +133,7 @@ class ShapeLaws(Laws):
         """Attached twice it makes the same, to the last bit, and writes to nothing."""
         before = copied(body.capsules), copied(body.surface), copied(dict(body.gaussians))
         first, second = attached(shape, body), attached(shape, body)
-        make = type(shape).attach
+        make = type(shape).bind
         require(
             same(first, second), shape, "makes something else when it is attached again",
             look_at=make,

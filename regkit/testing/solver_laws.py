@@ -174,9 +174,9 @@ class SolverLaws(Laws):
             scales=np.ones((count, 3)),
             weights=np.ones(count),
         )
-        beyond = bones.retract(bones.rest(), 1.5 * random.normal(size=bones.freedoms))
+        beyond = bones.retract(bones.rest(), 1.5 * random.normal(size=bones.dofs))
         goal = primitives.place(body.place(beyond).transforms).centres
-        problem = RegistrationProblem(chart, primitives, [Springs(goal)])
+        problem = RegistrationProblem(chart, primitives, {"springs": Springs(goal)})
         found = chart.pose(solver.minimize(problem).x)
         hinges = Pose(found.root, bones.rest().balls, found.hinges)
         at = type(solver).minimize

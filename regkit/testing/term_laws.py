@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from regkit.body import Body
-from regkit.interfaces import JointEnergy, Response, Scene, Shares, Similarity, Term
+from regkit.interfaces import JointEnergy, Response, Scene, Similarity, Term, VisibilityWeights
 from regkit.interfaces.term import Effect
 from regkit.primitives import Placed, Primitives
 from regkit.registration.coordinates import TangentCoordinates
@@ -47,8 +47,8 @@ class TermLaws(Laws):
             pytest.skip(f"it cannot be used with the sample body: {error}")
         start = posed(body, random)
         bones = body.skeleton
-        joints = np.arange(bones.freedoms) >= (6 if bones.free else 0)
-        start = bones.retract(start, 0.9 * joints * random.normal(size=bones.freedoms))
+        joints = np.arange(bones.dofs) >= (6 if bones.free else 0)
+        start = bones.retract(start, 0.9 * joints * random.normal(size=bones.dofs))
         primitives = attached(term_pair.shape, body)
         primitives = replace(primitives, scales=2.0 * primitives.scales)
         placed = primitives.place(body.place(start).transforms)
@@ -99,8 +99,8 @@ class TermLaws(Laws):
     ) -> None:
         """One factor from 0 to 1 for each primitive, or a number."""
         term = cast(Term, term_pair.plugin)
-        effect = term.against(scene[0])
-        if not isinstance(effect, Shares):
+        effect = term.bind(scene[0])
+        if not isinstance(effect, VisibilityWeights):
             problem = _problem(effect, scene)
             energy, _ = problem.value_and_gradient(problem.start)
             require(
@@ -112,7 +112,7 @@ class TermLaws(Laws):
         require(
             factors.shape == (len(scene[1]),) and ((factors >= 0.0) & (factors <= 1.0)).all(),
             term, f"gives shares from {factors.min():.2g} to {factors.max():.2g} in the shape "
-            f"{factors.shape}; they must be 0 to 1, {(len(scene[1]),)}", look_at=type(term).against,
+            f"{factors.shape}; they must be 0 to 1, {(len(scene[1]),)}", look_at=type(term).bind,
         )  # fmt: skip
 
     def test_term_is_deterministic_and_changes_nothing(
@@ -122,32 +122,32 @@ class TermLaws(Laws):
         term, before = cast(Term, term_pair.plugin), copied(scene[0].placed)
         answers: list[tuple[object, ...]] = []
         for _ in range(2):
-            effect = term.against(scene[0])
-            if isinstance(effect, Shares):
+            effect = term.bind(scene[0])
+            if isinstance(effect, VisibilityWeights):
                 answers.append((effect.factors,))
             else:
                 problem = _problem(effect, scene)
                 answers.append(problem.value_and_gradient(problem.start))
         require(
             same(*answers), term, "does something else when it is bound again",
-            look_at=type(term).against,
+            look_at=type(term).bind,
         )  # fmt: skip
         require(
             same(before, scene[0].placed), term, "changes the primitives that it looks at; copy "
-            "arrays before writing to them", look_at=type(term).against,
+            "arrays before writing to them", look_at=type(term).bind,
         )  # fmt: skip
 
 
 def _effect(pair: Pair, scene: tuple[Scene, Primitives]) -> Similarity | JointEnergy:
-    effect = cast(Term, pair.plugin).against(scene[0])
-    if isinstance(effect, Shares):
+    effect = cast(Term, pair.plugin).bind(scene[0])
+    if isinstance(effect, VisibilityWeights):
         pytest.skip("it weighs primitives and has no energy")
     return effect
 
 
 def _problem(effect: Effect, scene: tuple[Scene, Primitives]) -> RegistrationProblem:
-    chart = TangentCoordinates(scene[0].body.skeleton, scene[0].expected)
+    chart = TangentCoordinates(scene[0].body.skeleton, scene[0].prior)
     if isinstance(effect, JointEnergy):
-        return RegistrationProblem(chart, scene[1], [Nothing()], [effect])
+        return RegistrationProblem(chart, scene[1], {"nothing": Nothing()}, [effect])
     assert isinstance(effect, Similarity)
-    return RegistrationProblem(chart, scene[1], [effect])
+    return RegistrationProblem(chart, scene[1], {"term": effect})

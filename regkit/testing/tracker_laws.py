@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from regkit.body import Body
-from regkit.interfaces import Fit, Registered, Registrar, Tracker
+from regkit.interfaces import Evaluation, Past, Registrar, RegistrationResult, Tracker
 from regkit.observation import Observation
 from regkit.primitives import Primitives
 from regkit.skeleton import Pose
@@ -37,23 +37,23 @@ class Known(Registrar):
     def register(
         self,
         observation: Observation,
-        expected: Pose,
-        *others: Pose,
-        blurs: Sequence[float] | None = None,
-        after: Registered | None = None,
-    ) -> Registered:
+        candidates: Sequence[Pose],
+        *,
+        prior: Pose | None = None,
+        warm_start: RegistrationResult | None = None,
+    ) -> RegistrationResult:
         """The truth."""
-        self.asked += [expected, *others]
+        self.asked += candidates
         return _seen(self.truth)
 
-    def fit(self, observation: Observation, pose: Pose) -> Fit:
+    def evaluate(self, observation: Observation, pose: Pose) -> Evaluation:
         """All is explained in the truth, and little elsewhere."""
         share = 0.95 if pose is self.truth else 0.2
-        return Fit(-share, np.full(len(observation.points), share))
+        return Evaluation(-share, np.full(len(observation.points), share))
 
 
-def _seen(pose: Pose) -> Registered:
-    return Registered(pose, -1.0, 0.95, True, 3, 4, "found")
+def _seen(pose: Pose) -> RegistrationResult:
+    return RegistrationResult(pose, -1.0, 0.95, True, 3, 4, "found")
 
 
 class TrackerLaws(Laws):
@@ -66,9 +66,9 @@ class TrackerLaws(Laws):
         """With a registrar that finds the truth, from the first frame on."""
         registrar, past = _scene(body, random, frames)
         data = surface_data(body, registrar.truth)
-        follower = tracker.follow(registrar)
-        at = type(follower).step
-        found = follower.step(data, past)
+        bound = tracker.bind(registrar)
+        at = type(bound).step
+        found = bound.step(data, past)
         require(
             bool(registrar.asked), tracker, "gives a pose without having registered the frame",
             look_at=at,
@@ -83,13 +83,13 @@ class TrackerLaws(Laws):
     ) -> None:
         """Bounds are limits only where the start is within them."""
         registrar, past = _scene(body, random, 4)
-        follower = tracker.follow(registrar)
-        follower.step(surface_data(body, registrar.truth), past)
+        bound = tracker.bind(registrar)
+        bound.step(surface_data(body, registrar.truth), past)
         by = max(body.skeleton.limits.violation(pose).max(initial=0.0) for pose in registrar.asked)
         require(
             by < 1e-6, tracker, f"sets out from a pose beyond a joint limit, by "
             f"{np.degrees(by):.2g} degrees; use skeleton.limits.projected()",
-            look_at=type(follower).step,
+            look_at=type(bound).step,
         )  # fmt: skip
 
     def test_tracker_holds_no_state(
@@ -98,11 +98,11 @@ class TrackerLaws(Laws):
         """The past is an argument: asked twice it does the same, and the past stays as it was."""
         registrar, past = _scene(body, random, 3)
         data = surface_data(body, registrar.truth)
-        follower, before = tracker.follow(registrar), copied(past)
-        at = type(follower).step
-        first = follower.step(data, past)
+        bound, before = tracker.bind(registrar), copied(past)
+        at = type(bound).step
+        first = bound.step(data, past)
         asked, registrar.asked = registrar.asked, []
-        second = follower.step(data, past)
+        second = bound.step(data, past)
         require(
             same(first, second) and same(asked, registrar.asked), tracker,
             "does something else when it is asked again; what it knows must come from the past",
@@ -111,7 +111,7 @@ class TrackerLaws(Laws):
         require(same(before, past), tracker, "changes the past that it is given", look_at=at)
 
 
-def _scene(body: Body, random: np.random.Generator, frames: int) -> tuple[Known, list[Registered]]:
+def _scene(body: Body, random: np.random.Generator, frames: int) -> tuple[Known, Past]:
     """A registrar, and a past of so many frames after the start, of a body that moves evenly."""
     segments = len(body.skeleton.names)
     primitives = Primitives(
@@ -122,9 +122,11 @@ def _scene(body: Body, random: np.random.Generator, frames: int) -> tuple[Known,
         weights=np.ones(segments),
     )
     bones, pose = body.skeleton, posed(body, random)
-    step = 0.1 * random.normal(size=bones.freedoms)
+    step = 0.1 * random.normal(size=bones.dofs)
     poses = [pose]
     for _ in range(frames + 1):
         poses.append(bones.limits.projected(bones.retract(poses[-1], step)))
-    past = [Registered.given(poses[0]), *map(_seen, poses[1:-1])]
+    past = Past.start(poses[0])
+    for pose in poses[1:-1]:
+        past = past.followed_by(_seen(pose))
     return Known(body, primitives, poses[-1]), past

@@ -48,7 +48,7 @@ def copied(value: Any) -> Any:
 
 
 def same(first: Any, second: Any) -> bool:
-    """Whether two values are equal to the last bit, through dataclasses, arrays and sequences."""
+    """Whether two values are equal to the last bit, through dataclasses, arrays and recordings."""
     if isinstance(first, np.ndarray):
         real = first.dtype.kind in "fc"
         return isinstance(second, np.ndarray) and np.array_equal(first, second, equal_nan=real)

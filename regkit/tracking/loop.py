@@ -1,4 +1,4 @@
-"""Following a body through a sequence: the loop that every experiment runs."""
+"""Following a body through a recording: the loop that every experiment runs."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from regkit.body import Body
-from regkit.interfaces import Observer, Registered, Registrar, Sequence, Tracker
+from regkit.interfaces import Past, Preprocessor, Recording, Registrar, RegistrationResult, Tracker
 from regkit.observation import Observation
 from regkit.skeleton import Pose
 from regkit.system.errors import DataError, RegkitError
@@ -26,37 +26,41 @@ class TrackedFrame:
         observation: What was measured, as data.
         registered: The pose and how it was found.
         seconds: Time to observe and register; reading the file is not counted.
-        observing: How much of it was to observe [s].
+        preprocessing: How much of it was to observe [s].
     """
 
     observation: Observation
-    registered: Registered
+    registered: RegistrationResult
     seconds: float
-    observing: float
+    preprocessing: float
 
 
 def tracked(
-    sequence: Sequence, observer: Observer, registrar: Registrar, tracker: Tracker, start: Pose
+    recording: Recording,
+    preprocessor: Preprocessor,
+    registrar: Registrar,
+    tracker: Tracker,
+    start: Pose,
 ) -> Iterator[TrackedFrame]:
-    """Track a sequence from a start pose, frame by frame.
+    """Track a recording from a start pose, frame by frame.
 
     Raises:
         RegkitError: If a frame cannot be read or registered; it says which.
     """
-    past = [Registered.given(start)]
-    follower = tracker.follow(registrar)
-    for index, frame in enumerate(sequence.frames()):
+    past = Past.start(start)
+    bound = tracker.bind(registrar)
+    for index, frame in enumerate(recording.frames()):
         begun = time.perf_counter()
         try:
-            observation = observer.observe(frame)
-            observing = time.perf_counter() - begun
-            registered = follower.step(observation, past)
+            observation = preprocessor.preprocess(frame)
+            preprocessing = time.perf_counter() - begun
+            registered = bound.step(observation, past)
             seconds = time.perf_counter() - begun
             _check_near(registrar.body, registered.pose, observation)
         except RegkitError as error:
-            raise error.at(frame.place or f"{sequence.name}: frame {index}") from None
-        past.append(registered)
-        yield TrackedFrame(observation, registered, seconds, observing)
+            raise error.at(frame.place or f"{recording.name}: frame {index}") from None
+        past = past.followed_by(registered)
+        yield TrackedFrame(observation, registered, seconds, preprocessing)
 
 
 def _check_near(body: Body, pose: Pose, observation: Observation) -> None:

@@ -30,7 +30,7 @@ def _surface_distance(body: Body, placement: Placement, points: Array) -> float:
 
 @dataclass(frozen=True)
 class Track:
-    """A tracked sequence as arrays over its T frames.
+    """A tracked recording as arrays over its T frames.
 
     Attributes:
         root: T_camera_root, (T, 4, 4) [m].
@@ -42,7 +42,7 @@ class Track:
         evaluations: (T,).
         converged: Whether the solver met a tolerance, (T,).
         seconds: To observe and register, (T,).
-        observing: To observe, (T,) [s].
+        preprocessing: To observe, (T,) [s].
     """
 
     root: Array
@@ -54,7 +54,7 @@ class Track:
     evaluations: Array
     converged: Array
     seconds: Array
-    observing: Array
+    preprocessing: Array
 
     def pose(self, index: int) -> Pose:
         """The pose in a frame."""
@@ -91,5 +91,5 @@ class Track:
             evaluations=np.array([float(frame.registered.evaluations) for frame in frames]),
             converged=np.array([float(frame.registered.converged) for frame in frames]),
             seconds=np.array([frame.seconds for frame in frames]),
-            observing=np.array([frame.observing for frame in frames]),
+            preprocessing=np.array([frame.preprocessing for frame in frames]),
         )

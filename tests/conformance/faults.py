@@ -19,7 +19,7 @@ import numpy as np
 from regkit.interfaces import ShapeModel
 from regkit.config.plugin import register
 from regkit.primitives import Gaussians, Primitives
-from regkit.geometry.rotation import between
+from regkit.geometry.rotation import rotation_between
 
 
 @register
@@ -32,7 +32,7 @@ class Faulty(ShapeModel):
     width: float = 0.5
     """A part of the radius."""
 
-    def attach(self, body):
+    def bind(self, body):
         capsules = body.capsules
         radii = capsules.radii.mean(axis=1)
         return Gaussians(
@@ -78,7 +78,7 @@ SHAPE_FAULTS = {
     "transposed": (
         "axes=np.tile(np.eye(3), (len(radii), 1, 1)),\n"
         "            scales=np.tile(self.width * radii[:, None], (1, 3)),",
-        "axes=np.array([between(np.eye(3)[1], b - a).T for a, b in capsules.ends]),\n"
+        "axes=np.array([rotation_between(np.eye(3)[1], b - a).T for a, b in capsules.ends]),\n"
         "            scales=[0.5, 1.5, 0.5] * radii[:, None],",
         "test_shape_has_its_axes_as_columns",
         "with the axes transposed; the columns are a primitive's own axes",

@@ -42,11 +42,11 @@ TestInstalled = conformance(
         "templates.file": {"path": str(LINKAGE)},
         "templates.cloud": {"path": str(DATA / "mannequin" / "model.npz")},
         "kernels.likelihood": [{}, {"outliers": 0.2}],
-        "kernels.point_to_point": [{}, {"robust": {"loss": "huber"}}, {"way_back": 0.5}],
+        "kernels.point_to_point": [{}, {"robust": {"loss": "huber"}}, {"reverse_weight": 0.5}],
         "kernels.point_to_plane": [
             {},
             {"point_share": 0.0, "robust": {"loss": "squares", "scale": 0.1}},
-            {"angle_deg": 80.0, "way_back": 0.2, "noise": None},
+            {"angle_deg": 80.0, "reverse_weight": 0.2, "noise": None},
         ],
         "kernels.sphere_distance": [{}, *({"robust": {"loss": loss}} for loss in LOSSES)],
         "methods.direct": [

@@ -69,7 +69,13 @@ def kernel_laws(faulty: ModuleType) -> dict[str, Callable[[], None]]:
         return Bound.near(pair, linkage(), random())
 
     return laws(
-        (KernelLaws,), pair=pair, bound=bound, blur=0.0, camera=False, body=linkage(), random=random
+        (KernelLaws,),
+        pair=pair,
+        bound=bound,
+        smoothing=0.0,
+        camera=False,
+        body=linkage(),
+        random=random,
     )
 
 

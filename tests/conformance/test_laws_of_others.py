@@ -73,7 +73,7 @@ def test_faulty_solver_breaks_its_law(faulty, old, new, law, expected):
     ("old", "new", "law", "expected"),
     [
         ("[: self.frames]", "",
-         lambda laws, made, found: laws.test_dataset_names_its_sequences(made, found),
+         lambda laws, made, found: laws.test_dataset_names_its_recordings(made, found),
          f"does not keep to `frames`: 'lump' has 3 of {FRAMES}"),
         ("len(files), files)", "7, files)",
          lambda laws, made, found:

@@ -22,7 +22,7 @@ COMPLETE: dict[str, Any] = {
     "name": "part",
     "dataset": {"kind": "depth", "root": "docs/examples/data/human_walk"},
     "template": "human",
-    "observer": {"kind": "points"},
+    "preprocessor": {"kind": "points"},
     "methods": {"best": {"preset": "best"}},
 }
 """What completes a part of an experiment."""

@@ -57,7 +57,7 @@ def record(
         errors=JointErrors(JOINTS, raw, 0.5 * raw) if compared else None,
         surface_distances=np.full(FRAMES, 0.01),
         seconds=np.full(FRAMES, 0.05),
-        observing=np.full(FRAMES, 0.01),
+        preprocessing=np.full(FRAMES, 0.01),
         evaluations=np.full(FRAMES, 12.0),
         looks=tuple(looks),
     )
@@ -75,14 +75,14 @@ def measure(record: Record) -> Measure:
 
 
 def made_run(
-    sequences: int = 7,
+    recordings: int = 7,
     *,
     methods: dict[str, dict] = METHODS,
     compared: bool = True,
     failures: dict[str, dict[str, str]] | None = None,
     prefix: str = "take",
 ) -> Run:
-    """A run whose methods have errors of 3, 4, 5 ... cm, and less on earlier sequences."""
+    """A run whose methods have errors of 3, 4, 5 ... cm, and less on earlier recordings."""
     random = np.random.default_rng(3)
     kinds = ("gaussians", "gaussians", "points", "capsules")
     records = {
@@ -90,7 +90,7 @@ def made_run(
             f"{prefix}{index}": record(
                 random, 0.01 * (3 + rank + 0.3 * index), kind=kinds[rank % 4], compared=compared
             )
-            for index in range(sequences)
+            for index in range(recordings)
         }
         for rank, method in enumerate(methods)
     }

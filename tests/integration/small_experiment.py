@@ -1,4 +1,4 @@
-"""A small experiment on two sequences of two frames, and what tests do to it."""
+"""A small experiment on two recordings of two frames, and what tests do to it."""
 
 import json
 import shutil
@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Literal, NamedTuple
 
 from regkit.config.plugin import register
-from regkit.interfaces import Follower, Registered, Registrar, Tracker
+from regkit.interfaces import BoundTracker, Registrar, RegistrationResult, Tracker
 
 EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
 FRAMES = 2
@@ -18,7 +18,7 @@ EXPERIMENT = """\
 name: small
 dataset: {{kind: depth, root: {root}}}
 template: {{kind: human, height: 1.7}}
-observer: {{kind: points, voxel: 0.05, sigma: 0.03}}
+preprocessor: {{kind: points, voxel: 0.05, sigma: 0.03}}
 start: {{root: {{position: [-0.05, -0.05, 3.25], rotation_deg: [180, 0, 0]}}}}
 methods:
   gsog: {{kind: direct, shape: gsog, kernel: correlation, \
@@ -28,14 +28,14 @@ ANOTHER = """\
   {name}: {{kind: direct, shape: {shape}, kernel: correlation, \
 solver: {{kind: lbfgs, max_iterations: 4}}}}
 """
-TIMES = ("fps", "observing_ms", "registering_ms")
+TIMES = ("fps", "preprocessing_ms", "registering_ms")
 """The figures that are not the same when the same is done again."""
-QUICK = ("--set", "dataset.sequences=[first]", "--set", "dataset.frames=1", "--no-figures")
+QUICK = ("--set", "dataset.recordings=[first]", "--set", "dataset.frames=1", "--no-figures")
 """For runs of which it only matters that they take place."""
 
 
 class Files(NamedTuple):
-    """A small experiment on two sequences, and where its results go."""
+    """A small experiment on two recordings, and where its results go."""
 
     experiment: Path
     data: Path
@@ -45,14 +45,14 @@ class Files(NamedTuple):
         return json.loads((self.out / "metrics.json").read_text())["methods"]
 
     def written(self) -> dict[str, int]:
-        """When each file of the sequences was written."""
+        """When each file of the recordings was written."""
         return {
             str(path.relative_to(self.out)): path.stat().st_mtime_ns
             for path in sorted(self.out.glob("*/*/*"))
         }
 
 
-def copy_sequence(folder: Path) -> None:
+def copy_recording(folder: Path) -> None:
     source = EXAMPLES / "data" / "human_walk"
     (folder / "depth").mkdir(parents=True)
     for frame in range(FRAMES):
@@ -66,7 +66,7 @@ def copy_sequence(folder: Path) -> None:
 def small(folder: Path) -> Files:
     data = folder / "data"
     for name in ("first", "second"):
-        copy_sequence(data / name)
+        copy_recording(data / name)
     experiment = folder / "small.yaml"
     experiment.write_text(EXPERIMENT.format(root="data"))
     return Files(experiment, data, folder / "out")
@@ -78,15 +78,15 @@ def add_method(experiment: Path, name: str, shape: str) -> None:
 
 
 @dataclass(frozen=True)
-class Stepping(Follower):
+class Stepping(BoundTracker):
     """Holds the last pose, after something was done."""
 
     registrar: Registrar
     before: Callable[[], object]
 
-    def step(self, observation, past) -> Registered:
+    def step(self, observation, past) -> RegistrationResult:
         self.before()
-        return self.registrar.register(observation, past[-1].pose)
+        return self.registrar.register(observation, [past.last.pose])
 
 
 def counting() -> list[str]:
@@ -99,7 +99,7 @@ def counting() -> list[str]:
 
         kind: Literal["counting"] = "counting"
 
-        def follow(self, registrar) -> Follower:
+        def bind(self, registrar) -> BoundTracker:
             return Stepping(registrar, lambda: steps.append(type(registrar.method.shape).__name__))
 
     return steps

@@ -23,7 +23,7 @@ class Odd(ShapeModel):
     kind: Literal["odd"] = "odd"
     makes: ClassVar[type[Primitives]] = Gaussians
 
-    def attach(self, body):
+    def bind(self, body):
         return body.gaussians["gsog"]
 '''
 
@@ -197,14 +197,14 @@ def test_committed_schemas_are_of_the_built_ins_alone(regkit, distribution, tmp_
 STAYING = '''
 from typing import Literal
 
-from regkit.interfaces import Follower, Registered, Tracker
+from regkit.interfaces import BoundTracker, RegistrationResult, Tracker
 
 
-class Staying(Follower):
+class Staying(BoundTracker):
     """Gives back the start."""
 
     def step(self, observation, past):
-        return Registered.given(past[0].pose)
+        return RegistrationResult.given(past.last.pose)
 
 
 class Stay(Tracker):
@@ -212,6 +212,6 @@ class Stay(Tracker):
 
     kind: Literal["stay"] = "stay"
 
-    def follow(self, registrar):
+    def bind(self, registrar):
         return Staying()
 '''

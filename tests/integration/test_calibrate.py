@@ -16,8 +16,8 @@ def subject(tmp_path):
 
 @pytest.mark.slow
 def test_calibrate_writes_a_template_that_experiments_can_use(regkit, files, subject):
-    sequence = files.data / "first"
-    ended = regkit("calibrate", sequence, *HUMAN, "--out", subject)
+    recording = files.data / "first"
+    ended = regkit("calibrate", recording, *HUMAN, "--out", subject)
     assert ended.code == 0, ended.err
     assert ended.err == ""
     assert "forearm" in ended.out
@@ -26,7 +26,7 @@ def test_calibrate_writes_a_template_that_experiments_can_use(regkit, files, sub
     assert regkit("validate", subject).code == 0
     description = Document.read(subject).validated(BodyDescription)
     assert 1.5 < description.size.value < 1.75
-    assert "2 frames of the sequence first" in description.sources[-1]
+    assert "2 frames of the recording first" in description.sources[-1]
     left, right = (description.segments[f"{side}_shin"].offset for side in ("left", "right"))
     assert left == pytest.approx(right)
     # The skin has the same proportions.
@@ -40,15 +40,15 @@ def test_calibrate_writes_a_template_that_experiments_can_use(regkit, files, sub
     )
     assert ended.code == 0, ended.err
     # A template may be replaced, and be calibrated further.
-    again = regkit("calibrate", sequence, "--template", subject, "--out", subject)
+    again = regkit("calibrate", recording, "--template", subject, "--out", subject)
     assert again.code == 0, again.err
 
 
 @pytest.mark.slow
 def test_calibrate_takes_an_experiments_data_template_and_start(regkit, files, subject):
-    ended = regkit("calibrate", files.experiment, "--sequence", "second", "--out", subject)
+    ended = regkit("calibrate", files.experiment, "--recording", "second", "--out", subject)
     assert ended.code == 0, ended.err
-    assert "sequence second" in subject.read_text()
+    assert "recording second" in subject.read_text()
 
 
 @pytest.mark.parametrize(
@@ -58,8 +58,8 @@ def test_calibrate_takes_an_experiments_data_template_and_start(regkit, files, s
         (("--template", "{kind: human, hight: 2}"), "template.hight: no such field"),
         (("--template", "none.yaml"), "none.yaml: there is no such file"),
         (("--template", "{kind"), "--template {kind: not valid YAML"),
-        (("--sequence", "frist"), "--sequence: no sequence 'frist'"),
-        ((), "--sequence: there are 2 sequences (first, second); name one"),
+        (("--recording", "frist"), "--recording: no recording 'frist'"),
+        ((), "--recording: there are 2 recordings (first, second); name one"),
         (("--set", "dataset.frames=1"), "only an experiment's values can be changed"),
     ],
 )
@@ -76,7 +76,7 @@ def test_calibrate_refuses_what_is_no_folder(regkit, tmp_path, subject):
     assert ended.err == f"error: {tmp_path / 'nothing'}: there is no such file\n"
     ended = regkit("calibrate", tmp_path, "--out", subject)
     assert ended.code == 1
-    assert "no sequence here" in ended.err
+    assert "no recording here" in ended.err
 
 
 def test_calibrate_overwrites_templates_only(regkit, files):

@@ -80,15 +80,15 @@ def test_plugins_lists_those_of_a_file(regkit, tmp_path):
 MINE = '''
 from typing import Literal
 
-from regkit.interfaces import Follower, Registered, Tracker
+from regkit.interfaces import BoundTracker, RegistrationResult, Tracker
 from regkit.config.plugin import register
 
 
-class Staying(Follower):
+class Staying(BoundTracker):
     """Gives back the start."""
 
     def step(self, observation, past):
-        return Registered.given(past[0].pose)
+        return RegistrationResult.given(past.last.pose)
 
 
 @register
@@ -97,7 +97,7 @@ class Stay(Tracker):
 
     kind: Literal["stay"] = "stay"
 
-    def follow(self, registrar):
+    def bind(self, registrar):
         return Staying()
 '''
 
@@ -214,7 +214,7 @@ def test_validate_knows_the_plugins_of_a_file(regkit, tmp_path):
     plugins = tmp_path / "mine.py"
     plugins.write_text(MINE)
     experiment = tmp_path / "experiment.yaml"
-    experiment.write_text(EXPERIMENT.replace("tracker: hold", "tracker: stay"))
+    experiment.write_text(EXPERIMENT.replace("tracker: constant_pose", "tracker: stay"))
     assert regkit("validate", experiment).code == 1
     assert regkit("validate", experiment, "--plugin", plugins).code == 0
 
@@ -223,7 +223,7 @@ EXPERIMENT = """\
 name: test
 dataset: {kind: depth, root: data}
 template: human
-tracker: hold
+tracker: constant_pose
 methods:
   only: {kind: direct, shape: gsog, kernel: correlation, solver: lbfgs}
 """
@@ -234,7 +234,7 @@ def test_plugin_of_another_distribution_is_found(regkit, distribution, tmp_path)
     distribution("[regkit.trackers]\nstay = tracker_of_another:Stay\n", "good")
     (module / "tracker_of_another.py").write_text(MINE.replace("@register\n", ""))
     file = tmp_path / "experiment.yaml"
-    file.write_text(EXPERIMENT.replace("tracker: hold", "tracker: stay"))
+    file.write_text(EXPERIMENT.replace("tracker: constant_pose", "tracker: stay"))
     assert regkit("validate", file).code == 0
     (row,) = (line for line in regkit("plugins").out.splitlines() if " stay " in line)
     assert "Never moves." in row

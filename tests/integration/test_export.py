@@ -19,7 +19,7 @@ UPRIGHT = np.diag([1.0, -1.0, -1.0])
 
 @pytest.fixture
 def tracked(regkit, files) -> Path:
-    """The folder of a sequence of one frame."""
+    """The folder of a recording of one frame."""
     ended = regkit("run", files.experiment, "--out", files.out, *QUICK)
     assert ended.code == 0, ended.err
     return files.out / "gsog" / "first"

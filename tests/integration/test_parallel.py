@@ -10,7 +10,7 @@ from small_experiment import QUICK, Stepping, add_method, figures_but_times, sma
 
 from regkit.config.plugin import register
 from regkit.experiment import Experiment, run
-from regkit.experiment.hold import Hold, held
+from regkit.experiment.lock import FolderLock, locked
 from regkit.experiment.workers import cluster
 from regkit.experiment.workers.packed import check_worker
 from regkit.interfaces import Tracker
@@ -23,7 +23,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from regkit.interfaces import Follower, Registered, Registrar, Tracker
+from regkit.interfaces import BoundTracker, RegistrationResult, Registrar, Tracker
 from regkit.config.plugin import register
 
 
@@ -35,22 +35,22 @@ class Deadly(Tracker):
     folder: Path
     deaths: int
 
-    def follow(self, registrar) -> Follower:
+    def bind(self, registrar) -> BoundTracker:
         return Dying(registrar, self)
 
 
 @dataclass(frozen=True)
-class Dying(Follower):
+class Dying(BoundTracker):
     registrar: Registrar
     tracker: Deadly
 
-    def step(self, observation, past) -> Registered:
+    def step(self, observation, past) -> RegistrationResult:
         before = len(list(self.tracker.folder.glob("death*")))
         gsog = self.registrar.method.shape.kind == "gsog"
         if gsog and before < self.tracker.deaths:
             (self.tracker.folder / f"death{before}").touch()
             os.kill(os.getpid(), signal.SIGKILL)
-        return self.registrar.register(observation, past[-1].pose)
+        return self.registrar.register(observation, [past.last.pose])
 '''
 
 
@@ -107,8 +107,8 @@ def test_track_that_kills_every_process_fails_alone(regkit, files, deadly):
     ended = regkit("run", files.experiment, "--out", files.out, "--jobs", 2, *QUICK, *deadly(99))
     assert ended.code == 1
     assert "gsog on first failed: its process died 3 times, as if killed" in ended.err
-    assert "its process died" in files.metrics()["gsog"]["sequences"]["first"]["error"]
-    assert files.metrics()["sog"]["sequences"]["first"]["frames"] == 1
+    assert "its process died" in files.metrics()["gsog"]["recordings"]["first"]["error"]
+    assert files.metrics()["sog"]["recordings"]["first"]["frames"] == 1
 
 
 @pytest.mark.slow
@@ -136,7 +136,7 @@ def test_plug_in_that_workers_do_not_know_is_refused(regkit, files):
 
         kind: Literal["own"] = "own"
 
-        def follow(self, registrar):
+        def bind(self, registrar):
             return Stepping(registrar, lambda: None)
 
     options = ("--set", "tracker=own", "--jobs", 2)
@@ -167,15 +167,15 @@ def test_cluster_that_cannot_be_had_is_told(regkit, files, monkeypatch, options,
 def test_worker_that_cannot_serve_says_why(tmp_path):
     from regkit import __version__
 
-    with held(tmp_path / "out") as hold:
-        check_worker(hold, __version__)
+    with locked(tmp_path / "out") as lock:
+        check_worker(lock, __version__)
         with pytest.raises(DependencyError, match="and the run has 99"):
-            check_worker(hold, "99")
+            check_worker(lock, "99")
         # The same path without a shared file system, or another run in the folder.
         with pytest.raises(DataError, match="does not see the results folder"):
-            check_worker(Hold(tmp_path / "elsewhere", hold.run), __version__)
+            check_worker(FolderLock(tmp_path / "elsewhere", lock.run), __version__)
         with pytest.raises(DataError, match="does not see the results folder"):
-            check_worker(Hold(hold.folder, "another"), __version__)
+            check_worker(FolderLock(lock.folder, "another"), __version__)
     assert not (tmp_path / "out").exists()
 
 

@@ -29,7 +29,7 @@ class Beads(ShapeModel):
     factor: float = 0.5
     """Standard deviation over the capsule's radius."""
 
-    def attach(self, body):
+    def bind(self, body):
         capsules = body.capsules
         count = len(capsules)
         scales = self.factor * capsules.radii.mean(axis=1)
@@ -54,7 +54,7 @@ class Faulty(ShapeModel):
     kind: Literal["faulty"] = "faulty"
     makes: ClassVar[type[Primitives]] = Gaussians
 
-    def attach(self, body):
+    def bind(self, body):
         pass  # Here it fails.
 """
 
@@ -103,7 +103,7 @@ def test_fault_of_a_plugin_stops_only_its_own_method(regkit, files, tmp_path):
     assert ended.code == 1
     assert "KeyError: 'left_wing'; this is a fault of the program or of a plug-in" in ended.err
     assert "left_wing" in (files.out / "faulty" / "first" / "error.txt").read_text()
-    assert files.metrics()["gsog"]["sequences"]["first"]["frames"] == 1
+    assert files.metrics()["gsog"]["recordings"]["first"]["frames"] == 1
 
 
 @pytest.mark.parametrize(
@@ -141,11 +141,11 @@ def test_plug_in_of_the_how_to_pages_runs(regkit, files, file, method):
 def test_term_of_the_how_to_page_has_the_derivative_that_it_claims(linkage, random):
     run_plugin_file(EXAMPLES / "upright.py")
     bones = linkage.skeleton
-    pose = bones.retract(bones.rest(), random.normal(size=bones.freedoms))
-    energy = Term.load("upright")().against(Scene(linkage, None, pose, None))
+    pose = bones.retract(bones.rest(), random.normal(size=bones.dofs))
+    energy = Term.load("upright")().bind(Scene(linkage, None, pose, None))
     numerical = [
         energy(bones.retract(pose, 1e-6 * e)).energy - energy(bones.retract(pose, -1e-6 * e)).energy
-        for e in np.eye(bones.freedoms)
+        for e in np.eye(bones.dofs)
     ]
     np.testing.assert_allclose(energy(pose).force, np.array(numerical) / 2e-6, atol=1e-8)
 

@@ -20,7 +20,7 @@ from regkit.skeleton import Pose
 from regkit.start import found_start
 from regkit_plugins.datasets.depth import DepthFolders
 from regkit_plugins.datasets.utd_mhad import UtdMhad
-from regkit_plugins.preprocessors.points import PointsObserver
+from regkit_plugins.preprocessors.points import PointsPreprocessor
 from regkit_plugins.templates.hand import Hand
 from regkit_plugins.templates.human import Human
 
@@ -33,17 +33,17 @@ def median_to_surface(body: Body, pose: Pose, observation: Observation) -> float
 
 
 def test_start_of_people_is_found_within_the_reference_accuracy(reference_data: Path):
-    """In 14 sequences of 2 people, standing and sitting: the reference is good to about 10 cm."""
+    """In 14 recordings of 2 people, standing and sitting: the reference is good to about 10 cm."""
     dataset = UtdMhad(root=reference_data / "utd_mhad", frames=1)
     errors = {}
-    for sequence in dataset.found()[::3]:
-        observation = PointsObserver(voxel=0.03).observe(next(sequence.frames()))
+    for recording in dataset.found()[::3]:
+        observation = PointsPreprocessor(voxel=0.03).preprocess(next(recording.frames()))
         start = found_start(Human(), observation)
         markers = start.body.markers.place(start.body.place(start.pose).transforms)
-        truth = sequence.truth()
+        truth = recording.truth()
         chosen = [start.body.markers.names.index(name) for name in truth.joints]
         distances = np.linalg.norm(markers[chosen] - truth.positions[0], axis=1)
-        errors[sequence.name] = float(distances.mean())
+        errors[recording.name] = float(distances.mean())
         assert median_to_surface(start.body, start.pose, observation) < 0.02
     print("mean distance to the reference joints [m]:", errors)
     assert np.median(list(errors.values())) < 0.08
@@ -51,8 +51,8 @@ def test_start_of_people_is_found_within_the_reference_accuracy(reference_data: 
 
 
 @pytest.fixture
-def hand_sequence(reference_data: Path, tmp_path: Path) -> Path:
-    """One SR305 sequence in the folder format."""
+def hand_recording(reference_data: Path, tmp_path: Path) -> Path:
+    """One SR305 recording in the folder format."""
     source = reference_data / "hand_depth_sr305_mit" / "20210326-230536"
     folder = tmp_path / "hand"
     (folder / "depth").mkdir(parents=True)
@@ -64,11 +64,11 @@ def hand_sequence(reference_data: Path, tmp_path: Path) -> Path:
     return folder
 
 
-def test_start_of_a_hand_lies_on_its_surface(hand_sequence: Path):
+def test_start_of_a_hand_lies_on_its_surface(hand_recording: Path):
     crop = Crop(behind_nearest=0.12, connected=0.02)
-    observer = PointsObserver(voxel=0.006, sigma=0.004, crop=crop)
-    frame = next(DepthFolders(root=hand_sequence).found()[0].frames())
-    observation = observer.observe(frame)
+    preprocessor = PointsPreprocessor(voxel=0.006, sigma=0.004, crop=crop)
+    frame = next(DepthFolders(root=hand_recording).found()[0].frames())
+    observation = preprocessor.preprocess(frame)
     start = found_start(Hand(side="right"), observation)
     distance = median_to_surface(start.body, start.pose, observation)
     print("median distance to the surface [m]:", distance)
@@ -76,20 +76,20 @@ def test_start_of_a_hand_lies_on_its_surface(hand_sequence: Path):
 
 
 @pytest.mark.slow
-def test_person_is_tracked_through_real_sequences(regkit, reference_data: Path, tmp_path: Path):
+def test_person_is_tracked_through_real_recordings(regkit, reference_data: Path, tmp_path: Path):
     ended = regkit(
         "run",
         str(EXAMPLES / "utd.yaml"),
         f"--set=dataset.root={reference_data / 'utd_mhad'}",
-        "--set=dataset.sequences=[a1_s1_t1,a6_s2_t1]",
+        "--set=dataset.recordings=[a1_s1_t1,a6_s2_t1]",
         "--set=dataset.frames=20",
         f"--out={tmp_path / 'out'}",
     )
     assert ended.code == 0
     metrics = json.loads((tmp_path / "out" / "metrics.json").read_text())
-    sequences = metrics["methods"]["best"]["sequences"]
-    assert sorted(sequences) == ["a1_s1_t1", "a6_s2_t1"]
-    for name, figures in sequences.items():
+    recordings = metrics["methods"]["best"]["recordings"]
+    assert sorted(recordings) == ["a1_s1_t1", "a6_s2_t1"]
+    for name, figures in recordings.items():
         print(name, figures)
         assert figures["frames"] == 20
         assert figures["within_10cm_percent"] > 70.0
@@ -98,18 +98,18 @@ def test_person_is_tracked_through_real_sequences(regkit, reference_data: Path, 
 
 
 @pytest.mark.slow
-def test_hand_is_tracked_through_a_real_sequence(regkit, hand_sequence: Path, tmp_path: Path):
+def test_hand_is_tracked_through_a_real_recording(regkit, hand_recording: Path, tmp_path: Path):
     ended = regkit(
         "run",
         str(EXAMPLES / "hand.yaml"),
-        f"--set=dataset.root={hand_sequence}",
-        "--set=observer.crop={behind_nearest: 0.12, connected: 0.02}",
+        f"--set=dataset.root={hand_recording}",
+        "--set=preprocessor.crop={behind_nearest: 0.12, connected: 0.02}",
         "--only=gsog",
         f"--out={tmp_path / 'out'}",
     )
     assert ended.code == 0
     metrics = json.loads((tmp_path / "out" / "metrics.json").read_text())
-    figures = metrics["methods"]["gsog"]["sequences"]["hand"]
+    figures = metrics["methods"]["gsog"]["recordings"]["hand"]
     print(figures)
     assert figures["frames"] == 8
     assert figures["joint_error_raw_cm"] is None

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from regkit.clouds import read_cloud, write_cloud
-from regkit.geometry.rigid import inverse, moved, rigid
+from regkit.geometry.rigid import inverse, rigid, transformed
 from regkit.geometry.rotation import from_matrix, to_vector, vector_to_matrix
 
 VIEWS = Path(__file__).parents[2] / "docs" / "examples" / "data" / "mannequin" / "clouds"
@@ -22,7 +22,7 @@ def truth():
 def clouds(tmp_path, lump, truth):
     source, target = tmp_path / "source.npz", tmp_path / "target.txt"
     write_cloud(source, lump[:1000])
-    write_cloud(target, moved(truth, lump[500:]))
+    write_cloud(target, transformed(truth, lump[500:]))
     return source, target
 
 
@@ -31,7 +31,7 @@ def near(found, truth, degrees, metres):
     off = inverse(truth) @ np.array(found)
     assert np.degrees(np.linalg.norm(to_vector(from_matrix(off[:3, :3])))) < degrees
     centre = np.array([[0.5, -0.2, 1.0]])
-    assert np.linalg.norm(moved(off, centre) - centre) < metres
+    assert np.linalg.norm(transformed(off, centre) - centre) < metres
 
 
 def test_table_tells_what_was_found(regkit, clouds):
@@ -53,7 +53,7 @@ def test_json_and_the_aligned_cloud_hold_the_motion(regkit, clouds, truth, tmp_p
     assert found["aligned"] is True
     assert found["fitness"] > 0.95
     assert found["points"] == [1000, 1000]
-    aligned = moved(np.array(found["T_target_source"]), read_cloud(source))
+    aligned = transformed(np.array(found["T_target_source"]), read_cloud(source))
     np.testing.assert_allclose(read_cloud(out), aligned)
     assert ended.err == f"written: {out}\n"
 
@@ -81,7 +81,7 @@ def test_any_orientation_is_found(regkit, tmp_path, lump, start):
         pytest.importorskip("open3d")
     turned = rigid(vector_to_matrix(np.array([0.5, 2.5, -1.0])), np.array([1.0, 2.0, 3.0]))
     files = tmp_path / "a.npz", tmp_path / "b.npz"
-    for file, points in zip(files, (lump, moved(turned, lump)), strict=True):
+    for file, points in zip(files, (lump, transformed(turned, lump)), strict=True):
         write_cloud(file, points)
     found = json.loads(regkit("register", *files, "--start", start, "--json").out)
     near(found["T_target_source"], turned, 0.5, 0.001)

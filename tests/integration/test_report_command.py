@@ -12,7 +12,7 @@ from regkit.experiment import Experiment, run
 
 @pytest.fixture(scope="module")
 def done(tmp_path_factory) -> Path:
-    """The results of two methods on two sequences, of which one is damaged."""
+    """The results of two methods on two recordings, of which one is damaged."""
     files = small(tmp_path_factory.mktemp("reported"))
     add_method(files.experiment, "sog", "sog")
     damage(files.data / "first" / "depth" / "000001.png")
@@ -25,7 +25,7 @@ def results(done, tmp_path) -> Path:
     return Path(shutil.copytree(done, tmp_path / "results"))
 
 
-def test_report_is_written_anew_from_the_files_of_the_sequences(regkit, results):
+def test_report_is_written_anew_from_the_files_of_the_recordings(regkit, results):
     page = (results / "report.html").read_text()
     metrics = json.loads((results / "metrics.json").read_text())
     for name in ("figures", "tables"):
@@ -57,7 +57,7 @@ def test_run_that_was_killed_before_its_first_report_has_one(regkit, results):
         path.unlink()
     assert regkit("report", results).code == 0
     methods = json.loads((results / "metrics.json").read_text())["methods"]
-    assert {name: list(one["sequences"]) for name, one in methods.items()} == {
+    assert {name: list(one["recordings"]) for name, one in methods.items()} == {
         "gsog": ["second"], "sog": ["second"]
     }  # fmt: skip
 
@@ -99,6 +99,6 @@ def test_damaged_record_is_told(regkit, results):
     assert "delete measure.json beside it" in ended.err
 
 
-def test_record_of_a_sequence_is_small(results):
+def test_record_of_a_recording_is_small(results):
     for path in results.glob("*/*/record.npz"):
         assert path.stat().st_size < 300_000

@@ -141,8 +141,8 @@ def test_table_is_sorted_by_a_heading_one_way_and_the_other(browser, page, headi
 def test_what_is_unknown_stands_last_whichever_way_a_table_is_sorted(browser, tmp_path):
     run = made_run(2)
     unknown = {
-        sequence: replace(measure, joint_error_raw_cm=None)
-        for sequence, measure in run.measures["sog"].items()
+        recording: replace(measure, joint_error_raw_cm=None)
+        for recording, measure in run.measures["sog"].items()
     }
     run = replace(run, measures=dict(run.measures) | {"sog": unknown})
     write_report(run, tmp_path)

@@ -20,11 +20,11 @@ from small_experiment import (
 
 from regkit.config.plugin import register
 from regkit.experiment import Experiment
-from regkit.experiment.hold import held
 from regkit.experiment.ledger import Ledger
+from regkit.experiment.lock import locked
 from regkit.experiment.results import Results
 from regkit.experiment.task import Task
-from regkit.interfaces import Follower, Tracker
+from regkit.interfaces import BoundTracker, Tracker
 from regkit.system.errors import DataError
 
 
@@ -78,11 +78,11 @@ def test_interrupted_run_is_completed_later(regkit, files, interrupt):
 
     @register
     class Impatient(Tracker):
-        """Is interrupted in the second sequence, once."""
+        """Is interrupted in the second recording, once."""
 
         kind: Literal["impatient"] = "impatient"
 
-        def follow(self, registrar) -> Follower:
+        def bind(self, registrar) -> BoundTracker:
             def grow_impatient() -> None:
                 steps.append("")
                 if len(steps) == FRAMES + 2:
@@ -110,7 +110,7 @@ def test_damaged_measure_is_told_and_the_rest_is_kept(regkit, files):
     ended = regkit("run", files.experiment, "--out", files.out)
     assert ended.code == 1
     assert f"gsog on first failed: {damaged}: damaged" in ended.err
-    assert "delete the file to have the sequence done again" in ended.err
+    assert "delete the file to have the recording done again" in ended.err
     second = json.loads((files.out / "gsog" / "second" / "measure.json").read_text())
     assert files.metrics()["gsog"]["mean"] == pytest.approx(second)
 
@@ -146,7 +146,7 @@ def test_only_keeps_what_other_methods_have_finished(regkit, files):
     (files.out / "sog" / "first" / "measure.json").unlink()
     assert regkit("run", files.experiment, "--out", files.out, "--only", "sog", *QUICK).code == 0
     assert files.metrics()["gsog"] == before["gsog"]
-    assert set(files.metrics()["sog"]["sequences"]) == {"first"}
+    assert set(files.metrics()["sog"]["recordings"]) == {"first"}
 
 
 def test_only_keeps_what_other_methods_have_failed(regkit, files):
@@ -156,7 +156,7 @@ def test_only_keeps_what_other_methods_have_failed(regkit, files):
     before = files.metrics()
     only = ("--only", "sog", "--no-figures")
     assert regkit("run", files.experiment, "--out", files.out, *only).code == 1
-    assert "the image is damaged" in before["gsog"]["sequences"]["second"]["error"]
+    assert "the image is damaged" in before["gsog"]["recordings"]["second"]["error"]
     assert files.metrics()["gsog"] == before["gsog"]
 
 
@@ -179,8 +179,8 @@ def test_what_a_kill_left_of_a_report_is_removed(regkit, files):
 def test_difference_to_the_folder_is_named(regkit, files):
     regkit("run", files.experiment, "--out", files.out, *QUICK)
     ended = regkit("run", files.experiment, "--out", files.out, "--set",
-                   "observer=octree", *QUICK)  # fmt: skip
-    assert "observer.kind is points there and octree here" in ended.err
+                   "preprocessor=octree", *QUICK)  # fmt: skip
+    assert "preprocessor.kind is points there and octree here" in ended.err
 
 
 @pytest.mark.slow
@@ -205,7 +205,7 @@ def test_killed_run_is_completed_later(regkit, files, started):
 
 
 def test_two_runs_in_one_folder_are_refused(regkit, files):
-    with held(files.out):
+    with locked(files.out):
         ended = regkit("run", files.experiment, "--out", files.out)
         assert ended.code == 1
         assert f"another run (process {os.getpid()} on " in ended.err
@@ -218,7 +218,7 @@ def test_folder_that_cannot_be_claimed_is_told(files, monkeypatch):
         raise OSError(errno.ENOSPC, "No space left on device")
 
     monkeypatch.setattr(os, "write", full)
-    with pytest.raises(DataError, match="cannot be written: No space left"), held(files.out):
+    with pytest.raises(DataError, match="cannot be written: No space left"), locked(files.out):
         pass
     assert not files.out.exists()
 
@@ -229,7 +229,7 @@ def test_file_system_without_locks_is_not_another_run(files, monkeypatch):
         raise OSError(errno.ENOLCK, "No locks available")
 
     monkeypatch.setattr("fcntl.flock", unknown)
-    with pytest.raises(DataError, match="No locks available"), held(files.out):
+    with pytest.raises(DataError, match="No locks available"), locked(files.out):
         pass
 
 

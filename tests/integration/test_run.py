@@ -36,9 +36,9 @@ def test_run_writes_what_is_documented(done):
     for name in ("config.yaml", "environment.json", "metrics.json", "report.md", "report.html"):
         assert (done.out / name).is_file()
     expected = {
-        f"{method}/{sequence}/{name}"
+        f"{method}/{recording}/{name}"
         for method in ("sog", "gsog")
-        for sequence in ("first", "second")
+        for recording in ("first", "second")
         for name in ("measure.json", "poses.npz", "record.npz", "overlay.png")
     }
     assert set(done.written()) == expected
@@ -48,23 +48,23 @@ def test_run_writes_what_is_documented(done):
             assert (done.out / name).read_bytes().startswith(b"\x89PNG")
 
 
-def test_metrics_have_every_figure_of_every_sequence_and_the_mean(done):
+def test_metrics_have_every_figure_of_every_recording_and_the_mean(done):
     names = {field.name for field in fields(Measure)}
     metrics = done.metrics()
     assert set(metrics) == {"sog", "gsog"}
     for method, figures in metrics.items():
-        assert set(figures) == {"sequences", "mean", "median", "interval", "joints"}
-        assert set(figures["sequences"]) == {"first", "second"}
+        assert set(figures) == {"recordings", "mean", "median", "interval", "joints"}
+        assert set(figures["recordings"]) == {"first", "second"}
         for name in names:
-            values = [figures["sequences"][s][name] for s in ("first", "second")]
+            values = [figures["recordings"][s][name] for s in ("first", "second")]
             if name == "recovery_s" and values == [None, None]:  # Neither was lost.
                 continue
             assert all(np.isfinite(value) for value in values), name
             assert figures["mean"][name] == pytest.approx(np.mean(values))
         assert set(figures["mean"]) == names
-        for sequence in ("first", "second"):
-            own = json.loads((done.out / method / sequence / "measure.json").read_text())
-            assert own == figures["sequences"][sequence]
+        for recording in ("first", "second"):
+            own = json.loads((done.out / method / recording / "measure.json").read_text())
+            assert own == figures["recordings"][recording]
         assert figures["mean"]["frames"] == FRAMES
         assert 0.0 < figures["mean"]["joint_error_raw_cm"] < 40.0
 
@@ -85,7 +85,7 @@ def test_poses_are_those_that_the_metrics_tell_of(done):
         distances = np.linalg.norm(
             arrays["markers"][:, columns] - truth.positions[:, known], axis=2
         )
-    figures = done.metrics()["gsog"]["sequences"]["first"]
+    figures = done.metrics()["gsog"]["recordings"]["first"]
     assert len(columns) >= 15
     assert 100.0 * distances.mean() == pytest.approx(figures["joint_error_raw_cm"])
     assert 100.0 * (distances < 0.1).mean() == pytest.approx(figures["within_10cm_percent"])
@@ -102,9 +102,9 @@ def test_report_shows_every_method_and_links_to_its_pictures(done):
     text = (done.out / "report.md").read_text()
     links = re.findall(r"!\[[^\]]*\]\(([^)]+)\)", text)
     assert {link for link in links if link.endswith("overlay.png")} == {
-        f"{method}/{sequence}/overlay.png"
+        f"{method}/{recording}/overlay.png"
         for method in ("sog", "gsog")
-        for sequence in ("first", "second")
+        for recording in ("first", "second")
     }
     assert all((done.out / link).is_file() for link in links)
     assert "## Failed" not in text
@@ -140,7 +140,7 @@ def test_figures_are_null_without_truth(regkit, files):
         path.unlink()
     assert regkit("run", files.experiment, "--out", files.out).code == 0
     figures = files.metrics()["gsog"]
-    for row in (figures["mean"], figures["sequences"]["first"]):
+    for row in (figures["mean"], figures["recordings"]["first"]):
         for name in (
             "joint_error_raw_cm",
             "joint_error_adjusted_cm",
@@ -153,10 +153,10 @@ def test_figures_are_null_without_truth(regkit, files):
         assert row["fps"] > 0.0
 
 
-def test_sequence_of_one_frame_is_run(regkit, files):
+def test_recording_of_one_frame_is_run(regkit, files):
     ended = regkit("run", files.experiment, "--out", files.out, "--set", "dataset.frames=1")
     assert ended.code == 0
-    figures = files.metrics()["gsog"]["sequences"]["second"]
+    figures = files.metrics()["gsog"]["recordings"]["second"]
     assert figures["frames"] == 1
     assert figures["joint_error_adjusted_cm"] is None
     assert figures["joint_error_raw_cm"] > 0.0
@@ -201,7 +201,7 @@ def test_table_names_the_units(regkit, files):
         assert unit in ended.out
 
 
-def test_sequences_without_reference_are_not_compared(regkit, files):
+def test_recordings_without_reference_are_not_compared(regkit, files):
     ended = regkit("run", files.experiment, "--out", files.out, *QUICK, "--set",
                    "dataset.compared=false")  # fmt: skip
     assert ended.code == 0
@@ -215,10 +215,10 @@ def test_example_runs_on_two_frames(regkit, tmp_path, request, path):
     settings = ["--set", f"dataset.frames={FRAMES}"]
     if path.stem == "utd":
         data = request.getfixturevalue("reference_data") / "utd_mhad"
-        settings += ["--set", f"dataset.root={data}", "--set", "dataset.sequences=[a1_s1_t1]"]
+        settings += ["--set", f"dataset.root={data}", "--set", "dataset.recordings=[a1_s1_t1]"]
     if path.stem == "paper":
         # Three of its 28, one of each subject.
-        settings += ["--set", "dataset.sequences=[01_arms_crossed, 02_walk, 05_bow]"]
+        settings += ["--set", "dataset.recordings=[01_arms_crossed, 02_walk, 05_bow]"]
     ended = regkit("run", path, "--out", tmp_path / "out", *settings)
     assert ended.code == 0
     assert ended.err == ""

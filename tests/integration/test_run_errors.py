@@ -6,7 +6,7 @@ from typing import Literal
 from small_experiment import QUICK, Stepping, add_method, counting, damage
 
 from regkit.config.plugin import register
-from regkit.interfaces import Follower, Tracker
+from regkit.interfaces import BoundTracker, Tracker
 from regkit.system.errors import DataError
 
 
@@ -18,7 +18,7 @@ def test_out_that_is_a_file_is_refused(regkit, files):
     assert files.out.read_text() == "precious"
 
 
-def test_bad_sequence_does_not_stop_the_others(regkit, files):
+def test_bad_recording_does_not_stop_the_others(regkit, files):
     """What was finished is kept, the reason is told, and once mended the run is completed."""
     image = files.data / "first" / "depth" / "000001.png"
     content = damage(image)
@@ -28,11 +28,11 @@ def test_bad_sequence_does_not_stop_the_others(regkit, files):
     assert f"gsog on first failed: {reason}" in ended.err
     assert "Traceback" not in ended.out + ended.err
     figures = files.metrics()["gsog"]
-    failed = dict(figures["sequences"]["first"])
+    failed = dict(figures["recordings"]["first"])
     assert failed.pop("error").startswith(reason)
     assert set(failed.values()) == {None}
-    assert figures["sequences"]["second"]["joint_error_raw_cm"] > 0.0
-    assert figures["mean"] == figures["sequences"]["second"]
+    assert figures["recordings"]["second"]["joint_error_raw_cm"] > 0.0
+    assert figures["mean"] == figures["recordings"]["second"]
     text = (files.out / "report.md").read_text()
     assert f"- **gsog** on first: {reason}" in text
     assert {name.split("/")[1] for name in files.written()} == {"second"}
@@ -46,7 +46,9 @@ def test_bad_sequence_does_not_stop_the_others(regkit, files):
 
 
 def test_frame_that_holds_too_little_is_told(regkit, files):
-    ended = regkit("run", files.experiment, "--out", files.out, "--set", "observer.crop.far=1.0")
+    ended = regkit(
+        "run", files.experiment, "--out", files.out, "--set", "preprocessor.crop.far=1.0"
+    )
     assert ended.code == 1
     assert "first/depth/000000.png: 0 of the frame's" in ended.err
     assert files.metrics()["gsog"]["mean"]["fps"] is None
@@ -59,7 +61,7 @@ def test_method_that_fails_does_not_stop_the_others(regkit, files):
 
         kind: Literal["picky"] = "picky"
 
-        def follow(self, registrar) -> Follower:
+        def bind(self, registrar) -> BoundTracker:
             def taste() -> None:
                 if registrar.method.shape.kind == "gsog":
                     raise DataError("not to my taste")
@@ -102,14 +104,14 @@ def test_joint_that_is_misspelt_is_told_before_anything_is_computed(regkit, file
     assert not steps
 
 
-def test_missing_camera_stops_only_its_own_sequence(regkit, files):
+def test_missing_camera_stops_only_its_own_recording(regkit, files):
     (files.data / "first" / "camera.json").unlink()
     ended = regkit("run", files.experiment, "--out", files.out)
     assert ended.code == 1
     assert "camera.json: the file is missing" in ended.err
-    sequences = files.metrics()["gsog"]["sequences"]
-    assert "camera.json" in sequences["first"]["error"]
-    assert sequences["second"]["frames"] is not None
+    recordings = files.metrics()["gsog"]["recordings"]
+    assert "camera.json" in recordings["first"]["error"]
+    assert recordings["second"]["frames"] is not None
 
 
 def test_run_that_cannot_begin_leaves_no_folder(regkit, files):
@@ -137,7 +139,7 @@ def test_start_that_does_not_fit_the_template_is_told_before_the_run(regkit, fil
     assert not files.out.exists()
 
 
-def test_damaged_sequence_that_is_not_used_is_not_read(regkit, files):
+def test_damaged_recording_that_is_not_used_is_not_read(regkit, files):
     (files.data / "second" / "sequence.yaml").write_text("fsp: 3\n")
     assert regkit("run", files.experiment, "--out", files.out, *QUICK).code == 0
 
@@ -155,4 +157,4 @@ def test_start_far_from_the_data_is_an_error_and_no_result(regkit, files):
     ended = regkit("run", files.experiment, "--out", files.out, *QUICK)
     assert ended.code == 1
     assert "m away from the data; the start or the template's size is wrong" in ended.err
-    assert files.metrics()["gsog"]["sequences"]["first"]["joint_error_raw_cm"] is None
+    assert files.metrics()["gsog"]["recordings"]["first"]["joint_error_raw_cm"] is None

@@ -13,7 +13,7 @@ from scipy.io import savemat
 
 from regkit.geometry.camera import Camera
 from regkit_plugins.datasets.formats.record import Record
-from regkit_plugins.datasets.itop.sequence import JOINTS
+from regkit_plugins.datasets.itop.recording import JOINTS
 
 FRAMES = 4
 STEP = 6

@@ -22,7 +22,7 @@ START = {"root": {"position": [-0.05, -0.05, 3.25], "rotation_deg": [180, 0, 0]}
 
 @pytest.fixture(scope="module")
 def walk():
-    return regkit.load_sequence(WALK, frames=FRAMES)
+    return regkit.load_recording(WALK, frames=FRAMES)
 
 
 @pytest.fixture(scope="module")
@@ -149,7 +149,7 @@ def test_saved_motion_can_be_read(tracking, tmp_path):
 
 
 def test_results_show_themselves(tracking):
-    assert repr(tracking).startswith("<Tracking sequence: human_walk, 4 frames; method: best;")
+    assert repr(tracking).startswith("<Tracking recording: human_walk, 4 frames; method: best;")
     assert "<td" in tracking._repr_html_()
     assert "human_walk" in tracking._repr_html_()
     console = Console(width=100, record=True, file=StringIO())

@@ -19,7 +19,7 @@ from regkit.calibration.subject import check
 from regkit.config.document import Document
 from regkit.geometry.camera import Camera
 from regkit.geometry.rigid import rigid
-from regkit.interfaces import Registered
+from regkit.interfaces import RegistrationResult
 from regkit.observation import Observation
 from regkit.skeleton import Pose, PoseDescription
 from regkit.system.errors import DataError
@@ -60,8 +60,8 @@ def posed(body: Body, joints: dict) -> Pose:
     return Pose(rigid(FACING, np.array([0.0, 0.0, 2.5])), pose.balls, pose.hinges)
 
 
-def moved(body: Body, pose: Pose, random: np.random.Generator, size: float) -> Pose:
-    step = size * random.normal(size=body.skeleton.freedoms)
+def transformed(body: Body, pose: Pose, random: np.random.Generator, size: float) -> Pose:
+    step = size * random.normal(size=body.skeleton.dofs)
     return body.skeleton.limits.projected(body.skeleton.retract(pose, step))
 
 
@@ -188,7 +188,7 @@ def test_slopes_are_the_derivatives_of_the_gaps(linkage_description, random):
     shape = Shape(linkage_description)
     x = unlike(shape, random)
     body = shape.body(x)
-    pose = moved(body, body.skeleton.rest(), random, 0.3)
+    pose = transformed(body, body.skeleton.rest(), random, 0.3)
     points = random.normal(scale=0.4, size=(60, 3))
     cloud = Cloud.of(Observation(points, np.ones(60), np.ones(60)))
 
@@ -203,8 +203,8 @@ def test_slopes_are_the_derivatives_of_the_gaps(linkage_description, random):
     sides = (cloud.unexplained(capsules, 0.1), cloud.unseen(capsules))
     slopes = Slopes(body, placement, shape.groups)
     step = 1e-6
-    for number in range(body.skeleton.freedoms):
-        way = step * np.eye(body.skeleton.freedoms)[number]
+    for number in range(body.skeleton.dofs):
+        way = step * np.eye(body.skeleton.dofs)[number]
         ends = [lengths(body, body.skeleton.retract(pose, sign * way)) for sign in (1.0, -1.0)]
         found = np.concatenate([slopes.to_pose(side)[:, number] for side in sides])
         np.testing.assert_allclose(found, (ends[0] - ends[1]) / (2.0 * step), atol=1e-5)
@@ -219,7 +219,7 @@ def test_gradient_of_the_joint_problem_is_that_of_its_value(linkage_description,
     shape = Shape(linkage_description)
     start = unlike(shape, random)
     body = shape.body(start)
-    poses = [moved(body, body.skeleton.rest(), random, 0.3) for _ in range(2)]
+    poses = [transformed(body, body.skeleton.rest(), random, 0.3) for _ in range(2)]
     clouds = [
         Cloud.of(Observation(random.normal(scale=0.3, size=(40, 3)), np.ones(40), np.ones(40)))
         for _ in poses
@@ -273,7 +273,7 @@ def test_known_proportions_are_found(random):
     pixels = CAMERA.width * CAMERA.height
     clouds = [Cloud.of(seen(body, pose, 0.005 * random.normal(size=pixels))) for pose in poses]
     start = x = shape.origin(1.6)
-    starts = [moved(body, pose, random, 0.04) for pose in poses]
+    starts = [transformed(body, pose, random, 0.04) for pose in poses]
     for _ in range(2):
         problem = SubjectProblem(shape, x, clouds, starts)
         with one_blas_thread():
@@ -310,7 +310,7 @@ def test_of_each_part_of_a_track_the_best_explained_frame_is_taken():
     track = [
         TrackedFrame(
             Observation(np.full((1, 3), float(index)), np.ones(1), np.ones(1)),
-            Registered(
+            RegistrationResult(
                 body.skeleton.rest(rigid(np.eye(3), np.array([float(index), 0.0, 0.0]))),
                 0.0, share, True, 1, 1, "",
             ),
@@ -338,7 +338,7 @@ def test_a_body_that_was_not_found_is_refused():
 
 def test_points_are_averaged_to_suit_the_body():
     voxels = [
-        Calibration(template=template)._observer().voxel
+        Calibration(template=template)._preprocessor().voxel
         for template in ("human", {"kind": "human", "height": 1.0}, "hand")
     ]
     assert voxels[0] == pytest.approx(0.03, abs=2e-3)

@@ -23,7 +23,7 @@ def body(request: pytest.FixtureRequest, linkage: Body) -> Body:
 
 def posed(body: Body, random: np.random.Generator, size: float = 0.7) -> Pose:
     bones = body.skeleton
-    return bones.retract(bones.rest(), size * random.normal(size=bones.freedoms))
+    return bones.retract(bones.rest(), size * random.normal(size=bones.dofs))
 
 
 def numbers_of(body: Body, pose: Pose) -> np.ndarray:
@@ -69,7 +69,7 @@ def test_marker_positions_are_those_of_the_body(body, random):
 
 def test_retract_is_that_of_the_skeleton(body, random):
     pose, bones = posed(body, random), body.skeleton
-    step = random.normal(size=bones.freedoms)
+    step = random.normal(size=bones.dofs)
     moved = symbolic.retract(bones)(numbers_of(body, pose), step).full().ravel()
     expected = body.place(bones.retract(pose, step)).transforms
     found = body.place(symbolic.pose_of(bones, moved)).transforms
@@ -78,7 +78,7 @@ def test_retract_is_that_of_the_skeleton(body, random):
 
 def test_limit_rows_are_broken_where_limits_are(body, random):
     rows = symbolic.joint_limits(body.skeleton)
-    owners = [*body.skeleton.joint_freedoms]
+    owners = [*body.skeleton.joint_dofs]
     assert {name.split(".")[0] for name in rows.names} <= set(owners)
     for _ in range(200):
         pose = posed(body, random, size=random.uniform(0.1, 1.5))
@@ -158,14 +158,14 @@ def test_nothing_is_nan_at_awkward_poses(body):
 @pytest.mark.parametrize("kind", ["sog", "gsog"])
 def test_correlation_is_that_of_the_kernel(linkage, random, kind):
     shape = ShapeModel.load(kind)()
-    gaussians = shape.attach(linkage)
+    gaussians = shape.bind(linkage)
     pose = posed(linkage, random)
     points = linkage.markers.place(linkage.place(pose).transforms)[random.integers(0, 3, 40)]
     points = points + 0.1 * random.normal(size=points.shape)
     weights, variances = random.uniform(0.5, 2.0, 40), random.uniform(0.01, 0.03, 40) ** 2
     placed = gaussians.place(linkage.place(pose).transforms)
     kernel = Kernel.load("correlation")()
-    expected = kernel.against(Observation(points, weights, variances, None), placed)(placed).energy
+    expected = kernel.bind(Observation(points, weights, variances, None), placed)(placed).energy
     function = symbolic.correlation(linkage.skeleton, gaussians, 40)
     numbers = numbers_of(linkage, pose)
     assert float(function(numbers, points.T, weights, variances)) == pytest.approx(

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from regkit.clouds import write_cloud
-from regkit.geometry.rigid import moved, rigid
+from regkit.geometry.rigid import rigid, transformed
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.observation import Observation
 from regkit.start import found_start
 from regkit.system.errors import DataError
-from regkit_plugins.methods.coarse_to_fine.resolutions import thinned_surface
+from regkit_plugins.methods.coarse_to_fine.resolutions import voxel_downsampled_surface
 from regkit_plugins.templates.cloud import CloudTemplate
 from regkit_synthesis.mannequin import main
 
@@ -27,7 +27,7 @@ def template(tmp_path, lump):
 def test_cloud_is_a_body_of_one_free_segment_about_its_middle(template, lump):
     body = template.body(template.given_size())
     assert body.name == "lump"
-    assert body.skeleton.freedoms == 6
+    assert body.skeleton.dofs == 6
     assert template.given_size() == pytest.approx(np.linalg.norm(np.ptp(lump, axis=0)))
     middle = rigid(np.eye(3), lump.mean(axis=0))
     transforms = body.place(body.skeleton.rest(middle)).transforms
@@ -42,7 +42,7 @@ def test_placed_surface_moves_with_the_body(template):
     there = body.skeleton.rest(motion @ pose.root)
     np.testing.assert_allclose(
         body.surface.place(body.place(there).transforms),
-        moved(motion, body.surface.place(body.place(pose).transforms)),
+        transformed(motion, body.surface.place(body.place(pose).transforms)),
     )
 
 
@@ -51,12 +51,12 @@ def test_start_is_found_in_any_orientation(template, lump, turn):
     """Of the lump only one side is seen."""
     truth = rigid(vector_to_matrix(np.array(turn)), np.array([0.3, 0.1, 2.0]))
     middle = rigid(np.eye(3), lump.mean(axis=0))
-    seen = moved(truth, lump)
+    seen = transformed(truth, lump)
     seen = seen[seen[:, 2] < seen[:, 2].mean() + 0.02]
     start = found_start(template, Observation(seen, np.ones(len(seen)), np.ones(len(seen))))
     off = np.linalg.norm(
         start.body.surface.place(start.body.place(start.pose).transforms)
-        - moved(truth @ middle, lump - lump.mean(axis=0)),
+        - transformed(truth @ middle, lump - lump.mean(axis=0)),
         axis=1,
     )
     assert off.mean() < 0.03
@@ -86,7 +86,7 @@ def test_thinned_surface_keeps_points_on_their_segments(linkage, random):
 
     surface = cloud_body("c", random.normal(size=(400, 3))).surface
     owners = random.integers(0, 3, size=(400, 1))
-    thin = thinned_surface(replace(surface, segments=owners), 0.5)
+    thin = voxel_downsampled_surface(replace(surface, segments=owners), 0.5)
     assert len(thin) < 400
     assert set(thin.segments[:, 0]) == {0, 1, 2}
     for segment in range(3):

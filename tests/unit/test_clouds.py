@@ -3,7 +3,14 @@
 import numpy as np
 import pytest
 
-from regkit.clouds import check_writable, normals, read_cloud, spacing, thinned, write_cloud
+from regkit.clouds import (
+    check_writable,
+    normals,
+    read_cloud,
+    spacing,
+    voxel_downsampled,
+    write_cloud,
+)
 from regkit.clouds.checks import check_shape, check_sizes
 from regkit.clouds.voxels import voxel_for
 from regkit.geometry.rotation import vector_to_matrix
@@ -84,7 +91,7 @@ def test_unknown_suffix_is_refused_before_writing(tmp_path):
 
 def test_thinned_cloud_has_the_mean_of_each_cube(random):
     points = random.uniform(-3.0, 3.0, size=(500, 3))
-    thin = thinned(points, 1.0)
+    thin = voxel_downsampled(points, 1.0)
     assert len(np.unique(np.floor(thin), axis=0)) == len(thin) == 216 - _empty(points)
     cube = np.floor(points) == np.floor(thin[0])
     np.testing.assert_allclose(points[cube.all(axis=1)].mean(axis=0), thin[0])
@@ -96,7 +103,7 @@ def _empty(points):
 
 def test_voxel_for_a_number_of_points_leaves_about_so_many(lump):
     assert voxel_for(lump, len(lump)) is None
-    left = len(thinned(lump, voxel_for(lump, 300)))
+    left = len(voxel_downsampled(lump, voxel_for(lump, 300)))
     assert 270 <= left <= 300
 
 

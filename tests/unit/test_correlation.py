@@ -48,7 +48,7 @@ def test_energy_is_the_integral_of_the_product(random):
         -0.5 * np.einsum("ni,ij,nj->n", offsets, precision, offsets)
     )
     expected = -float(mass @ density)
-    found = Correlation().against(data, placed)(placed).energy
+    found = Correlation().bind(data, placed)(placed).energy
     assert found == pytest.approx(expected, rel=1e-8)
 
 
@@ -68,7 +68,7 @@ def test_energy_is_the_pairwise_closed_form(random):
             total += weight * own * (2 * np.pi) ** 1.5 * amplitude * np.exp(
                 -0.5 * d @ np.linalg.solve(spread, d)
             )  # fmt: skip
-    found = Correlation().against(data, placed)(placed).energy
+    found = Correlation().bind(data, placed)(placed).energy
     assert found == pytest.approx(-total / integral, rel=1e-12)
 
 
@@ -79,8 +79,8 @@ def test_energy_does_not_depend_on_where_the_world_begins(random):
     there = Observation(
         data.points @ motion[:3, :3].T + motion[:3, 3], data.weights, data.variances
     )
-    here = Correlation().against(data, placed)(placed)
-    elsewhere = Correlation().against(there, moved)(moved)
+    here = Correlation().bind(data, placed)(placed)
+    elsewhere = Correlation().bind(there, moved)(moved)
     assert elsewhere.energy == pytest.approx(here.energy, rel=1e-10)
     turned = here.wrenches.reshape(-1, 2, 3) @ motion[:3, :3].T
     np.testing.assert_allclose(elsewhere.wrenches.reshape(-1, 2, 3), turned, atol=1e-9)
@@ -90,25 +90,27 @@ def test_common_motion_of_model_and_data_has_no_net_force(random):
     """Action and reaction: with the data's reaction at the data, forces and torques cancel."""
     model, data = gaussians(1, random), cloud(1, random)
     placed = model.place(np.eye(4)[None])
-    wrench = Correlation().against(data, placed)(placed).wrenches[0]
+    wrench = Correlation().bind(data, placed)(placed).wrenches[0]
     arm = data.points[0] - placed.centres[0]
     np.testing.assert_allclose(wrench[3:], np.cross(arm, wrench[:3]), atol=1e-12)
 
 
-@pytest.mark.parametrize("blur", [0.0, 0.03])
+@pytest.mark.parametrize("smoothing", [0.0, 0.03])
 @pytest.mark.parametrize("name", COORDINATES)
 @pytest.mark.parametrize("shape", SHAPES, ids=lambda shape: shape.kind)
-def test_gradient_agrees_with_finite_differences(linkage, random, shape, name, blur):
+def test_gradient_agrees_with_finite_differences(linkage, random, shape, name, smoothing):
     """To 1e-6 of the gradient, for a random root, away from the coordinates' origin."""
-    primitives = shape.attach(linkage)
+    primitives = shape.bind(linkage)
     bones = linkage.skeleton
-    start = bones.retract(bones.rest(), 0.7 * random.normal(size=bones.freedoms))
+    start = bones.retract(bones.rest(), 0.7 * random.normal(size=bones.dofs))
     placed = primitives.place(linkage.place(start).transforms)
     data = cloud(300, random)
     data = Observation(data.points + start.root[:3, 3], data.weights, data.variances)
     coordinates = COORDINATES[name](bones, start)
     problem = RegistrationProblem(
-        coordinates, primitives, [Correlation().against(data, placed, blur=blur)]
+        coordinates,
+        primitives,
+        {"kernel": Correlation().bind(data, placed, smoothing=smoothing)},
     )
     x = problem.start + 0.3 * random.normal(size=len(problem.start))
     _, gradient = problem.value_and_gradient(x)
@@ -133,17 +135,17 @@ def test_frozen_covariance_keeps_its_start_orientation(random):
         model.scales,
         model.weights,
     ).place(np.eye(4)[None])
-    frozen = Correlation(covariance="frozen").against(data, start)
+    frozen = Correlation(covariance="frozen").bind(data, start)
     assert frozen(turned).energy == frozen(start).energy
     assert not frozen(start).wrenches[:, 3:].any()
-    exact = Correlation(covariance="exact").against(data, start)
+    exact = Correlation(covariance="exact").bind(data, start)
     assert exact(turned).energy != pytest.approx(exact(start).energy, rel=1e-3)
 
 
 def test_far_apart_overlap_is_nothing_but_finite(random):
     model, data = gaussians(3, random), cloud(50, random)
     far = model.place(rigid(np.eye(3), np.array([100.0, 0.0, 0.0]))[None])
-    response = Correlation().against(data, far)(far)
+    response = Correlation().bind(data, far)(far)
     assert abs(response.energy) < 1e-200
     assert np.isfinite(response.wrenches).all()
 
@@ -151,6 +153,6 @@ def test_far_apart_overlap_is_nothing_but_finite(random):
 def test_blur_reaches_further(random):
     model, data = gaussians(1, random), cloud(30, random)
     away = model.place(rigid(np.eye(3), np.array([1.5, 0.0, 0.0]))[None])
-    sharp = Correlation().against(data, away)(away)
-    blurred = Correlation().against(data, away, blur=0.3)(away)
+    sharp = Correlation().bind(data, away)(away)
+    blurred = Correlation().bind(data, away, smoothing=0.3)(away)
     assert np.abs(blurred.wrenches[0, :3]).max() > 1e3 * np.abs(sharp.wrenches[0, :3]).max()

@@ -53,7 +53,7 @@ def finger(tmp_path) -> Body:
 
 def follows(body: Body, pose: Pose) -> bool:
     leader, follower = (
-        body.skeleton.joint_freedoms[name][0] - body.skeleton.hinge_freedoms.start
+        body.skeleton.joint_dofs[name][0] - body.skeleton.hinge_dofs.start
         for name in ("middle", "last")
     )
     expected = 0.5 * pose.hinges[leader] + np.radians(5.0)
@@ -77,10 +77,10 @@ def test_differential_holds_with_a_follower(finger, random, name):
     bones = finger.skeleton
     coordinates = COORDINATES[name](bones, bones.rest())
     x = coordinates.origin() + 0.3 * random.normal(size=len(coordinates.origin()))
-    differential = coordinates.differential(x)
-    assert differential.shape == (bones.freedoms, len(x))
+    jacobian = coordinates.jacobian(x)
+    assert jacobian.shape == (bones.dofs, len(x))
     step = 1e-6
-    for column, direction in zip(differential.T, np.eye(len(x)), strict=True):
+    for column, direction in zip(jacobian.T, np.eye(len(x)), strict=True):
         ahead, behind = (
             coordinates.pose(x + step * direction),
             coordinates.pose(x - step * direction),
@@ -95,8 +95,8 @@ def test_leader_keeps_the_limits_of_its_follower_too(finger):
     # The last joint bends by 40 degrees at most, so the middle one by 70; it is never below -10.
     coordinates = COORDINATES["tangent"](bones, bones.rest())
     lower, upper = coordinates.bounds()
-    leader = bones.joint_freedoms["middle"][0]
-    independent = np.delete(np.arange(bones.freedoms), bones.joint_freedoms["last"])
+    leader = bones.joint_dofs["middle"][0]
+    independent = np.delete(np.arange(bones.dofs), bones.joint_dofs["last"])
     at = list(independent).index(leader)
     np.testing.assert_allclose(np.degrees([lower[at], upper[at]]), [-10.0, 70.0])
 
@@ -104,7 +104,7 @@ def test_leader_keeps_the_limits_of_its_follower_too(finger):
 def test_projection_and_samples_keep_the_coupling(finger, random):
     bones = finger.skeleton
     for _ in range(20):
-        pose = bones.retract(bones.rest(), 2.0 * random.normal(size=bones.freedoms))
+        pose = bones.retract(bones.rest(), 2.0 * random.normal(size=bones.dofs))
         projected = bones.limits.projected(pose)
         assert follows(finger, projected)
         assert bones.limits.violation(projected).max() < 1e-9
@@ -115,8 +115,8 @@ def test_projection_and_samples_keep_the_coupling(finger, random):
 
 def test_violation_says_how_far_a_follower_is_off(finger):
     bones = finger.skeleton
-    step = np.zeros(bones.freedoms)
-    step[bones.joint_freedoms["last"]] = np.radians(3.0)
+    step = np.zeros(bones.dofs)
+    step[bones.joint_dofs["last"]] = np.radians(3.0)
     violation = bones.limits.violation(bones.retract(bones.rest(), step))
     np.testing.assert_allclose(np.degrees(violation.max()), 3.0)
 
@@ -168,18 +168,18 @@ def test_mirrored_follower_follows_the_mirrored_leader(tmp_path):
 def test_every_solver_holds_a_coupling(finger, random, solver):
     bones = finger.skeleton
     method = Method.load("direct")(shape="gsog", kernel="likelihood", solver=solver)
-    registrar = method.prepare(finger)
+    registrar = method.bind(finger)
     target = bones.limits.projected(
-        bones.retract(bones.rest(), 0.4 * random.normal(size=bones.freedoms))
+        bones.retract(bones.rest(), 0.4 * random.normal(size=bones.dofs))
     )
     placed = registrar.primitives.place(finger.place(target).transforms)
     chosen = random.integers(len(placed), size=200)
     points = placed.centres[chosen] + 0.02 * random.normal(size=(200, 3))
     data = Observation(points, np.ones(200), np.full(200, 1e-4))
-    uncoupled = bones.retract(target, 0.05 * random.normal(size=bones.freedoms))
-    found = registrar.register(data, uncoupled)
+    uncoupled = bones.retract(target, 0.05 * random.normal(size=bones.dofs))
+    found = registrar.register(data, [uncoupled])
     assert follows(finger, found.pose)
-    assert registrar.fit(data, found.pose).energy < registrar.fit(data, uncoupled).energy
+    assert registrar.evaluate(data, found.pose).energy < registrar.evaluate(data, uncoupled).energy
 
 
 @pytest.mark.parametrize(

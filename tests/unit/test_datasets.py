@@ -34,7 +34,7 @@ def write_image(path: Path, depth: np.ndarray, scale: float = 10_000.0) -> None:
     Image.fromarray(np.rint(scale * depth).astype(np.uint16)).save(path)
 
 
-def write_sequence(folder: Path, header: str = "fps: 15\ndepth_scale: 10000\n") -> Path:
+def write_recording(folder: Path, header: str = "fps: 15\ndepth_scale: 10000\n") -> Path:
     for frame in range(FRAMES):
         write_image(folder / "depth" / f"{frame:06d}.png", plane(frame))
     (folder / "camera.json").write_text(SMALL.to_json())
@@ -52,10 +52,10 @@ def write_clouds(folder: Path, clouds: list[np.ndarray]) -> Path:
 
 def everything(dataset: Dataset) -> list[Frame]:
     """All that a run reads."""
-    sequences = dataset.chosen()
-    for sequence in sequences:
-        sequence.truth()
-    return [frame for sequence in sequences for frame in sequence.frames()]
+    recordings = dataset.chosen()
+    for recording in recordings:
+        recording.truth()
+    return [frame for recording in recordings for frame in recording.frames()]
 
 
 def complaint(dataset: Dataset, root: Path) -> str:
@@ -65,15 +65,15 @@ def complaint(dataset: Dataset, root: Path) -> str:
 
 
 @pytest.fixture
-def sequence(tmp_path) -> Path:
-    return write_sequence(tmp_path / "one")
+def recording(tmp_path) -> Path:
+    return write_recording(tmp_path / "one")
 
 
 # Depth images in folders.
 
 
-def test_depth_of_a_plane_is_back_projected_onto_the_plane(sequence):
-    (found,) = DepthFolders(root=sequence).chosen()
+def test_depth_of_a_plane_is_back_projected_onto_the_plane(recording):
+    (found,) = DepthFolders(root=recording).chosen()
     assert (found.name, found.fps, found.length) == ("one", 15.0, FRAMES)
     frames = list(found.frames())
     assert len(frames) == FRAMES
@@ -83,23 +83,23 @@ def test_depth_of_a_plane_is_back_projected_onto_the_plane(sequence):
         np.testing.assert_allclose(z, 2.0 + 0.1 * index + 0.3 * x + 0.2 * y, atol=1e-4)
         assert frame.camera == SMALL
         np.testing.assert_allclose(frame.depth, plane(index), atol=1e-4)
-        assert frame.place == str(sequence / "depth" / f"{index:06d}.png")
+        assert frame.place == str(recording / "depth" / f"{index:06d}.png")
 
 
-def test_depth_points_are_seen_at_their_pixels(sequence):
+def test_depth_points_are_seen_at_their_pixels(recording):
     """Projection undoes back-projection, so x points right and y down."""
-    (found,) = DepthFolders(root=sequence).chosen()
+    (found,) = DepthFolders(root=recording).chosen()
     points = next(found.frames()).points
     rows, columns = np.mgrid[: SMALL.height, : SMALL.width]
     pixels = np.column_stack([columns.ravel(), rows.ravel()])
     np.testing.assert_allclose(SMALL.projected(points), pixels, atol=1e-9)
 
 
-def test_depth_pixels_without_measurement_give_no_point(sequence):
+def test_depth_pixels_without_measurement_give_no_point(recording):
     depth = plane()
     depth[:5] = 0.0
-    write_image(sequence / "depth" / "000000.png", depth)
-    (found,) = DepthFolders(root=sequence).chosen()
+    write_image(recording / "depth" / "000000.png", depth)
+    (found,) = DepthFolders(root=recording).chosen()
     points = next(found.frames()).points
     assert len(points) == SMALL.width * (SMALL.height - 5)
     assert (points[:, 2] > 0.0).all()
@@ -107,34 +107,34 @@ def test_depth_pixels_without_measurement_give_no_point(sequence):
 
 @pytest.mark.parametrize(("scale", "factor"), [("10000", 1.0), ("5000", 2.0), ("1000", 10.0)])
 def test_depth_scale_is_the_units_per_metre(tmp_path, scale, factor):
-    folder = write_sequence(tmp_path / "one", f"depth_scale: {scale}\n")
+    folder = write_recording(tmp_path / "one", f"depth_scale: {scale}\n")
     frame = everything(DepthFolders(root=folder))[0]
     np.testing.assert_allclose(frame.depth, factor * plane(), atol=1e-3)
 
 
 def test_depth_scale_is_one_millimetre_where_it_is_not_given(tmp_path):
-    folder = write_sequence(tmp_path / "one", "fps: 15\n")
+    folder = write_recording(tmp_path / "one", "fps: 15\n")
     frame = everything(DepthFolders(root=folder))[0]
     np.testing.assert_allclose(frame.depth, 10.0 * plane(), atol=1e-3)
 
 
 @pytest.mark.parametrize("limit", [1, 2, 3, 100])
-def test_depth_frames_are_limited(sequence, limit):
-    (sequence / "truth.csv").write_text(
+def test_depth_frames_are_limited(recording, limit):
+    (recording / "truth.csv").write_text(
         "frame,joint,x,y,z\n" + "".join(f"{frame},a,0,0,{frame}\n" for frame in range(FRAMES))
     )
-    (found,) = DepthFolders(root=sequence, frames=limit).chosen()
+    (found,) = DepthFolders(root=recording, frames=limit).chosen()
     count = min(limit, FRAMES)
     assert found.length == len(list(found.frames())) == count
     np.testing.assert_array_equal(found.truth().positions[:, 0, 2], np.arange(count))
 
 
-def test_truth_is_nan_where_a_joint_was_not_seen(sequence):
-    assert DepthFolders(root=sequence).chosen()[0].truth() is None
-    (sequence / "truth.csv").write_text(
+def test_truth_is_nan_where_a_joint_was_not_seen(recording):
+    assert DepthFolders(root=recording).chosen()[0].truth() is None
+    (recording / "truth.csv").write_text(
         "frame,joint,x,y,z\n0,head,1,2,3\n0,hand,4,5,6\n2,hand,-7,8e-1,9\n"
     )
-    truth = DepthFolders(root=sequence).chosen()[0].truth()
+    truth = DepthFolders(root=recording).chosen()[0].truth()
     assert truth.joints == ("head", "hand")
     nothing = [np.nan] * 3
     np.testing.assert_array_equal(
@@ -142,39 +142,39 @@ def test_truth_is_nan_where_a_joint_was_not_seen(sequence):
     )
 
 
-def test_truth_of_a_spreadsheet_is_read(sequence):
+def test_truth_of_a_spreadsheet_is_read(recording):
     """With a byte-order mark and carriage returns."""
-    (sequence / "truth.csv").write_bytes(b"\xef\xbb\xbfframe,joint,x,y,z\r\n1,head,1,2,3\r\n")
-    truth = DepthFolders(root=sequence).chosen()[0].truth()
+    (recording / "truth.csv").write_bytes(b"\xef\xbb\xbfframe,joint,x,y,z\r\n1,head,1,2,3\r\n")
+    truth = DepthFolders(root=recording).chosen()[0].truth()
     assert truth.joints == ("head",)
     np.testing.assert_array_equal(truth.positions[1], [[1, 2, 3]])
 
 
-def test_folder_of_folders_holds_their_sequences(tmp_path):
+def test_folder_of_folders_holds_their_recordings(tmp_path):
     for name in ("walk", "jump", "sit"):
-        write_sequence(tmp_path / "many" / name)
-    write_sequence(tmp_path / "many" / "other", "name: renamed\n")
-    (tmp_path / "many" / "notes.txt").write_text("not a sequence")
+        write_recording(tmp_path / "many" / name)
+    write_recording(tmp_path / "many" / "other", "name: renamed\n")
+    (tmp_path / "many" / "notes.txt").write_text("not a recording")
     (tmp_path / "many" / "empty").mkdir()
     root = tmp_path / "many"
     names = [found.name for found in DepthFolders(root=root).chosen()]
     assert names == ["jump", "renamed", "sit", "walk"]
-    chosen = DepthFolders(root=root, sequences=("walk", "renamed")).chosen()
+    chosen = DepthFolders(root=root, recordings=("walk", "renamed")).chosen()
     assert [found.name for found in chosen] == ["walk", "renamed"]
     assert all(len(list(found.frames())) == FRAMES for found in chosen)
     with pytest.raises(ConfigError) as caught:
-        DepthFolders(root=root, sequences=("wlak",)).chosen()
+        DepthFolders(root=root, recordings=("wlak",)).chosen()
     assert str(caught.value) == (
-        "dataset.sequences: no sequence 'wlak' (there are: jump, renamed, sit, walk); did you mean "
-        "'walk'?"
+        "dataset.recordings: no recording 'wlak' (there are: jump, renamed, sit, walk); did "
+        "you mean 'walk'?"
     )
 
 
-def test_sequences_of_the_same_name_are_refused(tmp_path):
+def test_recordings_of_the_same_name_are_refused(tmp_path):
     for folder in ("a", "b"):
-        write_sequence(tmp_path / folder, "name: same\n")
+        write_recording(tmp_path / folder, "name: same\n")
     message = complaint(DepthFolders(root=tmp_path), tmp_path)
-    assert message == "dataset: two sequences are called 'same'"
+    assert message == "dataset: two recordings are called 'same'"
 
 
 def remove(*parts: str) -> Callable[[Path], None]:
@@ -212,7 +212,7 @@ SECOND = "depth/000001.png"
     ("damage", "expected"),
     [
         (remove(), "ROOT: there is no such folder"),
-        (remove("depth"), "ROOT: no sequence here: neither the folder nor one in it has a folder "
+        (remove("depth"), "ROOT: no recording here: neither the folder nor one in it has a folder "
          "'depth/' beside a sequence.yaml"),
         (remove("sequence.yaml"), "ROOT/sequence.yaml: there is no such file"),
         (remove(SECOND), "ROOT/depth: files must be numbered from 000000 without gaps; 000001 is "
@@ -265,16 +265,16 @@ SECOND = "depth/000001.png"
         (write("truth.csv", HEADER + "0,a,1,2,inf\n"), "ROOT/truth.csv:2: a position is NaN"),
     ],
 )  # fmt: skip
-def test_depth_that_is_wrong_is_told_with_its_place(sequence, damage, expected):
-    dataset = DepthFolders(root=sequence)
+def test_depth_that_is_wrong_is_told_with_its_place(recording, damage, expected):
+    dataset = DepthFolders(root=recording)
     assert len(everything(dataset)) == FRAMES
-    damage(sequence)
-    assert complaint(dataset, sequence).startswith(expected)
+    damage(recording)
+    assert complaint(dataset, recording).startswith(expected)
 
 
-def test_damaged_frame_does_not_harm_those_before_it(sequence):
-    cut(SECOND, 0.5)(sequence)
-    frames = DepthFolders(root=sequence).chosen()[0].frames()
+def test_damaged_frame_does_not_harm_those_before_it(recording):
+    cut(SECOND, 0.5)(recording)
+    frames = DepthFolders(root=recording).chosen()[0].frames()
     assert len(next(frames).points)
     with pytest.raises(DataError):
         next(frames)
@@ -342,7 +342,7 @@ NO_ARRAY = f"ROOT/{CLOUD}: not a .npz with an array 'points' (N, 3): "
         (write(CLOUD, "hello"), NO_ARRAY),
         (cut(CLOUD, 0.5), NO_ARRAY),
         (bare_array, NO_ARRAY),
-        (remove("clouds"), "ROOT: no sequence here: neither the folder nor one in it has a folder "
+        (remove("clouds"), "ROOT: no recording here: neither the folder nor one in it has a folder "
          "'clouds/'"),
         (remove("clouds", "000000.npz"), "ROOT/clouds: files must be numbered from 000000"),
     ],
@@ -414,16 +414,16 @@ def test_utd_joints_of_moving_arms_fit_the_images_best_with_the_lead(utd):
     """Measured on the images alone: how far wrists and hands are from the nearest point."""
     arms = [JOINTS.index(name) for name in ("left_wrist", "left_hand", "right_wrist", "right_hand")]
 
-    def gap(sequence) -> float:
+    def gap(recording) -> float:
         distances = [
             KDTree(frame.points).query(joints[arms])[0].mean()
-            for frame, joints in zip(sequence.frames(), sequence.truth().positions, strict=True)
+            for frame, joints in zip(recording.frames(), recording.truth().positions, strict=True)
         ]
         return float(np.mean(distances))
 
     for name in ("a7_s1_t1", "a9_s2_t1"):
         gaps = {
-            lead: gap(UtdMhad(root=utd, sequences=(name,), skeleton_lead=lead).chosen()[0])
+            lead: gap(UtdMhad(root=utd, recordings=(name,), skeleton_lead=lead).chosen()[0])
             for lead in (0.0, 1.5, 3.0)
         }
         assert gaps[1.5] < 0.85 * min(gaps[0.0], gaps[3.0])
@@ -436,12 +436,12 @@ def test_utd_joints_are_twenty_in_the_order_of_the_kinect():
     assert JOINTS[16:] == ("right_hip", "right_knee", "right_ankle", "right_foot")
 
 
-def test_utd_sequences_are_sorted_by_number_and_cut(tmp_path):
+def test_utd_recordings_are_sorted_by_number_and_cut(tmp_path):
     for name in ("a19_s1_t1", "a9_s1_t1", "a9_s10_t1", "a9_s2_t1"):
         write_utd(tmp_path, name)
     names = [found.name for found in UtdMhad(root=tmp_path).chosen()]
     assert names == ["a9_s1_t1", "a9_s2_t1", "a9_s10_t1", "a19_s1_t1"]
-    (found,) = UtdMhad(root=tmp_path, sequences=("a9_s2_t1",), frames=1).chosen()
+    (found,) = UtdMhad(root=tmp_path, recordings=("a9_s2_t1",), frames=1).chosen()
     assert found.length == len(list(found.frames())) == len(found.truth().positions) == 1
 
 
@@ -461,8 +461,8 @@ def mat(name: str, **arrays) -> Callable[[Path], None]:
 @pytest.mark.parametrize(
     ("damage", "expected"),
     [
-        (remove("Depth"), "ROOT: no sequence here: Depth/ must hold files like a1_s1_t1_depth.mat"),
-        (remove(DEPTH), "ROOT: no sequence here"),
+        (remove("Depth"), "ROOT: no recording here: Depth/ must hold files like"),
+        (remove(DEPTH), "ROOT: no recording here"),
         (mat(DEPTH, depth=np.ones((240, 320, 2))), f"ROOT/{DEPTH}: not a .mat file with 'd_depth'"),
         (mat(DEPTH, d_depth=np.ones((240, 320))), f"ROOT/{DEPTH}: d_depth has the shape"),
         (mat(DEPTH, d_depth=np.ones((320, 240, 2))), f"ROOT/{DEPTH}: frame 0: the depth image has "
@@ -499,18 +499,18 @@ def utd(reference_data) -> Path:
 def test_utd_reference_data_are_found_with_their_joints(utd):
     found = UtdMhad(root=utd).chosen()
     assert len(found) == len(list((utd / "Depth").iterdir())) == 14
-    assert [sequence.name for sequence in found][:2] == ["a1_s1_t1", "a1_s2_t1"]
-    for sequence in found:
-        assert sequence.length > 30
-        truth = sequence.truth()
-        assert len(truth.positions) == sequence.length
+    assert [recording.name for recording in found][:2] == ["a1_s1_t1", "a1_s2_t1"]
+    for recording in found:
+        assert recording.length > 30
+        truth = recording.truth()
+        assert len(truth.positions) == recording.length
         assert np.isfinite(truth.positions).all()
 
 
 def test_utd_people_are_no_mirror_images(utd):
     """Facing the camera, a person's left is on the image's right, the head above the feet."""
-    for sequence in UtdMhad(root=utd).chosen():
-        joints = dict(zip(JOINTS, np.moveaxis(sequence.truth().positions, 1, 0), strict=True))
+    for recording in UtdMhad(root=utd).chosen():
+        joints = dict(zip(JOINTS, np.moveaxis(recording.truth().positions, 1, 0), strict=True))
         assert (joints["left_shoulder"][:, 0] > joints["right_shoulder"][:, 0]).mean() > 0.9
         assert joints["head"][:, 1].mean() < joints["left_foot"][:, 1].mean()
 
@@ -522,9 +522,9 @@ def test_utd_joints_lie_near_the_cloud(utd):
         return np.median(np.linalg.norm(joints[:, None] - points[None], axis=2).min(axis=1))
 
     gaps, mirrored = [], []
-    for sequence in UtdMhad(root=utd, frames=1).chosen():
-        points = next(sequence.frames()).points
-        joints = sequence.truth().positions[0]
+    for recording in UtdMhad(root=utd, frames=1).chosen():
+        points = next(recording.frames()).points
+        joints = recording.truth().positions[0]
         gaps.append(gap(joints, points))
         mirrored.append(gap(joints * [-1.0, 1.0, 1.0], points))
         assert 1.0 < points[:, 2].min() < points[:, 2].max() < 5.0

@@ -42,7 +42,7 @@ def test_valid_experiment_is_read(file):
     file.write_text(EXPERIMENT)
     experiment = Experiment.read(file)
     assert experiment.methods["gsog"].shape.kind == "gsog"
-    assert experiment.tracker.kind == "hold"
+    assert experiment.tracker.kind == "constant_pose"
 
 
 @pytest.mark.parametrize(

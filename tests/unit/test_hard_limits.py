@@ -19,7 +19,7 @@ SIZES = {"human": 1.75, "hand": 0.186}
 @pytest.mark.parametrize("name", list(COORDINATES))
 def test_derivatives_of_constraints_are_exact(linkage, random, name):
     bones = linkage.skeleton
-    start = bones.retract(bones.rest(), 0.5 * random.normal(size=bones.freedoms))
+    start = bones.retract(bones.rest(), 0.5 * random.normal(size=bones.dofs))
     coordinates = COORDINATES[name](bones, start)
     rows = coordinates.constraints()
     multipliers = random.normal(size=len(rows.names))
@@ -36,15 +36,15 @@ def test_derivatives_of_constraints_are_exact(linkage, random, name):
 def beyond_limits(body: Body, random: np.random.Generator) -> tuple[Observation, Pose]:
     """Data of a pose that may be beyond the limits, and a start within them."""
     bones, gaussians = body.skeleton, body.gaussians["gsog"]
-    joints = np.arange(bones.freedoms) >= bones.ball_freedoms.start
-    step = random.uniform(0.2, 1.0) * joints * random.normal(size=bones.freedoms)
+    joints = np.arange(bones.dofs) >= bones.ball_dofs.start
+    step = random.uniform(0.2, 1.0) * joints * random.normal(size=bones.dofs)
     target = bones.retract(bones.rest(), step)
     placed = gaussians.place(body.place(target).transforms)
     chosen = random.integers(len(gaussians), size=200)
     spread = gaussians.scales[chosen] * random.normal(size=(200, 3))
     points = placed.centres[chosen] + np.einsum("nij,nj->ni", placed.axes[chosen], spread)
     data = Observation(points, np.ones(200), np.full(200, (0.005 * body.size) ** 2))
-    disturbed = bones.retract(target, 0.1 * joints * random.normal(size=bones.freedoms))
+    disturbed = bones.retract(target, 0.1 * joints * random.normal(size=bones.dofs))
     return data, bones.limits.projected(disturbed)
 
 
@@ -56,18 +56,20 @@ def test_hard_limits_are_kept(kind, solver, coordinates, random):
     method = Method.load("direct")(
         shape="gsog", kernel="likelihood", solver=solver, coordinates=coordinates, hard_limits=True
     )
-    registrar = method.prepare(body)
+    registrar = method.bind(body)
     # Hinges are bounds to it, too.
     free = method.model_copy(update={"solver": Solver.load("lbfgs")(), "hard_limits": False})
-    free, pressed = free.prepare(body), 0
+    free, pressed = free.bind(body), 0
     for _ in range(10):
         data, start = beyond_limits(body, random)
-        found = registrar.register(data, start)
+        found = registrar.register(data, [start])
         assert body.skeleton.limits.violation(found.pose).max() <= 1e-6
-        gained = registrar.fit(data, start).energy - registrar.fit(data, found.pose).energy
+        gained = (
+            registrar.evaluate(data, start).energy - registrar.evaluate(data, found.pose).energy
+        )
         assert gained > 0.01
         # Without limits the data would pull the pose beyond them; else nothing was tested.
-        pulled = free.register(data, start).pose
+        pulled = free.register(data, [start]).pose
         pressed += body.skeleton.limits.violation(pulled).max() > 0.01
     assert pressed >= 8 or kind == "hand"
 
@@ -76,14 +78,14 @@ def test_solvers_agree_where_no_limit_holds(linkage, random):
     """From the same start near the truth: the same minimum, to a millionth of its energy."""
     bones = linkage.skeleton
     shape = Method.load("direct")(shape="gsog", kernel="likelihood", solver="lbfgs").shape
-    gaussians = shape.attach(linkage)
-    truth = bones.retract(bones.rest(), 0.1 * random.normal(size=bones.freedoms))
+    gaussians = shape.bind(linkage)
+    truth = bones.retract(bones.rest(), 0.1 * random.normal(size=bones.dofs))
     placed = gaussians.place(linkage.place(truth).transforms)
     chosen = random.integers(len(gaussians), size=400)
     spread = gaussians.scales[chosen] * random.normal(size=(400, 3))
     points = placed.centres[chosen] + np.einsum("nij,nj->ni", placed.axes[chosen], spread)
     data = Observation(points, np.ones(400), np.full(400, 0.01**2))
-    start = bones.retract(truth, 0.05 * random.normal(size=bones.freedoms))
+    start = bones.retract(truth, 0.05 * random.normal(size=bones.dofs))
     energies = {}
     for solver in (
         {"kind": "ipopt", "max_iterations": 500, "value_tolerance": 0.0},
@@ -92,7 +94,7 @@ def test_solvers_agree_where_no_limit_holds(linkage, random):
          "gradient_tolerance": 1e-10},
     ):  # fmt: skip
         method = Method.load("direct")(shape="gsog", kernel="likelihood", solver=solver)
-        energies[solver["kind"]] = method.prepare(linkage).register(data, start).energy
+        energies[solver["kind"]] = method.bind(linkage).register(data, [start]).energy
     np.testing.assert_allclose(list(energies.values()), energies["ipopt"], rtol=1e-6)
 
 
@@ -108,10 +110,10 @@ def test_multipliers_pass_from_frame_to_frame(random):
             return super().minimize(problem)
 
     method = Method.load("direct")(shape="gsog", kernel="likelihood", solver=Watching())
-    registrar = method.prepare(body)
+    registrar = method.bind(body)
     data, start = beyond_limits(body, random)
-    first = registrar.register(data, start)
-    second = registrar.register(data, first.pose, after=first)
+    first = registrar.register(data, [start])
+    second = registrar.register(data, [first.pose], warm_start=first)
     assert given == [None, first.multipliers]
     assert second.energy <= first.energy + 1e-3
 
@@ -124,7 +126,7 @@ def test_start_beyond_the_limits_is_brought_within(solver, random):
     method = Method.load("direct")(
         shape="gsog", kernel="likelihood", solver=solver, hard_limits=True
     )
-    found = method.prepare(body).register(data, beyond)
+    found = method.bind(body).register(data, [beyond])
     assert body.skeleton.limits.violation(found.pose).max() <= 1e-6
 
 
@@ -135,13 +137,13 @@ def test_quaternions_lead_ipopt_as_far_as_steps_do(random):
         method = Method.load("direct")(
             shape="gsog", kernel="likelihood", solver="ipopt", coordinates=name
         )
-        registrar, problems = method.prepare(body), np.random.default_rng(3)
+        registrar, problems = method.bind(body), np.random.default_rng(3)
         gains[name] = []
         for _ in range(6):
             data, start = beyond_limits(body, problems)
-            found = registrar.register(data, start)
+            found = registrar.register(data, [start])
             gains[name].append(
-                registrar.fit(data, start).energy - registrar.fit(data, found.pose).energy
+                registrar.evaluate(data, start).energy - registrar.evaluate(data, found.pose).energy
             )
     # They may end in different minima, but one chart does not stop where the other begins.
     assert min(gains["quaternion"]) > 0.01
@@ -150,15 +152,11 @@ def test_quaternions_lead_ipopt_as_far_as_steps_do(random):
 
 def test_threads_do_not_disturb_each_other(random):
     bones = Template.load("human")().body(SIZES["human"]).skeleton
-    poses = [
-        bones.retract(bones.rest(), 0.3 * random.normal(size=bones.freedoms)) for _ in range(8)
-    ]
+    poses = [bones.retract(bones.rest(), 0.3 * random.normal(size=bones.dofs)) for _ in range(8)]
     charts = [COORDINATES["tangent"](bones, pose) for pose in poses]
 
     def jacobians(chart) -> list:
-        return [
-            chart.constraints().jacobian(0.01 * k * np.ones(bones.freedoms)) for k in range(300)
-        ]
+        return [chart.constraints().jacobian(0.01 * k * np.ones(bones.dofs)) for k in range(300)]
 
     expected = [jacobians(chart) for chart in charts]
     with ThreadPoolExecutor(4) as threads:
@@ -174,4 +172,4 @@ def test_hard_limits_refuse_a_solver_that_cannot_keep_them():
 def test_body_without_ball_limits_has_no_constraints(linkage):
     body = Template.load("hand")().body(0.186)
     coordinates = COORDINATES["tangent"](body.skeleton, body.skeleton.rest())
-    assert RegistrationProblem(coordinates, body.gaussians["gsog"], []).constraints() is None
+    assert RegistrationProblem(coordinates, body.gaussians["gsog"], {}).constraints() is None

@@ -32,7 +32,7 @@ def motion(linkage: Body, random: np.random.Generator) -> TrackedMotion:
     pose = linkage.skeleton.rest(rigid(Rotation.random(rng=random).as_matrix(), np.ones(3)))
     transforms = []
     for _ in range(6):
-        pose = linkage.skeleton.retract(pose, random.normal(0.0, 0.7, linkage.skeleton.freedoms))
+        pose = linkage.skeleton.retract(pose, random.normal(0.0, 0.7, linkage.skeleton.dofs))
         transforms.append(linkage.place(pose).transforms)
     return TrackedMotion("direct linkage", linkage, np.array(transforms), 25.0, None)
 
@@ -106,7 +106,7 @@ def test_csv_has_every_segment_and_marker_in_the_cameras_frame(
 def _skin(body: Body, random: np.random.Generator) -> SkinnedMesh:
     """A mesh whose rest pose is not the body's, and whose bones stand in another order."""
     skeleton = body.skeleton
-    pose = skeleton.retract(skeleton.rest(), random.normal(0.0, 0.5, skeleton.freedoms))
+    pose = skeleton.retract(skeleton.rest(), random.normal(0.0, 0.5, skeleton.dofs))
     rest = body.place(pose).transforms
     order = [0, *(1 + random.permutation(len(rest) - 1))]
     weights = random.random((90, 5))

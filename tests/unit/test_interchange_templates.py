@@ -62,7 +62,7 @@ def _body(imported: ImportedSkeleton) -> Body:
 def _pose(body: Body, root: np.ndarray, turns: dict[str, np.ndarray]) -> Pose:
     """A pose of rotation vectors for ball joints and of angles for others [rad]."""
     pose = body.skeleton.rest(root)
-    step = np.zeros(body.skeleton.freedoms)
+    step = np.zeros(body.skeleton.dofs)
     for name, angles in turns.items():
         step[body.skeleton.freedoms_of(name)] = angles
     moved = body.skeleton.retract(pose, step)

@@ -27,8 +27,8 @@ def scene(linkage, random, shape):
     """A posed linkage before the camera, and anisotropic data about it."""
     bones = linkage.skeleton
     root = rigid(vector_to_matrix(random.normal(size=3)), np.array([0.2, -0.1, 2.0]))
-    start = bones.retract(bones.rest(root), 0.5 * random.normal(size=bones.freedoms))
-    primitives = shape.attach(linkage)
+    start = bones.retract(bones.rest(root), 0.5 * random.normal(size=bones.dofs))
+    primitives = shape.bind(linkage)
     points = start.root[:3, 3] + random.normal(size=(250, 3)) * [0.3, 0.2, 0.15]
     variances = random.choice([0.01, 0.03], size=250) ** 2
     data = Observation(points, random.uniform(0.5, 2.0, 250), variances, CAMERA)
@@ -62,7 +62,7 @@ def test_stiffness_is_the_hessian_of_the_weighted_residuals(random, kernel, surf
     placed = model.place(rigid(np.eye(3), np.array([0.1, 0.0, 1.5]))[None])
     points = np.array([0.1, 0.0, 1.45]) + random.normal(scale=0.1, size=(40, 3))
     data = Observation(points, np.ones(40), np.full(40, 0.02**2), CAMERA)
-    blocks = kernel.against(data, placed)(placed, curvature=True).stiffness
+    blocks = kernel.bind(data, placed)(placed, curvature=True).stiffness
     view = seen(placed, CAMERA)
     precisions = view.precisions(0.02**2)
     weights = pair_weights(kernel, view, precisions, points)
@@ -93,7 +93,7 @@ def test_likelihood_is_the_log_density_of_the_mixture(random):
     variances = random.choice([0.01, 0.03], size=30) ** 2
     weights = random.uniform(0.5, 2.0, size=30)
     data = Observation(points, weights, variances)
-    found = Likelihood(outliers=0.2).against(data, placed)(placed).energy
+    found = Likelihood(outliers=0.2).bind(data, placed)(placed).energy
     sorted_scales = np.sort(model.scales, axis=1)
     mixing = sorted_scales[:, 1] * sorted_scales[:, 2]
     mixing = 0.8 * mixing / mixing.sum()
@@ -145,15 +145,15 @@ def test_visible_side_agrees_with_sampling(random):
 
 def test_without_a_camera_the_whole_gaussians_count(linkage, random):
     _, primitives, data = scene(linkage, random, GeneralizedSumOfGaussians(surface="visible"))
-    whole = GeneralizedSumOfGaussians().attach(linkage)
+    whole = GeneralizedSumOfGaussians().bind(linkage)
     blind = Observation(data.points, data.weights, data.variances)
     transforms = linkage.place(linkage.skeleton.rest(rigid(np.eye(3), data.points.mean(0))))
     placed = primitives.place(transforms.transforms)
     same = whole.place(transforms.transforms)
     kernel = Likelihood()
-    first, second = kernel.against(blind, placed)(placed), kernel.against(blind, same)(same)
+    first, second = kernel.bind(blind, placed)(placed), kernel.bind(blind, same)(same)
     assert first.energy == second.energy
-    assert kernel.against(data, placed)(placed).energy != second.energy
+    assert kernel.bind(data, placed)(placed).energy != second.energy
 
 
 def test_gaussians_compete_for_points(random):
@@ -171,7 +171,7 @@ def test_gaussians_compete_for_points(random):
     pulls = []
     for model in (both, alone):
         placed = model.place(np.eye(4)[None])
-        pulls.append(Likelihood().against(data, placed)(placed).wrenches[-1, 0])
+        pulls.append(Likelihood().bind(data, placed)(placed).wrenches[-1, 0])
     assert abs(pulls[0]) < 0.3 * abs(pulls[1])
 
 
@@ -188,6 +188,6 @@ def test_points_are_explained_where_the_primitives_are_and_nowhere_else(kernel):
     placed = model.place(rigid(np.eye(3), np.array([0.0, 0.0, 2.0]))[None])
     points = np.array([[0.0, 0.0, 2.0], [2.0, 0.0, 2.0], [0.05, 0.0, 2.0], [0.0, 1.0, 3.0]])
     data = Observation(points, np.ones(4), np.array([0.02, 0.02, 0.03, 0.03]) ** 2)
-    explained = kernel.against(data, placed).explained(placed)
+    explained = kernel.bind(data, placed).inlier_probability(placed)
     np.testing.assert_allclose(explained[[1, 3]], 0.0, atol=1e-9)
     assert ((explained[[0, 2]] > 0.9) & (explained[[0, 2]] <= 1.0)).all()

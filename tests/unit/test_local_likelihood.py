@@ -51,20 +51,20 @@ def test_all_neighbours_make_it_the_likelihood(random, data):
         np.ones(count),
     )
     placed = primitives.place(np.eye(4)[None])
-    local = LocalLikelihood(neighbours=count, outliers=0.2, flatness=1.0).against(data, placed)
-    whole = Likelihood(outliers=0.2).against(data, placed)
+    local = LocalLikelihood(neighbours=count, outliers=0.2, flatness=1.0).bind(data, placed)
+    whole = Likelihood(outliers=0.2).bind(data, placed)
     assert local(placed).energy == pytest.approx(whole(placed).energy)
     # Pairs with less than a millionth of a point are left out.
     np.testing.assert_allclose(local(placed).wrenches, whole(placed).wrenches, atol=1e-5)
-    np.testing.assert_allclose(local.explained(placed), whole.explained(placed))
+    np.testing.assert_allclose(local.inlier_probability(placed), whole.inlier_probability(placed))
 
 
 def test_far_outliers_are_not_explained(lump):
     shape = CloudGeneralizedSumOfGaussians(width=0.02)
-    placed = shape.attach(cloud_body("lump", lump)).place(np.eye(4)[None])
+    placed = shape.bind(cloud_body("lump", lump)).place(np.eye(4)[None])
     points = np.concatenate([lump[:100], lump[:100] + 5.0])
     data = Observation(points, np.ones(200), np.full(200, 1e-4))
-    explained = LocalLikelihood().against(data, placed).explained(placed)
+    explained = LocalLikelihood().bind(data, placed).inlier_probability(placed)
     assert explained[:100].min() > 0.9
     assert explained[100:].max() < 1e-6
 
@@ -82,13 +82,13 @@ def test_axes_are_rotations_whose_third_is_the_normal(random):
 
 def test_flat_gaussians_lie_in_the_surface(random):
     points = random.normal(size=(200, 3)) * [1.0, 1.0, 0.0]
-    made = CloudGeneralizedSumOfGaussians(width=0.5, flatness=0.1).attach(cloud_body("p", points))
+    made = CloudGeneralizedSumOfGaussians(width=0.5, flatness=0.1).bind(cloud_body("p", points))
     covariances = made.place(np.eye(4)[None]).covariances()
     np.testing.assert_allclose(covariances, np.tile(np.diag([0.25, 0.25, 0.0025]), (200, 1, 1)))
-    round_ones = CloudSumOfGaussians(width=0.5).attach(cloud_body("p", points))
+    round_ones = CloudSumOfGaussians(width=0.5).bind(cloud_body("p", points))
     np.testing.assert_array_equal(round_ones.scales, 0.5)
 
 
 def test_body_without_a_surface_is_refused(linkage):
     with pytest.raises(ConfigError, match="'linkage' has none; take a template of kind cloud"):
-        CloudSumOfGaussians().attach(linkage)
+        CloudSumOfGaussians().bind(linkage)

@@ -19,7 +19,7 @@ from regkit_plugins.kernels.point_to_plane.point_to_plane import PointToPlane
 from regkit_plugins.kernels.point_to_plane.visible import visible
 from regkit_plugins.kernels.point_to_point import PointToPoint
 from regkit_plugins.methods.direct.direct import Direct
-from regkit_plugins.preprocessors.points import PointsObserver
+from regkit_plugins.preprocessors.points import PointsPreprocessor
 from regkit_plugins.shapes.mesh import Mesh
 from regkit_plugins.solvers.gauss_newton import GaussNewton
 from regkit_plugins.templates.human import Human
@@ -55,8 +55,8 @@ def scene(body, random):
     """A posed body before the camera, and anisotropic data with normals about it."""
     bones = body.skeleton
     root = rigid(vector_to_matrix(random.normal(size=3)), np.array([0.2, -0.1, 2.0]))
-    start = bones.retract(bones.rest(root), 0.4 * random.normal(size=bones.freedoms))
-    surfels = Mesh().attach(body)
+    start = bones.retract(bones.rest(root), 0.4 * random.normal(size=bones.dofs))
+    surfels = Mesh().bind(body)
     middle = surfels.place(body.place(start).transforms).centres.mean(axis=0)
     points = middle + random.normal(size=(150, 3)) * [0.3, 0.2, 0.15]
     normals = random.normal(size=(150, 3))
@@ -96,7 +96,7 @@ def differences(problem, x, step=1e-6):
 def test_forces_on_blended_points_and_normals_are_pulled_back_exactly(skinned, random, coordinates):
     start, surfels, _ = scene(skinned, random)
     chart = COORDINATES[coordinates](skinned.skeleton, start)
-    problem = RegistrationProblem(chart, surfels, [Springs(random, len(surfels))])
+    problem = RegistrationProblem(chart, surfels, {"springs": Springs(random, len(surfels))})
     x = problem.start + 0.2 * random.normal(size=len(problem.start))
     _, gradient = problem.value_and_gradient(x)
     np.testing.assert_allclose(
@@ -123,14 +123,17 @@ def test_normal_matrix_is_that_of_the_residuals(skinned, random):
     start, surfels, data = scene(skinned, random)
     bones = skinned.skeleton
     kernel = PointToPlane(
-        point_share=0.3, reach=1e6, matches="fixed", robust=Robust(loss="squares", scale=1.0)
+        point_share=0.3,
+        max_correspondence_distance=1e6,
+        matches="fixed",
+        robust=Robust(loss="squares", scale=1.0),
     )
     data = replace(data, normals=None, camera=None)
     placed = surfels.place(skinned.place(start).transforms)
-    similarity = kernel.against(data, placed)
+    similarity = kernel.bind(data, placed)
     chart = COORDINATES["tangent"](bones, start)
-    _, _, matrix = RegistrationProblem(chart, surfels, [similarity]).normal_equations(
-        np.zeros(bones.freedoms)
+    _, _, matrix = RegistrationProblem(chart, surfels, {"kernel": similarity}).normal_equations(
+        np.zeros(bones.dofs)
     )
     nearest = np.linalg.norm(data.points[:, None] - placed.centres, axis=2).argmin(axis=1)
 
@@ -141,7 +144,7 @@ def test_normal_matrix_is_that_of_the_residuals(skinned, random):
         parts = [np.sqrt(0.7) * along, *(np.sqrt(0.3) * offsets.T)]
         return np.concatenate([np.sqrt(data.weights / data.weights.sum()) * part for part in parts])
 
-    columns = [residuals(1e-6 * e) - residuals(-1e-6 * e) for e in np.eye(bones.freedoms)]
+    columns = [residuals(1e-6 * e) - residuals(-1e-6 * e) for e in np.eye(bones.dofs)]
     jacobian = np.array(columns).T / 2e-6
     np.testing.assert_allclose(matrix, jacobian.T @ jacobian, atol=1e-7 * np.abs(matrix).max())
 
@@ -160,12 +163,12 @@ def test_surfels_of_one_segment_each_feel_what_rigid_primitives_feel(skinned, ra
     wrenches[:, 3:] -= (wrenches[:, 3:] * normals).sum(axis=1, keepdims=True) * normals
     segments = len(skinned.skeleton.names)
     np.testing.assert_allclose(
-        placed.gather(wrenches, segments), rigidly.gather(wrenches, segments), atol=1e-12
+        placed.accumulate(wrenches, segments), rigidly.accumulate(wrenches, segments), atol=1e-12
     )
     blocks = wrenches[:, :, None] * wrenches[:, None, :]
     np.testing.assert_allclose(
-        placed.gather_stiffness(blocks, segments),
-        rigidly.gather_stiffness(blocks, segments),
+        placed.accumulate_stiffness(blocks, segments),
+        rigidly.accumulate_stiffness(blocks, segments),
         atol=1e-11,
     )
 
@@ -175,10 +178,10 @@ def person(random):
     body = Human().body(1.7)
     turn = np.diag([1.0, -1.0, -1.0])
     pose = body.skeleton.rest(rigid(turn, np.array([0.0, -0.1, 3.0])))
-    surfels = Mesh().attach(body)
+    surfels = Mesh().bind(body)
     placed = surfels.place(body.place(pose).transforms)
     points = placed.centres[visible(placed)]
-    return body, pose, surfels, PointsObserver(sigma=0.01).observe(Frame(points, CAMERA))
+    return body, pose, surfels, PointsPreprocessor(sigma=0.01).preprocess(Frame(points, CAMERA))
 
 
 def test_camera_sees_the_front_and_nothing_behind_it(random):
@@ -203,23 +206,25 @@ def test_camera_sees_the_front_and_nothing_behind_it(random):
 def test_solver_finds_the_pose_of_the_data(random, kernel):
     """From 3 cm and some degrees beside it; points to points take longer."""
     body, pose, _, data = person(random)
-    step = 0.06 * random.normal(size=body.skeleton.freedoms)
+    step = 0.06 * random.normal(size=body.skeleton.dofs)
     step[:3] = [0.02, -0.02, 0.01]
     start = body.skeleton.limits.projected(body.skeleton.retract(pose, step))
     method = Direct(shape=Mesh(), kernel=kernel, solver=GaussNewton(max_iterations=40))
-    found = method.prepare(body).register(data, start)
+    found = method.bind(body).register(data, [start])
     markers = [body.markers.place(body.place(one).transforms) for one in (pose, start, found.pose)]
     before, after = (np.linalg.norm(m - markers[0], axis=1).mean() for m in markers[1:])
     assert after < 0.2 * before
-    assert found.explained > 0.95
+    assert found.inlier_share > 0.95
 
 
 def test_points_are_explained_where_the_surfels_are_and_nowhere_else(random):
     body, pose, surfels, data = person(random)
     placed = surfels.place(body.place(pose).transforms)
     strange = np.array([[1.0, 0.0, 2.5], [0.0, 0.0, 2.0]])
-    data = PointsObserver(sigma=0.01).observe(Frame(np.concatenate([data.points, strange]), CAMERA))
-    explained = PointToPlane().against(data, placed).explained(placed)
+    data = PointsPreprocessor(sigma=0.01).preprocess(
+        Frame(np.concatenate([data.points, strange]), CAMERA)
+    )
+    explained = PointToPlane().bind(data, placed).inlier_probability(placed)
     np.testing.assert_allclose(explained[:-2], 1.0, atol=1e-9)
     np.testing.assert_array_equal(explained[-2:], 0.0)
 
@@ -233,31 +238,31 @@ def test_point_that_faces_elsewhere_has_no_partner(random):
     normals[0] = np.roll(normals[0], 1)
     data = replace(data, normals=normals)
     for kernel in (PointToPoint(angle_deg=60), PointToPlane(angle_deg=60)):
-        explained = kernel.against(data, placed).explained(placed)
+        explained = kernel.bind(data, placed).inlier_probability(placed)
         assert explained[0] == 0.0
         assert (explained[1:] > 0.99).all()
 
 
-def test_observer_gives_normals_of_a_plane(random):
+def test_preprocessor_gives_normals_of_a_plane(random):
     normal = np.array([0.6, 0.0, -0.8])
     flat = np.linalg.svd(normal[None])[2][1:]
     points = random.uniform(-0.5, 0.5, size=(300, 2)) @ flat + [0.0, 0.0, 2.0]
-    seen = PointsObserver(normals=8).observe(Frame(points, CAMERA))
+    seen = PointsPreprocessor(normals=8).preprocess(Frame(points, CAMERA))
     np.testing.assert_allclose(np.abs(seen.normals @ normal), 1.0, atol=1e-9)
-    assert PointsObserver().observe(Frame(points, CAMERA)).normals is None
+    assert PointsPreprocessor().preprocess(Frame(points, CAMERA)).normals is None
 
 
 def test_missing_normals_are_told(skinned, random):
     start, surfels, data = scene(skinned, random)
     placed = surfels.place(skinned.place(start).transforms)
     for kernel in (PointToPlane(normals="data"), PointToPoint(angle_deg=60)):
-        with pytest.raises(ConfigError, match=r"observer\.normals"):
-            kernel.against(replace(data, normals=None), placed)
+        with pytest.raises(ConfigError, match=r"preprocessor\.normals"):
+            kernel.bind(replace(data, normals=None), placed)
 
 
 def test_body_without_a_mesh_is_told(linkage):
     with pytest.raises(ConfigError, match="'linkage' has no mesh"):
-        Mesh().attach(linkage)
+        Mesh().bind(linkage)
 
 
 @pytest.mark.parametrize("term", [Visibility(), Intersection()], ids=lambda term: term.kind)

@@ -8,7 +8,7 @@ import pytest
 from regkit.body import Body
 from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import vector_to_matrix
-from regkit.metrics import NEAR, Measure, joint_errors, mean_of
+from regkit.metrics import PCK_PART, Measure, joint_errors, mean_of
 from regkit.metrics import measured as measured_from
 from regkit.observation import Truth
 from regkit.skeleton import Pose
@@ -36,14 +36,14 @@ def track_of(body: Body, poses: list[Pose]) -> Track:
         evaluations=np.arange(1.0, len(poses) + 1.0),
         converged=np.ones(len(poses)),
         seconds=np.full(len(poses), 0.05),
-        observing=np.full(len(poses), 0.01),
+        preprocessing=np.full(len(poses), 0.01),
     )
 
 
 def wandering(body: Body, random: np.random.Generator, frames: int = FRAMES) -> list[Pose]:
     poses = [body.skeleton.rest()]
     while len(poses) < frames:
-        step = 0.2 * random.normal(size=body.skeleton.freedoms)
+        step = 0.2 * random.normal(size=body.skeleton.dofs)
         poses.append(body.skeleton.retract(poses[-1], step))
     return poses
 
@@ -82,7 +82,7 @@ def test_figures_without_truth_are_those_of_the_run(linkage, track):
     assert found.surface_distance_mm == pytest.approx(2.0)
     assert found.evaluations_per_frame == pytest.approx((1 + FRAMES) / 2)
     assert found.fps == pytest.approx(20.0)
-    assert found.observing_ms == pytest.approx(10.0)
+    assert found.preprocessing_ms == pytest.approx(10.0)
     assert found.registering_ms == pytest.approx(40.0)
 
 
@@ -92,7 +92,7 @@ def test_constant_displacement_in_a_segment_vanishes_when_adjusted(linkage, trac
     lengths = np.linalg.norm(offsets, axis=1)
     assert found.joint_error_raw_cm == pytest.approx(100.0 * lengths.mean())
     assert found.joint_error_adjusted_cm == pytest.approx(0.0, abs=1e-9)
-    assert found.within_10cm_percent == pytest.approx(100.0 * (lengths < NEAR).mean())
+    assert found.within_10cm_percent == pytest.approx(100.0 * (lengths < PCK_PART).mean())
     assert found.within_10cm_adjusted_percent == 100.0
 
 
@@ -183,11 +183,11 @@ def test_area_is_that_under_the_curve_of_the_shares_within_thresholds(linkage, t
     truth = Truth(linkage.markers.names, track.markers + noise)
     found = measured(track, linkage, truth, {})
     distances = np.linalg.norm(noise, axis=2)
-    thresholds = np.linspace(0.0, 2.0 * NEAR * linkage.size, 20001)
+    thresholds = np.linspace(0.0, 2.0 * PCK_PART * linkage.size, 20001)
     shares = [(distances < threshold).mean() for threshold in thresholds]
     expected = 100.0 * np.trapezoid(shares, thresholds) / thresholds[-1]
-    assert found.area_percent == pytest.approx(expected, abs=0.01)
-    assert measured(track, linkage, perfect(linkage, track), {}).area_percent == 100.0
+    assert found.auc_percent == pytest.approx(expected, abs=0.01)
+    assert measured(track, linkage, perfect(linkage, track), {}).auc_percent == 100.0
 
 
 def test_joint_that_was_not_seen_does_not_count(linkage, track):
@@ -257,8 +257,8 @@ def test_joints_that_do_not_match_are_told(linkage, track, joints, expected):
 def test_limit_violation_is_the_mean_of_the_largest(linkage):
     """The forearm's hinge may bend to 140 degrees; in every other frame it bends 30 too far."""
     bones = linkage.skeleton
-    step = np.zeros(bones.freedoms)
-    step[bones.joint_freedoms["forearm"]] = np.radians(170.0)
+    step = np.zeros(bones.dofs)
+    step[bones.joint_dofs["forearm"]] = np.radians(170.0)
     bent = bones.retract(bones.rest(), step)
     track = track_of(linkage, [bones.rest(), bent, bones.rest(), bent])
     found = measured(track, linkage, None, {})
@@ -281,13 +281,13 @@ def test_mean_is_taken_figure_by_figure():
     assert mean.joint_error_raw_cm == 1.0
 
 
-def test_mean_is_none_where_a_sequence_lacks_the_figure():
+def test_mean_is_none_where_a_recording_lacks_the_figure():
     mean = mean_of([figures(), figures(joint_error_raw_cm=None)])
     assert mean.joint_error_raw_cm is None
     assert mean.fps == 1.0
 
 
-def test_mean_time_to_recover_is_that_of_the_sequences_with_losses():
+def test_mean_time_to_recover_is_that_of_the_recordings_with_losses():
     assert mean_of([figures(recovery_s=None), figures(recovery_s=3.0)]).recovery_s == 3.0
     assert mean_of([figures(recovery_s=None)]).recovery_s is None
 

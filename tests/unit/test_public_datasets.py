@@ -24,7 +24,7 @@ from scipy.io import savemat
 
 from regkit.config.document import Document
 from regkit.experiment import Experiment
-from regkit.interfaces import Dataset, Sequence
+from regkit.interfaces import Dataset, Recording
 from regkit.metrics import matched
 from regkit.observation import Frame
 from regkit.system.errors import DependencyError, RegkitError
@@ -41,16 +41,16 @@ EXACT = Intrinsics(focal_px=36.0, centre_px=(19.0, 15.5))
 PAGE = Path(__file__).parents[2] / "docs" / "reference" / "datasets.md"
 
 
-def only(dataset: Dataset) -> Sequence:
-    (sequence,) = dataset.chosen()
-    return sequence
+def only(dataset: Dataset) -> Recording:
+    (recording,) = dataset.chosen()
+    return recording
 
 
 def complaint(dataset: Dataset, root: Path) -> str:
     def read() -> None:
-        for sequence in dataset.chosen():
-            sequence.truth()
-            list(sequence.frames())
+        for recording in dataset.chosen():
+            recording.truth()
+            list(recording.frames())
 
     with pytest.raises(RegkitError) as caught:
         read()
@@ -83,9 +83,9 @@ def test_record_of_eval_has_the_size_that_the_public_loader_reads():
 
 
 def test_eval_frames_are_in_the_cameras_frame_with_the_camera_that_took_them(records):
-    sequence = only(Eval(root=records, record=RECORD))
-    assert (sequence.name, sequence.subject, sequence.length) == ("seq_b_3", "b", FRAMES)
-    frames = list(sequence.frames())
+    recording = only(Eval(root=records, record=RECORD))
+    assert (recording.name, recording.subject, recording.length) == ("seq_b_3", "b", FRAMES)
+    frames = list(recording.frames())
     assert_is_scene(frames)
     camera = frames[0].camera
     found = (camera.fx, camera.fy, camera.cx, camera.cy)
@@ -116,9 +116,9 @@ def test_eval_truth_has_markers_by_name_and_joints_by_number(records):
 )
 def test_axes_say_how_points_and_markers_were_stored(tmp_path, signs, axes):
     write_records(tmp_path / "seq_a.bin", RECORD, signs)
-    sequence = only(Eval(root=tmp_path, record=RECORD, axes=axes))
-    assert_is_scene(list(sequence.frames()))
-    np.testing.assert_allclose(sequence.truth().positions[0, 0], body(0)["left_hand"], atol=1e-6)
+    recording = only(Eval(root=tmp_path, record=RECORD, axes=axes))
+    assert_is_scene(list(recording.frames()))
+    np.testing.assert_allclose(recording.truth().positions[0, 0], body(0)["left_hand"], atol=1e-6)
 
 
 def test_images_stored_as_in_a_mirror_are_turned_round(records):
@@ -148,10 +148,10 @@ def test_foreground_is_what_moves_before_the_wall(records):
 
 
 def test_frames_limit_cuts_frames_and_truth_but_not_what_tells_the_background(records):
-    sequence = only(Eval(root=records, record=RECORD, foreground=0.5, frames=1))
-    (frame,) = sequence.frames()
+    recording = only(Eval(root=records, record=RECORD, foreground=0.5, frames=1))
+    (frame,) = recording.frames()
     assert len(frame.points) == np.count_nonzero(depth_image(0) == SQUARE)
-    assert sequence.truth().positions.shape == (1, 3, 3)
+    assert recording.truth().positions.shape == (1, 3, 3)
 
 
 def test_frames_without_a_camera_are_clouds(records):
@@ -163,9 +163,9 @@ def test_frames_without_a_camera_are_clouds(records):
 
 def test_smmc10_is_read_like_eval_at_its_cameras_size(records):
     assert (Smmc10(root=".").record.width, Smmc10(root=".").record.height) == (176, 144)
-    sequence = only(Smmc10(root=records, record=RECORD))
-    assert (sequence.subject, sequence.fps) == (None, 25.0)
-    assert_is_scene(list(sequence.frames()))
+    recording = only(Smmc10(root=records, record=RECORD))
+    assert (recording.subject, recording.fps) == (None, 25.0)
+    assert_is_scene(list(recording.frames()))
     assert only(Smmc10(root=records, record=RECORD, subjects="seq_(.)")).subject == "b"
 
 
@@ -181,7 +181,7 @@ def test_records_that_are_wrong_are_told_with_their_place(records):
     dataset = Eval(root=records, record=RECORD)
     at = "ROOT/seq_b_3.bin"
     assert complaint(Eval(root=records, files="x*"), records) == (
-        "ROOT: no sequence here: no file is called like 'x*' (dataset.files)"
+        "ROOT: no recording here: no file is called like 'x*' (dataset.files)"
     )
     assert complaint(Eval(root=records), records).startswith(
         f"{at}: the file's {len(whole)} bytes are not whole records of 930704 bytes (320x240 "
@@ -205,7 +205,7 @@ def test_records_that_are_wrong_are_told_with_their_place(records):
 # ITOP.
 
 
-def test_itop_sequences_are_runs_of_valid_frames_of_one_person(tmp_path):
+def test_itop_recordings_are_runs_of_valid_frames_of_one_person(tmp_path):
     write_itop(tmp_path)
     found = Itop(root=tmp_path).chosen()
     assert [(one.name, one.subject, one.length) for one in found] == [
@@ -216,7 +216,7 @@ def test_itop_sequences_are_runs_of_valid_frames_of_one_person(tmp_path):
     assert [one.length for one in wider] == [2, 3, 1]
     kept = Itop(root=tmp_path, background="kept").chosen()
     assert [one.length for one in kept] == [3, 2, 1, 1]
-    (cut,) = Itop(root=tmp_path, gap=2, frames=2, sequences=("03_00005",)).chosen()
+    (cut,) = Itop(root=tmp_path, gap=2, frames=2, recordings=("03_00005",)).chosen()
     assert len(list(cut.frames())) == len(cut.truth().positions) == 2
 
 
@@ -240,8 +240,8 @@ def test_itop_joints_are_seen_where_the_published_formula_says(tmp_path):
     write_itop(tmp_path)
     with h5py.File(tmp_path / "ITOP_side_test_labels.h5") as file:
         x, y, z = np.moveaxis(file["real_world_coordinates"][3:5, [0, 6, 7]], 2, 0)
-    sequence = Itop(root=tmp_path).chosen()[2]
-    truth = sequence.truth()
+    recording = Itop(root=tmp_path).chosen()[2]
+    truth = recording.truth()
     columns = [truth.joints.index(name) for name in ("head", "right_hand", "left_hand")]
     pixels = CAMERA.projected(truth.positions[:, columns].reshape(-1, 3)).reshape(2, 3, 2)
     np.testing.assert_allclose(pixels[..., 0], 160 + x / (0.0035 * z), atol=1e-3)
@@ -328,13 +328,13 @@ def test_itop_that_is_wrong_is_told_with_its_file_and_array(tmp_path, monkeypatc
 @pytest.mark.parametrize("hdf5", [False, True])
 def test_pdt13_is_read_from_matlab_files_of_both_kinds(tmp_path, hdf5):
     write_pdt13(tmp_path, hdf5=hdf5)
-    sequence = only(Pdt13(root=tmp_path, intrinsics=EXACT, joint_names=tuple(body(0))))
-    assert (sequence.name, sequence.subject, sequence.length) == ("M2_D1", "M2", FRAMES)
-    frames = list(sequence.frames())
+    recording = only(Pdt13(root=tmp_path, intrinsics=EXACT, joint_names=tuple(body(0))))
+    assert (recording.name, recording.subject, recording.length) == ("M2_D1", "M2", FRAMES)
+    frames = list(recording.frames())
     for index, frame in enumerate(frames):
         np.testing.assert_allclose(frame.depth, depth_image(index))
         assert frame.camera.fx == frame.camera.fy == 36.0
-    truth = sequence.truth()
+    truth = recording.truth()
     assert truth.joints == ("head", "left_hand", "right_hand")
     np.testing.assert_allclose(truth.positions[3, 1], body(3)["left_hand"])
     assert np.isnan(truth.positions[1, 0]).all()
@@ -364,7 +364,7 @@ def test_pdt13_units_directions_and_mirror_are_as_set(tmp_path):
 
 def test_pdt13_that_is_wrong_is_told_with_its_file_and_array(tmp_path):
     assert complaint(Pdt13(root=tmp_path), tmp_path) == (
-        "ROOT: no sequence here: no file ends with '_depth.mat' (dataset.depth_suffix)"
+        "ROOT: no recording here: no file ends with '_depth.mat' (dataset.depth_suffix)"
     )
     write_pdt13(tmp_path)
     at = "ROOT/M2_D1_depth.mat"
@@ -407,9 +407,9 @@ def test_examples_of_the_page_read_files_in_their_layout(tmp_path):
         dataset = make_small(kind, root)
         experiment = Experiment.read(path, [f"dataset.root={root}", *dataset])
         kinds.append(kind)
-        for sequence in experiment.dataset.chosen():
-            truth = sequence.truth()
-            assert len(next(sequence.frames()).points) > 0
+        for recording in experiment.dataset.chosen():
+            truth = recording.truth()
+            assert len(next(recording.frames()).points) > 0
             if experiment.dataset.compared:
                 columns, markers = matched(Human().body(1.75), truth, experiment.dataset.joints)
                 assert len(columns) == len(set(markers)) >= 3

@@ -36,7 +36,7 @@ def cells(path: Path) -> list[dict[str, str]]:
 
 def test_every_figure_is_a_picture_with_its_numbers_beside_it(folder):
     names = {path.stem for path in (folder / "figures").glob("*.png")}
-    assert names == {"methods", "shapes", "sequences", "thresholds", "joints", "over_time",
+    assert names == {"methods", "shapes", "recordings", "thresholds", "joints", "over_time",
                      "densities", "timing"}  # fmt: skip
     for name in names:
         assert (folder / "figures" / f"{name}.png").read_bytes().startswith(b"\x89PNG")
@@ -48,29 +48,29 @@ def test_every_figure_is_a_picture_with_its_numbers_beside_it(folder):
 
 def test_numbers_of_the_bars_are_those_of_the_metrics(folder):
     metrics = json.loads((folder / "metrics.json").read_text())["methods"]
-    for row in cells(folder / "figures" / "sequences.csv"):
+    for row in cells(folder / "figures" / "recordings.csv"):
         for method in METHODS:
-            expected = metrics[method]["sequences"][row["sequence"]]["joint_error_raw_cm"]
+            expected = metrics[method]["recordings"][row["recording"]]["joint_error_raw_cm"]
             assert float(row[f"{method} [cm]"]) == pytest.approx(expected, rel=1e-5)
 
 
-def test_metrics_say_what_sequences_say_together(folder):
+def test_metrics_say_what_recordings_say_together(folder):
     methods = json.loads((folder / "metrics.json").read_text())["methods"]
     for figures in methods.values():
-        values = [one["joint_error_raw_cm"] for one in figures["sequences"].values()
+        values = [one["joint_error_raw_cm"] for one in figures["recordings"].values()
                   if "error" not in one]  # fmt: skip
         assert figures["mean"]["joint_error_raw_cm"] == pytest.approx(np.mean(values))
         assert figures["median"]["joint_error_raw_cm"] == pytest.approx(np.median(values))
         low, high = figures["interval"]["joint_error_raw_cm"]
         assert low < np.mean(values) < high
-        assert figures["interval"]["near_percent"] is None
+        assert figures["interval"]["pck_percent"] is None
         joints = [one["raw_cm"] for one in figures["joints"].values()]
         assert np.mean(joints) == pytest.approx(np.mean(values))
-    assert methods["icp"]["sequences"]["lost_take"]["error"].startswith("a |")
+    assert methods["icp"]["recordings"]["lost_take"]["error"].startswith("a |")
 
 
-def test_tables_hold_all_sequences_and_pairs(folder):
-    rows = cells(folder / "tables" / "sequences.csv")
+def test_tables_hold_all_recordings_and_pairs(folder):
+    rows = cells(folder / "tables" / "recordings.csv")
     assert len(rows) == 3 * 7 + 1
     (failed,) = [row for row in rows if row["error"]]
     assert failed["joint_error_raw_cm"] == ""
@@ -111,7 +111,7 @@ def test_every_picture_has_words(folder):
         assert len(re.search(r'alt="([^"]*)"', image).group(1)) > 30
 
 
-def test_overlays_of_the_worst_sequences_are_shown_and_the_others_linked(folder):
+def test_overlays_of_the_worst_recordings_are_shown_and_the_others_linked(folder):
     page = (folder / "report.html").read_text()
     shown = re.findall(r"<figcaption>(\w+) on (\w+)</figcaption>", page)
     assert sorted(shown) == sorted(
@@ -139,7 +139,7 @@ def test_names_are_taken_for_what_they_are_and_not_for_markup(tmp_path):
 def test_report_without_references_is_of_the_surface(tmp_path):
     write_report(made_run(2, compared=False), tmp_path)
     names = {path.stem for path in (tmp_path / "figures").glob("*.png")}
-    assert names == {"methods", "shapes", "sequences", "over_time", "densities", "timing"}
+    assert names == {"methods", "shapes", "recordings", "over_time", "densities", "timing"}
     page = (tmp_path / "report.html").read_text()
     assert "median distance of the data to the surface" in page
     assert "raw [cm]" not in page
@@ -173,7 +173,9 @@ def test_long_names_leave_room_for_what_is_drawn():
 def test_report_of_nothing_but_failures_says_so(tmp_path):
     run = made_run(0, failures={"sog": {"first": "it is dark"}, "icp": {"first": "it is dark"}})
     write_report(run, tmp_path)
-    assert "2 of 2 tracks (a method on a sequence) failed" in (tmp_path / "report.html").read_text()
+    assert (
+        "2 of 2 tracks (a method on a recording) failed" in (tmp_path / "report.html").read_text()
+    )
     assert "- **sog** on first: it is dark" in (tmp_path / "report.md").read_text()
 
 
@@ -183,12 +185,12 @@ def test_summary_draws_nothing(tmp_path):
 
 
 def test_large_run_stays_a_page_that_can_be_read(tmp_path):
-    """Of 28 sequences and five methods."""
+    """Of 28 recordings and five methods."""
     methods = METHODS | {"a": METHODS["sog"], "b": METHODS["icp"]}
     run = made_run(28, methods=methods)
     for method, records in run.records.items():
-        for sequence in records:
-            overlay = tmp_path / method / sequence / "overlay.png"
+        for recording in records:
+            overlay = tmp_path / method / recording / "overlay.png"
             overlay.parent.mkdir(parents=True)
             overlay.write_bytes(b"\x89PNG" + bytes(250_000))
     write_report(run, tmp_path)
@@ -198,30 +200,30 @@ def test_large_run_stays_a_page_that_can_be_read(tmp_path):
 
 
 def test_figures_of_very_many_can_be_read_and_their_numbers_are_all_there():
-    """Of forty methods on seventy sequences: a picture has the best ones and the worst ones."""
+    """Of forty methods on seventy recordings: a picture has the best ones and the worst ones."""
     methods = {f"m{index}": METHODS["sog"] for index in range(40)}
     run = made_run(70, methods=methods)
     by_name = {plot.name: plot for plot in plots(run)}
-    for name in ("thresholds", "over_time", "joints", "sequences"):
+    for name in ("thresholds", "over_time", "joints", "recordings"):
         assert "Of 40 methods the 12 best are drawn." in by_name[name].caption
         assert by_name[name].draw(LIGHT).get_figheight() < 90.0
     curves = by_name["thresholds"].draw(LIGHT).axes[0].get_legend_handles_labels()[1]
     assert curves == [f"m{index}" for index in range(12)]
-    axes = by_name["sequences"].draw(LIGHT).axes[0]
-    largest = {s: max(run.value(method, s) for method in curves) for s in run.sequences}
+    axes = by_name["recordings"].draw(LIGHT).axes[0]
+    largest = {s: max(run.value(method, s) for method in curves) for s in run.recordings}
     least = sorted(largest.values())[-60]
     assert [label.get_text() for label in axes.get_yticklabels()] == [
-        sequence for sequence in run.sequences if largest[sequence] >= least
+        recording for recording in run.recordings if largest[recording] >= least
     ]
-    assert len(by_name["sequences"].rows) == 70
+    assert len(by_name["recordings"].rows) == 70
     assert len(by_name["thresholds"].columns) == 1 + 2 * 40
 
 
 def test_page_of_very_many_methods_has_few_pictures(tmp_path):
     run = made_run(2, methods={f"m{index}": METHODS["sog"] for index in range(20)})
     for method, records in run.records.items():
-        for sequence in records:
-            overlay = tmp_path / method / sequence / "overlay.png"
+        for recording in records:
+            overlay = tmp_path / method / recording / "overlay.png"
             overlay.parent.mkdir(parents=True)
             overlay.write_bytes(b"\x89PNG")
     write_report(run, tmp_path, figures=False)
@@ -349,7 +351,7 @@ def axes_height(plot) -> float:
     return figure.axes[0].get_position().height * figure.get_figheight()
 
 
-@pytest.mark.parametrize("name", ["methods", "sequences", "thresholds", "joints", "over_time"])
+@pytest.mark.parametrize("name", ["methods", "recordings", "thresholds", "joints", "over_time"])
 def test_figures_have_room_for_a_sweep_beside_its_names(name):
     parts = "outliers=0.05,max_iterations"
     sweep = {f"voxel=0.03/best,{parts}={n}": METHODS["sog"] for n in range(10)}

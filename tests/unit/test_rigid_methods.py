@@ -10,7 +10,7 @@ from regkit.alignment import agreement, align
 from regkit.alignment.determined import hidden_motion
 from regkit.alignment.rigid_method import Frame
 from regkit.cli.register import named_method
-from regkit.geometry.rigid import inverse, moved, rigid
+from regkit.geometry.rigid import inverse, rigid, transformed
 from regkit.geometry.rotation import from_matrix, to_vector, vector_to_matrix
 from regkit.search.rotations import icosahedral
 from regkit.system.errors import ConfigError, DataError, DependencyError
@@ -20,7 +20,7 @@ METHODS = {
     "rigid": "regkit",
     "{preset: rigid, shape: cloud_sog, kernel: {flatness: 1}}": "regkit",
     "{kind: direct, shape: cloud_gsog, kernel: local_likelihood, solver: gauss_newton, "
-    "blur: [0.03, 0.01, 0, 0]}": "regkit",
+    "annealing: [0.03, 0.01, 0, 0]}": "regkit",
     "{kind: open3d_icp, estimation: point_to_point}": "open3d",
     "open3d_icp": "open3d",
     "{kind: open3d_icp, estimation: generalized}": "open3d",
@@ -35,7 +35,7 @@ def errors(found, truth):
     """Degrees, and metres at the lump's centre."""
     off = inverse(truth) @ found
     return np.degrees(np.linalg.norm(to_vector(from_matrix(off[:3, :3])))), np.linalg.norm(
-        moved(off, np.array([[0.5, -0.2, 1.0]])) - [0.5, -0.2, 1.0]
+        transformed(off, np.array([[0.5, -0.2, 1.0]])) - [0.5, -0.2, 1.0]
     )
 
 
@@ -47,7 +47,7 @@ def truth():
 @pytest.fixture
 def pair(lump, random, truth):
     """Different points of the lump, each cloud with a millimetre of noise."""
-    source, target = lump[:800], moved(truth, lump[700:])
+    source, target = lump[:800], transformed(truth, lump[700:])
     return (cloud + 0.001 * random.normal(size=cloud.shape) for cloud in (source, target))
 
 
@@ -68,7 +68,7 @@ def test_rigid_sees_far(lump, random, degrees):
     axis = np.array([1.0, 2.0, -1.0]) / np.sqrt(6.0)
     truth = rigid(vector_to_matrix(np.radians(degrees) * axis), np.array([1.0, 0.0, 0.0]))
     start = "centroids" if degrees < 90.0 else "rotations"
-    found = align(lump, moved(truth, lump), named_method("rigid"), start=start)
+    found = align(lump, transformed(truth, lump), named_method("rigid"), start=start)
     assert errors(found.transform, truth)[0] < 0.5
 
 
@@ -76,7 +76,7 @@ def test_rigid_stands_outliers_and_partial_overlap(lump, random, truth):
     source = lump[lump[:, 0] < 0.54]
     target = lump[lump[:, 0] > 0.45]
     stray = random.uniform(lump.min(axis=0) - 0.05, lump.max(axis=0) + 0.05, size=(300, 3))
-    target = moved(truth, np.concatenate([target, stray]))
+    target = transformed(truth, np.concatenate([target, stray]))
     found = align(source, target, named_method("rigid"))
     degrees, metres = errors(found.transform, truth)
     assert degrees < 2.0
@@ -85,9 +85,9 @@ def test_rigid_stands_outliers_and_partial_overlap(lump, random, truth):
 
 def test_common_motion_of_both_clouds_changes_the_result_as_it_must(lump, truth):
     """T_target_source becomes G T G^-1, but for the voxels and boxes, which are along the axes."""
-    source, target = lump[::2], moved(truth, lump[1::2])
+    source, target = lump[::2], transformed(truth, lump[1::2])
     common = rigid(vector_to_matrix(np.array([0.5, 1.0, -0.7])), np.array([3.0, 1.0, -2.0]))
-    both = moved(common, source), moved(common, target)
+    both = transformed(common, source), transformed(common, target)
     first, second = (
         align(*pair, named_method("rigid"), start="centroids").transform
         for pair in ((source, target), both)
@@ -98,7 +98,7 @@ def test_common_motion_of_both_clouds_changes_the_result_as_it_must(lump, truth)
 
 
 def test_exchanged_clouds_give_the_inverse_motion(lump, truth):
-    source, target = lump[:900], moved(truth, lump[600:])
+    source, target = lump[:900], transformed(truth, lump[600:])
     there = align(source, target, named_method("rigid")).transform
     back = align(target, source, named_method("rigid")).transform
     degrees, metres = errors(back @ there, np.eye(4))
@@ -110,12 +110,12 @@ def test_exchanged_clouds_give_the_inverse_motion(lump, truth):
 def test_method_without_joints_refuses_a_body_that_has_some(name):
     pytest.importorskip(METHODS[name])
     with pytest.raises(ConfigError, match=f"'{name}' is rigid: the template 'human' has 15 segm"):
-        named_method(name).prepare(Human(height=1.7).body(1.7))
+        named_method(name).bind(Human(height=1.7).body(1.7))
 
 
 def test_coarse_to_fine_refuses_what_it_cannot_use(linkage):
     with pytest.raises(ConfigError, match="the template 'linkage' has no surface"):
-        named_method("rigid").prepare(linkage)
+        named_method("rigid").bind(linkage)
     with pytest.raises(ConfigError, match="shape 'gsog' has no width that could be changed"):
         named_method("{preset: rigid, shape: gsog}")
 
@@ -147,7 +147,7 @@ def test_coordinates_of_unit_length_give_the_same_motion(random):
     frame = Frame.around(points, 3.0)
     rotation, shift = vector_to_matrix(np.array([0.2, 0.1, -0.5])), np.array([0.1, 0.2, 0.3])
     inside = frame.inside(points) @ rotation.T + shift
-    outside = moved(frame.outside(rotation, shift), points)
+    outside = transformed(frame.outside(rotation, shift), points)
     np.testing.assert_allclose(frame.inside(outside), inside)
 
 

@@ -30,7 +30,7 @@ def test_loss_is_half_the_square_in_scales_near_zero(loss):
     small = 1e-3 * SCALE * np.array([-1.0, 0.0, 0.5, 1.0])
     np.testing.assert_allclose(loss.values(small), 0.5 * (small / SCALE) ** 2, rtol=1e-5)
     np.testing.assert_allclose(loss.weights(small), 1.0 / SCALE**2, rtol=1e-5)
-    np.testing.assert_allclose(loss.shares(small), 1.0, rtol=1e-5)
+    np.testing.assert_allclose(loss.inlier_probability(small), 1.0, rtol=1e-5)
 
 
 @pytest.mark.parametrize("loss", LOSSES)
@@ -38,7 +38,7 @@ def test_loss_grows_with_the_residual_and_shares_fall(loss):
     loss = bound(loss)
     residuals = SCALE * np.linspace(0.0, 30.0, 500)
     assert (np.diff(loss.values(residuals)) >= 0.0).all()
-    shares = loss.shares(residuals)
+    shares = loss.inlier_probability(residuals)
     assert (np.diff(shares) <= 0.0).all()
     assert ((shares >= 0.0) & (shares <= 1.0)).all()
     np.testing.assert_array_equal(loss.values(-residuals), loss.values(residuals))
@@ -75,7 +75,7 @@ def test_scale_of_normal_residuals_is_their_deviation_in_spite_of_outliers(rando
 
 def test_scale_is_at_least_that_of_the_data_and_blur_widens_it():
     assert Robust().bound(np.zeros(5), least=0.01).scale == 0.01
-    assert Robust().bound(np.zeros(5), least=0.03, blur=0.04).scale == pytest.approx(0.05)
+    assert Robust().bound(np.zeros(5), least=0.03, smoothing=0.04).scale == pytest.approx(0.05)
     assert Robust(scale=0.002).bound(np.ones(5), least=0.01).scale == 0.002
 
 

@@ -144,7 +144,7 @@ def test_inverse_undoes_a_motion(turn, shift):
 @pytest.mark.parametrize("goal", [[0.3, -0.5, 0.8], [1.0, 2.0, 3.0], [-1.0, -2.0, -3.0]])
 def test_between_turns_one_direction_into_another_the_shortest_way(goal):
     start, goal = np.array([1.0, 2.0, 3.0]), np.array(goal)
-    turn = rotation.between(start, goal)
+    turn = rotation.rotation_between(start, goal)
     found = turn @ start / np.linalg.norm(start)
     np.testing.assert_allclose(found, goal / np.linalg.norm(goal), atol=1e-9)
     np.testing.assert_allclose(turn @ turn.T, np.eye(3), atol=1e-12)

@@ -114,7 +114,8 @@ VALUES = (
     {"preset": "best", "kind": "coarse_to_fine"}, {"preset": "best", "terms": None},
     {"preset": "best", "solver": {"max_itrations": 3}}, {"preset": "best", "solver": "lbfgs"},
     {"preset": "best", "kernel": {"kind": "correlation"}}, {"preset": "best", "shape": {}},
-    {"preset": "icp", "kernel": {"reach": "x"}}, {"preset": "icp", "kernel": {"reach": 3}},
+    {"preset": "icp", "kernel": {"max_correspondence_distance": "x"}},
+    {"preset": "icp", "kernel": {"max_correspondence_distance": 3}},
     {"preset": "icp", "kernel": {"robust": {"loss": "huber"}}},
     {"preset": "icp", "kernel": {"robust": {"los": "huber"}}},
     {"type": "free"}, {"type": "ball"}, {"type": "hinge", "axis": "x"}, {"type": "bal"},
@@ -183,9 +184,9 @@ BEST = {"preset": "best"}
         ("methods.sog.solver", "gaus_newton", False),
         ("methods.sog.solver", None, False),
         ("methods.sog.kernel", {"kind": "correlation", "covariance": "frosen"}, False),
-        ("methods.sog.blur", [0.1, 0], True),
-        ("methods.sog.blur", [], False),
-        ("methods.sog.blur", 0.1, False),
+        ("methods.sog.annealing", [0.1, 0], True),
+        ("methods.sog.annealing", [], False),
+        ("methods.sog.annealing", 0.1, False),
         ("methods.sog.hard_limits", "no", False),
         ("methods.sog.hard_limits", 0, False),
         ("methods.sog", "direct", False),  # It needs a shape, a kernel and a solver.
@@ -209,10 +210,10 @@ BEST = {"preset": "best"}
         ("template", {"kind": "file"}, False),
         ("dataset", "depth", False),  # It needs a root.
         ("dataset.root", 3, False),
-        ("dataset.sequences", ["a"], True),
-        ("dataset.sequences", "a", False),
-        ("observer", {"kind": "points", "crop": {"far": 3}}, True),
-        ("observer", {"kind": "points", "crop": {"far": 0}}, False),
+        ("dataset.recordings", ["a"], True),
+        ("dataset.recordings", "a", False),
+        ("preprocessor", {"kind": "points", "crop": {"far": 3}}, True),
+        ("preprocessor", {"kind": "points", "crop": {"far": 0}}, False),
         ("seed", 1, False),
     ],
 )
@@ -228,9 +229,11 @@ def test_experiment_is_right_or_wrong_for_both(field, value, right):
 def test_numbers_that_json_does_not_have_are_refused_by_regkit_alone(value):
     """YAML can write them; a schema has no word for them."""
     data = copy.deepcopy(data_of(ROOT / "docs" / "examples" / "demo.yaml"))
-    data["observer"]["sigma"] = value
+    data["preprocessor"]["sigma"] = value
     assert validator("experiment").is_valid(data)
-    assert complaints(SweptExperiment, data) == ["observer.sigma: Input should be a finite number"]
+    assert complaints(SweptExperiment, data) == [
+        "preprocessor.sigma: Input should be a finite number"
+    ]
 
 
 @pytest.mark.parametrize(
@@ -386,7 +389,7 @@ def test_preset_shows_its_own_values_as_defaults():
     ids=lambda value: value.name if isinstance(value, Path) else value,
 )
 def test_shipped_file_names_its_schema(kind, file):
-    """The other YAML files, sequences (five fields) and maps (free names), have no schema."""
+    """The other YAML files, recordings (five fields) and maps (free names), have no schema."""
     first = file.read_text(encoding="utf-8").partition("\n")[0]
     assert first == schema_line(file, kind), f"begin {file} with: {schema_line(file, kind)}"
     schema = file.parent / first.removeprefix(MARK)

@@ -14,11 +14,11 @@ from regkit.system.errors import ConfigError
 
 def random_pose(body: Body, random: np.random.Generator, size: float = 0.7) -> Pose:
     bones = body.skeleton
-    return bones.retract(bones.rest(), size * random.normal(size=bones.freedoms))
+    return bones.retract(bones.rest(), size * random.normal(size=bones.dofs))
 
 
 def test_degrees_of_freedom_are_counted(linkage):
-    assert linkage.skeleton.freedoms == 6 + 2 * 3 + 1 + 2
+    assert linkage.skeleton.dofs == 6 + 2 * 3 + 1 + 2
 
 
 def test_place_follows_a_common_motion(linkage, random):
@@ -69,7 +69,7 @@ def test_jacobian_is_the_derivative_of_place(linkage, random):
     pose = random_pose(linkage, random)
     jacobian = linkage.place(pose).jacobian
     step = 1e-6
-    for column, direction in enumerate(np.eye(bones.freedoms)):
+    for column, direction in enumerate(np.eye(bones.dofs)):
         ahead = linkage.place(bones.retract(pose, step * direction)).transforms
         behind = linkage.place(bones.retract(pose, -step * direction)).transforms
         linear = (ahead - behind)[:, :3, 3] / (2 * step)
@@ -83,7 +83,7 @@ def test_pull_back_is_the_transposed_jacobian(linkage, random):
     placement = linkage.place(random_pose(linkage, random))
     wrenches = random.normal(size=(len(linkage.skeleton.names), 6))
     expected = np.einsum("sin,si->n", placement.jacobian, wrenches)
-    np.testing.assert_allclose(placement.pull_back(wrenches), expected, atol=1e-12)
+    np.testing.assert_allclose(placement.jacobian_transpose(wrenches), expected, atol=1e-12)
 
 
 def test_normal_matrix_sums_the_blocks(linkage, random):

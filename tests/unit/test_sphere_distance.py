@@ -31,7 +31,7 @@ def shape_name(shape) -> str:
 def posed(linkage, random, spread=0.5):
     bones = linkage.skeleton
     root = rigid(vector_to_matrix(random.normal(size=3)), np.array([0.2, -0.1, 2.0]))
-    return bones.retract(bones.rest(root), spread * random.normal(size=bones.freedoms))
+    return bones.retract(bones.rest(root), spread * random.normal(size=bones.dofs))
 
 
 def cloud(points, camera=CAMERA, weights=None):
@@ -47,12 +47,12 @@ def one(start, end, first, last) -> Capsules:
 def placed_of(linkage, capsules: Capsules, shape=SHAPES[0]):
     """Capsules as primitives, where they are."""
     body = replace(linkage, capsules=capsules)
-    return shape.attach(body).place(np.tile(np.eye(4), (capsules.segments.max() + 1, 1, 1)))
+    return shape.bind(body).place(np.tile(np.eye(4), (capsules.segments.max() + 1, 1, 1)))
 
 
 def distances(placed, points, kernel=SQUARES, camera=None):
     """Absolute residuals of single points, from the energy of squares."""
-    energies = [kernel.against(cloud(p[None], camera), placed)(placed).energy for p in points]
+    energies = [kernel.bind(cloud(p[None], camera), placed)(placed).energy for p in points]
     # The energy of one point is r^2 / (2 s^2), and nothing else where s is that of the data.
     return 0.01 * np.sqrt(2.0 * np.array(energies))
 
@@ -61,14 +61,14 @@ def distances(placed, points, kernel=SQUARES, camera=None):
 def test_stiffness_is_the_sum_of_the_squared_slopes(linkage, random, side):
     """By brute force: each point alone, whose slope is that of its own residual."""
     kernel = SphereDistance(side=side, robust={"loss": "squares", "scale": 0.01})
-    primitives = SHAPES[0].attach(linkage)
+    primitives = SHAPES[0].bind(linkage)
     placed = primitives.place(linkage.place(posed(linkage, random)).transforms)
     points = placed.centres[2] + random.normal(scale=0.06, size=(30, 3))
-    blocks = kernel.against(cloud(points), placed)(placed, curvature=True).stiffness
+    blocks = kernel.bind(cloud(points), placed)(placed, curvature=True).stiffness
     expected = np.zeros_like(blocks)
     for point in points:
         # With E = r^2 / (2 s^2) the slope of r is that of E times s^2 / r.
-        alone = kernel.against(cloud(point[None]), placed)(placed)
+        alone = kernel.bind(cloud(point[None]), placed)(placed)
         slope = alone.wrenches / np.sqrt(2.0 * alone.energy) / 30**0.5
         expected += slope[:, :, None] * slope[:, None, :]
     np.testing.assert_allclose(blocks, expected, atol=1e-9 * np.abs(expected).max())
@@ -147,7 +147,7 @@ def test_a_larger_sphere_that_holds_the_other_is_the_capsule(linkage, random):
 
 
 def test_shape_scales_with_the_body(linkage, random):
-    primitives = SHAPES[0].attach(linkage)
+    primitives = SHAPES[0].bind(linkage)
     larger = primitives.scaled(1.7)
     np.testing.assert_allclose(larger.sines, primitives.sines)
     points = random.normal(scale=0.3, size=(20, 3))
@@ -169,7 +169,7 @@ def test_front_draws_back_what_stands_too_near_and_the_whole_does_not(linkage, r
     def energies(side, camera):
         kernel = SphereDistance(side=side, robust={"loss": "squares", "scale": 0.01})
         clouds = [cloud(surface + shift, camera) for shift in nearer]
-        return np.array([kernel.against(data, placed)(placed).energy for data in clouds])
+        return np.array([kernel.bind(data, placed)(placed).energy for data in clouds])
 
     front, whole = energies("front", CAMERA), energies("whole", CAMERA)
     assert (np.diff(front) > 0.0).all()
@@ -190,13 +190,13 @@ def test_points_belong_to_what_takes_part(linkage):
     hidden = replace(placed, primitives=replace(placed.primitives, weights=np.array([1.0, 0.05])))
     for point, equal, unequal in zip(points, (1, 1), (0, 1), strict=True):
         for where, owner in ((placed, equal), (hidden, unequal)):
-            wrenches = kernel.against(cloud(point[None]), where)(where).wrenches
+            wrenches = kernel.bind(cloud(point[None]), where)(where).wrenches
             assert wrenches[owner, 0] != 0.0
             assert not wrenches[1 - owner].any()
 
 
 def test_energy_is_the_mean_loss_and_the_logarithm_of_its_scale(linkage, random):
-    primitives = SHAPES[0].attach(linkage)
+    primitives = SHAPES[0].bind(linkage)
     placed = primitives.place(linkage.place(posed(linkage, random)).transforms)
     points = placed.centres[2] + random.normal(scale=0.1, size=(51, 3))
     gaps = distances(placed, points)
@@ -205,7 +205,7 @@ def test_energy_is_the_mean_loss_and_the_logarithm_of_its_scale(linkage, random)
         "geman_mcclure", 0.5 * (gaps / scale) ** 2 / (1.0 + (gaps / scale / 3.787) ** 2)
     )):  # fmt: skip
         kernel = SphereDistance(side="whole", robust={"loss": loss})
-        found = kernel.against(cloud(points), placed)(placed).energy
+        found = kernel.bind(cloud(points), placed)(placed).energy
         assert found == pytest.approx(mean.mean() + np.log(scale / 0.01))
 
 
@@ -215,10 +215,10 @@ def test_points_are_explained_where_the_surface_is_and_nowhere_else(linkage):
     data = cloud(points)
     for loss in ("tukey", "geman_mcclure"):
         kernel = SphereDistance(robust={"loss": loss, "scale": 0.01})
-        explained = kernel.against(data, placed).explained(placed)
+        explained = kernel.bind(data, placed).inlier_probability(placed)
         assert (explained[:2] > 0.9).all()
         np.testing.assert_allclose(explained[2:], 0.0, atol=1e-3)
-    assert SQUARES.against(data, placed).explained(placed) is None
+    assert SQUARES.bind(data, placed).inlier_probability(placed) is None
 
 
 @pytest.mark.parametrize("shape", SHAPES, ids=shape_name)
@@ -227,7 +227,7 @@ def test_pose_is_found_again(linkage, random, shape):
     truth = posed(linkage, random, spread=0.2)
     bones = linkage.skeleton
     truth = bones.limits.projected(truth)
-    primitives = shape.attach(linkage)
+    primitives = shape.bind(linkage)
     placed = primitives.place(linkage.place(truth).transforms)
     ways = primitives.halves[:, None, None] * placed.axes[:, None, :, 1]
     middles = placed.centres[:, None] + ways * random.uniform(-1, 1, (len(primitives), 200, 1))
@@ -239,11 +239,13 @@ def test_pose_is_found_again(linkage, random, shape):
     seen &= np.abs(capsules.surface_distance(points)) < 4e-3
     data = cloud(points[seen])
     start = bones.limits.projected(
-        bones.retract(truth, np.r_[np.full(3, 0.03), np.full(bones.freedoms - 3, 0.09)])
+        bones.retract(truth, np.r_[np.full(3, 0.03), np.full(bones.dofs - 3, 0.09)])
     )
     there = primitives.place(linkage.place(start).transforms)
-    similarity = SphereDistance().against(data, there)
-    problem = RegistrationProblem(COORDINATES["tangent"](bones, start), primitives, [similarity])
+    similarity = SphereDistance().bind(data, there)
+    problem = RegistrationProblem(
+        COORDINATES["tangent"](bones, start), primitives, {"kernel": similarity}
+    )
     solution = GaussNewton(max_iterations=30).minimize(problem)
     found = COORDINATES["tangent"](bones, start).pose(solution.x)
     before, after = (
@@ -271,11 +273,11 @@ def test_sphere_behind_a_capsule_is_hidden(linkage):
 def test_template_without_capsules_is_refused(linkage):
     none = linkage.capsules.some(np.zeros(len(linkage.capsules), dtype=bool))
     with pytest.raises(ConfigError, match="'linkage' has no capsules, which the shape 'sphere'"):
-        SphereMesh().attach(replace(linkage, capsules=none))
+        SphereMesh().bind(replace(linkage, capsules=none))
 
 
 def test_spheres_are_close_enough_and_end_where_the_capsules_do(linkage):
-    spheres = SphereMesh(variant="spheres", spacing=0.5).attach(linkage)
+    spheres = SphereMesh(variant="spheres", spacing=0.5).bind(linkage)
     assert isinstance(spheres, TaperedCapsules)
     assert not spheres.halves.any()
     for segment, ends, radii in zip(

@@ -16,7 +16,7 @@ from regkit.skeleton import Pose, PoseDescription
 from regkit.start import Start, found_start, given_start
 from regkit.system.errors import ConfigError
 from regkit.system.optional import one_blas_thread
-from regkit_plugins.preprocessors.points import PointsObserver
+from regkit_plugins.preprocessors.points import PointsPreprocessor
 from regkit_plugins.templates.file import FileTemplate
 
 EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
@@ -60,7 +60,7 @@ def seen(body: Body, pose: Pose) -> Observation:
         along = np.minimum(along, 10.0)
     points = along[:, None] * rays
     hit = np.abs(surface.surface_distance(points)) < 1e-3
-    return PointsObserver(sigma=0.02).observe(Frame(points[hit], CAMERA))
+    return PointsPreprocessor(sigma=0.02).preprocess(Frame(points[hit], CAMERA))
 
 
 def facing(body: Body, turn: float, joints: dict[str, float]) -> Pose:
@@ -144,11 +144,11 @@ def test_start_of_the_samples_is_near_the_truth(name, worst_cm):
     """The mean over the joints of the first frame, of a body whose size is not told."""
     experiment = Experiment.read(EXAMPLES / f"{name}.yaml", ["dataset.frames=1"])
     assert experiment.template.given_size() is None
-    (sequence,) = experiment.dataset.chosen()
-    observation = experiment.observer.observe(next(sequence.frames()))
+    (recording,) = experiment.dataset.chosen()
+    observation = experiment.preprocessor.preprocess(next(recording.frames()))
     with one_blas_thread():
         found = found_start(experiment.template, observation)
-    truth = sequence.truth()
+    truth = recording.truth()
     columns, rows = matched(found.body, truth, experiment.dataset.joints)
     errors = np.linalg.norm(truth.positions[0, columns] - markers(found)[rows], axis=1)
     assert len(errors) >= 20

@@ -1,4 +1,4 @@
-"""Summaries over sequences and tests between methods."""
+"""Summaries over recordings and tests between methods."""
 
 from dataclasses import fields
 
@@ -13,7 +13,7 @@ FIGURE = "joint_error_raw_cm"
 
 
 def measures(**values: list[float | None]) -> dict[str, dict[str, Measure]]:
-    """Methods whose joint errors on sequences s0, s1, ... are given; None is not finished."""
+    """Methods whose joint errors on recordings s0, s1, ... are given; None is not finished."""
     nothing = {field.name: None for field in fields(Measure)}
     return {
         method: {
@@ -114,14 +114,14 @@ def test_chosen_pairs_join_once():
     assert [(pair.method, pair.other) for pair in pairs] == [("a", "b"), ("a", "c"), ("c", "b")]
 
 
-def test_pairs_are_of_the_sequences_that_both_finished():
+def test_pairs_are_of_the_recordings_that_both_finished():
     errors = measures(a=[1.0, None, 1.0, 1.0], b=[2.0, 0.0, None, 1.0])
     (pair,) = compared(errors, FIGURE)
     assert (pair.method, pair.n, pair.won, pair.tied) == ("a", 2, 1, 1)
     assert pair.interval is pair.p is pair.p_holm is None
 
 
-def test_methods_without_a_common_sequence_are_not_compared():
+def test_methods_without_a_common_recording_are_not_compared():
     assert compared(measures(a=[1.0, None], b=[None, 1.0]), FIGURE) == []
     assert compared(measures(a=[1.0]), FIGURE) == []
     assert compared({}, FIGURE) == []

@@ -8,7 +8,7 @@ import pytest
 from regkit.body import BodyDescription
 from regkit.config.document import Document
 from regkit.fitting.skin import decimated, on_segments
-from regkit.geometry.rigid import inverse, moved, rigid
+from regkit.geometry.rigid import inverse, rigid, transformed
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.geometry.surface import SkinnedSurface, surface_in, vertex_normals
@@ -31,7 +31,7 @@ def body_of(template, size=None):
 def posed(body, random):
     bones = body.skeleton
     start = bones.rest(rigid(vector_to_matrix(random.normal(size=3)), random.normal(size=3)))
-    return body.place(bones.retract(start, 0.3 * random.normal(size=bones.freedoms))).transforms
+    return body.place(bones.retract(start, 0.3 * random.normal(size=bones.dofs))).transforms
 
 
 @pytest.mark.parametrize("source", ["anny_body", "anny_body_cmu_rig", "anny_hand_R"])
@@ -70,7 +70,7 @@ def test_place_moves_with_the_whole_body(template, random):
 def test_surface_scales_with_the_body(template, random):
     small, large = body_of(template, 0.5), body_of(template, 1.0)
     bones = small.skeleton
-    step = 0.3 * random.normal(size=bones.freedoms)
+    step = 0.3 * random.normal(size=bones.dofs)
     step[:3] = 0.0
     placed = [
         one.surface.place(one.place(one.skeleton.retract(one.skeleton.rest(), step)).transforms)
@@ -180,9 +180,11 @@ def test_stretched_bones_carry_their_skin_and_their_children(random):
     found = mesh.stretched(matrices)
     np.testing.assert_allclose(found.rest[:, :3, :3], rest[:, :3, :3])
     for bone, own in ((0, slice(0, 4)), (1, slice(4, 8))):
-        before, after = (moved(inverse(one.rest[bone]), one.vertices[own]) for one in (mesh, found))
+        before, after = (
+            transformed(inverse(one.rest[bone]), one.vertices[own]) for one in (mesh, found)
+        )
         np.testing.assert_allclose(after, before @ matrices[bone].T, atol=1e-12)
-    ways = [moved(inverse(one.rest[0]), one.rest[1:, :3, 3]) for one in (mesh, found)]
+    ways = [transformed(inverse(one.rest[0]), one.rest[1:, :3, 3]) for one in (mesh, found)]
     np.testing.assert_allclose(ways[1], ways[0] @ matrices[0].T, atol=1e-12)
 
 

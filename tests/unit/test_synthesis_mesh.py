@@ -112,11 +112,11 @@ def test_posed_moves_with_a_rigid_motion(mesh):
 
 def test_turned_by_nothing_is_the_rest_pose(mesh):
     still = np.tile(np.eye(3), (len(mesh.labels), 1, 1))
-    assert np.allclose(mesh.turned(still, mesh.rest[0, :3, 3]), mesh.rest, atol=1e-12)
+    assert np.allclose(mesh.rotated(still, mesh.rest[0, :3, 3]), mesh.rest, atol=1e-12)
 
 
 def test_turned_keeps_the_bone_lengths(mesh):
-    poses = mesh.turned(_random_turns(mesh), np.array([0.1, 0.2, 0.3]))
+    poses = mesh.rotated(_random_turns(mesh), np.array([0.1, 0.2, 0.3]))
     bones = np.arange(1, len(mesh.labels))
     before = mesh.rest[bones, :3, 3] - mesh.rest[mesh.parents[bones], :3, 3]
     after = poses[bones, :3, 3] - poses[mesh.parents[bones], :3, 3]
@@ -132,7 +132,7 @@ def test_landmarks_at_rest_lie_where_they_are_said_to(mesh, name):
 
 def test_landmarks_follow_their_bones(mesh, name):
     landmarks = human_landmarks(mesh) if name == "body" else hand_landmarks(mesh)
-    poses = mesh.turned(_random_turns(mesh), np.zeros(3))
+    poses = mesh.rotated(_random_turns(mesh), np.zeros(3))
     joint, bone = {"body": ("left_knee", "LeftLeg"), "hand_right": ("index_pip", "finger2-2.R")}[
         name
     ]

@@ -1,4 +1,4 @@
-"""Ray casting, the folder format, and the sample sequences that ship with regkit."""
+"""Ray casting, the folder format, and the sample recordings that ship with regkit."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from regkit.system.errors import DataError, DependencyError
 from regkit_synthesis.__main__ import main
 from regkit_synthesis.assets import ASSETS
 from regkit_synthesis.raycast import ray_cast
+from regkit_synthesis.recording import DepthRecording
 from regkit_synthesis.samples import hand_gestures, human_walk
 from regkit_synthesis.scene import SR4000
-from regkit_synthesis.sequence import DepthSequence
 
 SHIPPED = Path(__file__).resolve().parents[2] / "docs" / "examples" / "data"
 SAMPLES = {"human_walk": human_walk, "hand_gestures": hand_gestures}
@@ -33,7 +33,7 @@ def sample(request):
 
 
 def _tiny():
-    return DepthSequence(
+    return DepthRecording(
         name="tiny: a test",
         fps=30.0,
         depth_scale=1000.0,
@@ -87,9 +87,9 @@ def test_missing_open3d_is_answered_with_the_command_to_install_it(monkeypatch):
         ray_cast(np.eye(3), np.array([[0, 1, 2]]), SMALL)
 
 
-def test_written_sequence_reads_back(tmp_path):
-    sequence = _tiny()
-    sequence.write(tmp_path / "tiny")
+def test_written_recording_reads_back(tmp_path):
+    recording = _tiny()
+    recording.write(tmp_path / "tiny")
     header = YAML(typ="safe").load((tmp_path / "tiny" / "sequence.yaml").read_text())
     assert header == {
         "name": "tiny: a test",
@@ -99,7 +99,7 @@ def test_written_sequence_reads_back(tmp_path):
         "licence": "none",
     }
     assert Camera.read(tmp_path / "tiny" / "camera.json") == SMALL
-    for frame, image in enumerate(sequence.depth):
+    for frame, image in enumerate(recording.depth):
         with Image.open(tmp_path / "tiny" / "depth" / f"{frame:06d}.png") as stored:
             assert stored.mode == "I;16"
             assert np.array_equal(np.asarray(stored), image)
@@ -111,12 +111,12 @@ def test_written_sequence_reads_back(tmp_path):
     ]
     assert np.allclose(
         [[float(row[axis]) for axis in "xyz"] for row in rows],
-        sequence.truth.reshape(-1, 3),
+        recording.truth.reshape(-1, 3),
         atol=5e-7,
     )
 
 
-def test_writing_again_replaces_the_sequence_and_leaves_nothing_behind(tmp_path):
+def test_writing_again_replaces_the_recording_and_leaves_nothing_behind(tmp_path):
     _tiny().write(tmp_path / "tiny")
     shorter = replace(_tiny(), depth=_tiny().depth[:1], truth=_tiny().truth[:1])
     shorter.write(tmp_path / "tiny")
@@ -124,7 +124,7 @@ def test_writing_again_replaces_the_sequence_and_leaves_nothing_behind(tmp_path)
     assert [path.name for path in tmp_path.iterdir()] == ["tiny"]
 
 
-def test_a_failed_write_leaves_the_old_sequence(tmp_path):
+def test_a_failed_write_leaves_the_old_recording(tmp_path):
     _tiny().write(tmp_path / "tiny")
     before = _files(tmp_path / "tiny")
     with pytest.raises(ValueError, match="zip"):
@@ -136,7 +136,7 @@ def test_a_failed_write_leaves_the_old_sequence(tmp_path):
 def test_writing_over_something_else_is_refused(tmp_path):
     (tmp_path / "photos").mkdir()
     (tmp_path / "photos" / "cat.png").write_text("")
-    with pytest.raises(DataError, match=r"photos: it exists and is not a depth sequence"):
+    with pytest.raises(DataError, match=r"photos: it exists and is not a depth recording"):
         _tiny().write(tmp_path / "photos")
     assert (tmp_path / "photos" / "cat.png").exists()
 

@@ -15,8 +15,8 @@ from regkit_plugins.templates.reading import FOLDER
 from regkit_synthesis.scene import FPS, SR305, SR4000
 from regkit_synthesis.suite import SUITE
 
-SEQUENCES = [(name, take) for name, body in SUITE.items() for take in body.takes]
-PEOPLE = [pair for pair in SEQUENCES if pair[0].startswith("human")]
+RECORDINGS = [(name, take) for name, body in SUITE.items() for take in body.takes]
+PEOPLE = [pair for pair in RECORDINGS if pair[0].startswith("human")]
 
 SHIPPED = {"human_average": "human.yaml", "hand_average": "hand_right.yaml"}
 
@@ -55,17 +55,17 @@ def _joints(name, take):
     return dict(zip(scene.landmarks, np.moveaxis(scene.truth(), 1, 0), strict=True))
 
 
-def test_suite_has_the_bodies_and_enough_sequences():
+def test_suite_has_the_bodies_and_enough_recordings():
     assert list(SUITE) == ["human_average", "human_small", "hand_average", "hand_slim"]
     assert [len(body.takes) for body in SUITE.values()] == [7, 6, 3, 3]
 
 
-@pytest.mark.parametrize(("name", "take"), SEQUENCES)
+@pytest.mark.parametrize(("name", "take"), RECORDINGS)
 def test_length_is_that_of_an_evaluation(name, take):
     assert 60 <= _scene(name, take).frames <= 90
 
 
-@pytest.mark.parametrize(("name", "take"), SEQUENCES)
+@pytest.mark.parametrize(("name", "take"), RECORDINGS)
 def test_whole_body_stays_in_the_image(name, take):
     """Every vertex is seen from a camera that would be a pixel smaller on every side."""
     scene = _scene(name, take)
@@ -87,7 +87,7 @@ def test_person_is_at_the_distance_and_shows_its_front(name, take):
     assert abs(headings[0]) < 65.0
 
 
-@pytest.mark.parametrize(("name", "take"), [pair for pair in SEQUENCES if pair not in PEOPLE])
+@pytest.mark.parametrize(("name", "take"), [pair for pair in RECORDINGS if pair not in PEOPLE])
 def test_hand_is_at_the_distance_and_begins_open(name, take):
     joints = _joints(name, take)
     assert np.abs(joints["middle_mcp"][:, 2] - 0.4).max() < 0.05
@@ -97,14 +97,14 @@ def test_hand_is_at_the_distance_and_begins_open(name, take):
     assert across[0, 0] > 0.9 * np.linalg.norm(across[0])  # The palm looks into the camera.
 
 
-@pytest.mark.parametrize(("name", "take"), SEQUENCES)
+@pytest.mark.parametrize(("name", "take"), RECORDINGS)
 def test_bones_keep_their_lengths(name, take):
     joints = _joints(name, take)
     for start, end in BONES[name.split("_")[0]]:
         assert np.ptp(np.linalg.norm(joints[end] - joints[start], axis=1)) < 1e-6
 
 
-@pytest.mark.parametrize(("name", "take"), SEQUENCES)
+@pytest.mark.parametrize(("name", "take"), RECORDINGS)
 def test_motion_is_continuous(name, take):
     truth = np.stack(list(_joints(name, take).values()), axis=1)
     steps = np.diff(truth, axis=0)
@@ -122,7 +122,7 @@ def test_names_say_what_is_seen():
     assert human["walk_oblique"].heading == 60.0
     assert small["walk_above"].tilt == 20.0
     assert human["punch_fast"].speed == small["walk_fast"].speed == 2.0
-    for name, take in SEQUENCES:
+    for name, take in RECORDINGS:
         sensor = _scene(name, take).sensor
         usual = SR4000 if name.startswith("human") else SR305
         assert sensor.camera == usual.camera

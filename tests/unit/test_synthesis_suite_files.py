@@ -34,7 +34,7 @@ def _untouched(mesh):
 
 
 def _few(name, take):
-    """The first and the last image of a sequence, as a scene."""
+    """The first and the last image of a recording, as a scene."""
     body = SUITE[name]
     scene = body.takes[take].scene(take, body.what, body.mesh())
     last = (scene.frames - 1) / FPS
@@ -58,7 +58,7 @@ def test_rendering_depends_on_the_seed_in_noise_only(monkeypatch):
     assert difference.std() == pytest.approx(np.sqrt(2.0) * SR305.noise, rel=0.03)
 
 
-def test_command_writes_templates_and_sequences_that_can_be_read(tmp_path, monkeypatch, capsys):
+def test_command_writes_templates_and_recordings_that_can_be_read(tmp_path, monkeypatch, capsys):
     scenes = {
         "human_small": _few("human_small", "jump"),
         "hand_slim": _few("hand_slim", "signs"),
@@ -76,12 +76,12 @@ def test_command_writes_templates_and_sequences_that_can_be_read(tmp_path, monke
     )
     assert "hand_slim.yaml" in capsys.readouterr().out
     for name, scene in scenes.items():
-        (sequence,) = DepthFolders(root=tmp_path / name).found()
-        assert sequence.length == 2
-        truth = sequence.truth()
+        (recording,) = DepthFolders(root=tmp_path / name).found()
+        assert recording.length == 2
+        truth = recording.truth()
         assert truth is not None
         assert np.allclose(truth.positions, scene.truth(), atol=1e-6)
-        for frame in sequence.frames():
+        for frame in recording.frames():
             assert len(frame.points) > 1000
 
 

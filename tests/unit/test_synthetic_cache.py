@@ -1,4 +1,4 @@
-"""The cache of rendered sequences: kept by content, whole or not at all, made again if damaged."""
+"""The cache of rendered recordings: kept by content, whole or not at all, made again if damaged."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from regkit.system.cache import cache_folder
 from regkit.system.errors import DataError
 from regkit_plugins.datasets.depth import DepthFolders
 from regkit_synthesis import digest as digest_module
-from regkit_synthesis.cache import SequenceCache
+from regkit_synthesis.cache import RecordingCache
 from regkit_synthesis.digest import digest
+from regkit_synthesis.recording import DepthRecording
 from regkit_synthesis.scene import SR4000
-from regkit_synthesis.sequence import DepthSequence
 from regkit_synthesis.take import Take
 
 KEY = "0123"
 
 
-def sequence(units=1000):
-    return DepthSequence(
+def recording(units=1000):
+    return DepthRecording(
         name="tiny",
         fps=30.0,
         depth_scale=1000.0,
@@ -40,19 +40,19 @@ def sequence(units=1000):
 
 
 class Counted:
-    """Makes a sequence, and knows how often."""
+    """Makes a recording, and knows how often."""
 
     def __init__(self):
         self.times = 0
 
     def __call__(self):
         self.times += 1
-        return sequence()
+        return recording()
 
 
 @pytest.fixture
 def cache(tmp_path):
-    return SequenceCache(tmp_path / "cache")
+    return RecordingCache(tmp_path / "cache")
 
 
 def test_entry_is_made_once_and_is_a_depth_folder(cache):
@@ -102,13 +102,13 @@ def test_what_a_killed_writer_left_is_removed_by_a_later_one_but_no_living_write
         (cache.folder / name / KEY / "depth").mkdir(parents=True)
         then = time.time() - 3600.0 * age
         os.utime(cache.folder / name, (then, then))
-    cache.entry(KEY, sequence)
+    cache.entry(KEY, recording)
     assert {path.name for path in cache.folder.iterdir()} == {KEY, ".new-living", "entry"}
 
 
 def test_many_who_want_the_same_entry_find_it_whole(cache):
     def want(_):
-        (recorded,) = DepthFolders(root=cache.entry(KEY, sequence)).found()
+        (recorded,) = DepthFolders(root=cache.entry(KEY, recording)).found()
         return [frame.depth.sum() for frame in recorded.frames()]
 
     with ThreadPoolExecutor(8) as pool:
@@ -120,7 +120,7 @@ def test_many_who_want_the_same_entry_find_it_whole(cache):
 def test_cache_that_cannot_be_written_is_told_with_the_variable(tmp_path):
     (tmp_path / "cache").write_text("")
     with pytest.raises(DataError, match="REGKIT_CACHE can name another folder"):
-        SequenceCache(tmp_path / "cache").entry(KEY, sequence)
+        RecordingCache(tmp_path / "cache").entry(KEY, recording)
 
 
 def test_folder_is_named_by_the_environment_or_is_the_users(monkeypatch, tmp_path):

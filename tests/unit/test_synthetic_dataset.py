@@ -36,8 +36,8 @@ def dataset(tmp_path, text=TAKES, *settings):
     return Document.read(tmp_path / "dataset.yaml").overridden(settings).validated(Synthetic)
 
 
-def images(sequence):
-    return np.array([frame.depth for frame in sequence.frames()])
+def images(recording):
+    return np.array([frame.depth for frame in recording.frames()])
 
 
 def test_takes_have_what_the_defaults_say_and_what_they_say_themselves(tmp_path):
@@ -49,7 +49,7 @@ def test_takes_have_what_the_defaults_say_and_what_they_say_themselves(tmp_path)
     assert (kick.view.distance, kick.view.heading_deg) == (3.0, -40.0)
 
 
-def test_sequences_are_named_and_have_the_subjects_of_their_bodies(tmp_path):
+def test_recordings_are_named_and_have_the_subjects_of_their_bodies(tmp_path):
     found = dataset(tmp_path).chosen()
     assert [(s.name, s.subject, s.length, s.fps) for s in found] == [
         ("walk", "average", 3, 30.0),
@@ -67,7 +67,7 @@ def test_config_that_is_written_out_reads_the_same(tmp_path):
 
 
 def test_joints_lie_in_the_body_that_is_seen(tmp_path):
-    (walk,) = dataset(tmp_path, TAKES, "sequences=[walk]", "noise=none").chosen()
+    (walk,) = dataset(tmp_path, TAKES, "recordings=[walk]", "noise=none").chosen()
     camera = CAMERAS["sr4000"].camera()
     truth = walk.truth()
     for depth, joints in zip(images(walk), truth.positions, strict=True):
@@ -80,7 +80,7 @@ def test_joints_lie_in_the_body_that_is_seen(tmp_path):
 
 
 def test_truth_is_exact_and_needs_no_image(tmp_path, cache):
-    (walk,) = dataset(tmp_path, TAKES, "sequences=[walk]").chosen()
+    (walk,) = dataset(tmp_path, TAKES, "recordings=[walk]").chosen()
     truth = dict(zip(walk.truth().joints, np.moveaxis(walk.truth().positions, 1, 0), strict=True))
     forearm = np.linalg.norm(truth["left_elbow"] - truth["left_wrist"], axis=1)
     assert np.ptp(forearm) < 1e-9
@@ -88,7 +88,7 @@ def test_truth_is_exact_and_needs_no_image(tmp_path, cache):
 
 
 def test_markers_are_points_of_the_skin(tmp_path):
-    settings = ("sequences=[walk]", "noise=none", "takes.walk.markers={nose: 0, other: 5000}")
+    settings = ("recordings=[walk]", "noise=none", "takes.walk.markers={nose: 0, other: 5000}")
     (walk,) = dataset(tmp_path, TAKES, *settings).chosen()
     scene = walk.take.scene("walk", walk.dataset.sensor(), 30.0, 3)
     truth = walk.truth()
@@ -100,8 +100,8 @@ def test_markers_are_points_of_the_skin(tmp_path):
 
 def test_whole_body_is_in_the_image_if_the_distance_is_left_open(tmp_path):
     text = TAKES.replace("distance: 3.0", "elevation_deg: 20")
-    for sequence in dataset(tmp_path, text, "noise=none").chosen():
-        for depth in images(sequence):
+    for recording in dataset(tmp_path, text, "noise=none").chosen():
+        for depth in images(recording):
             seen = depth > 0.0
             assert seen.any()
             assert not seen[[0, -1]].any()
@@ -111,7 +111,7 @@ def test_whole_body_is_in_the_image_if_the_distance_is_left_open(tmp_path):
 def test_heading_turns_the_body_to_the_right_of_the_image(tmp_path):
     for heading in (0.0, 50.0):
         setting = f"takes.walk.view.heading_deg={heading}"
-        (walk,) = dataset(tmp_path, TAKES, "sequences=[walk]", setting).chosen()
+        (walk,) = dataset(tmp_path, TAKES, "recordings=[walk]", setting).chosen()
         truth = dict(zip(walk.truth().joints, walk.truth().positions[0], strict=True))
         left = truth["left_hip"] - truth["right_hip"]
         assert np.degrees(np.arctan2(left[2], left[0])) == pytest.approx(heading, abs=8.0)
@@ -119,14 +119,14 @@ def test_heading_turns_the_body_to_the_right_of_the_image(tmp_path):
 
 def test_camera_from_above_sees_the_head_nearer(tmp_path):
     (walk,) = dataset(
-        tmp_path, TAKES, "sequences=[walk]", "takes.walk.view.elevation_deg=30"
+        tmp_path, TAKES, "recordings=[walk]", "takes.walk.view.elevation_deg=30"
     ).chosen()
     truth = dict(zip(walk.truth().joints, walk.truth().positions[0], strict=True))
     assert truth["head"][2] < truth["pelvis"][2] - 0.2
 
 
 def test_without_noise_the_depth_is_exact_to_half_a_unit(tmp_path):
-    (walk,) = dataset(tmp_path, TAKES, "sequences=[walk]", "noise=none").chosen()
+    (walk,) = dataset(tmp_path, TAKES, "recordings=[walk]", "noise=none").chosen()
     scene = walk.take.scene("walk", walk.dataset.sensor(), 30.0, 3)
     for depth, view in zip(images(walk), scene.views(), strict=True):
         assert np.abs(depth - view.depth).max() <= 0.0005 + 1e-9
@@ -135,7 +135,7 @@ def test_without_noise_the_depth_is_exact_to_half_a_unit(tmp_path):
 def test_another_seed_changes_the_noise_alone(tmp_path):
     noise = "noise=0.01"
     first, other = (
-        dataset(tmp_path, TAKES, "sequences=[walk]", noise, f"seed={seed}").chosen()[0]
+        dataset(tmp_path, TAKES, "recordings=[walk]", noise, f"seed={seed}").chosen()[0]
         for seed in (0, 1)
     )
     assert np.array_equal(first.truth().positions, other.truth().positions)
@@ -146,13 +146,13 @@ def test_another_seed_changes_the_noise_alone(tmp_path):
 
 def test_noise_of_a_frame_does_not_depend_on_how_many_there_are(tmp_path):
     long, short = (
-        dataset(tmp_path, TAKES, "sequences=[walk]", f"frames={frames}").chosen()[0]
+        dataset(tmp_path, TAKES, "recordings=[walk]", f"frames={frames}").chosen()[0]
         for frames in (3, 2)
     )
     assert np.array_equal(images(long)[:2], images(short))
 
 
-def test_noise_differs_between_sequences_and_frames(tmp_path):
+def test_noise_differs_between_recordings_and_frames(tmp_path):
     text = """\
 kind: synthetic
 noise: 0.01
@@ -162,7 +162,7 @@ defaults:
   motion: {kind: keyframes, frames: [{time: 0}, {time: 1}]}
 takes: {a: {}, b: {}}
 """
-    (a, b) = (images(sequence) for sequence in dataset(tmp_path, text).chosen())
+    (a, b) = (images(recording) for recording in dataset(tmp_path, text).chosen())
     assert not np.array_equal(a[0], a[1])
     assert not np.array_equal(a[0], b[0])
     assert np.array_equal(a[0] > 0.0, b[1] > 0.0)
@@ -179,7 +179,7 @@ def test_noise_is_that_of_the_camera_unless_another_is_asked_for(tmp_path):
 def test_camera_may_be_a_file_beside_the_yaml(tmp_path):
     write_text(tmp_path / "camera.json", Camera(64, 48, 60.0, 60.0, 31.5, 23.5).to_json())
     text = TAKES.replace("defaults:", "camera: {file: camera.json}\ndefaults:")
-    (walk,) = dataset(tmp_path, text, "sequences=[walk]").chosen()
+    (walk,) = dataset(tmp_path, text, "recordings=[walk]").chosen()
     assert images(walk).shape == (3, 48, 64)
 
 
@@ -233,7 +233,7 @@ def test_take_without_a_motion_is_refused(tmp_path):
     ],
 )
 def test_take_that_cannot_be_rendered_is_named(tmp_path, setting, expected):
-    (walk,) = dataset(tmp_path, TAKES, "sequences=[walk]", "fps=2", setting).chosen()
+    (walk,) = dataset(tmp_path, TAKES, "recordings=[walk]", "fps=2", setting).chosen()
     with pytest.raises(RegkitError) as caught:
         walk.prepare()
     assert str(caught.value).startswith("dataset.takes.walk: this take cannot be rendered: ")

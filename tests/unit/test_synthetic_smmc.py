@@ -1,4 +1,4 @@
-"""The 28 sequences of the preset smmc_like: whole bodies that move as bodies do."""
+"""The 28 recordings of the preset smmc_like: whole bodies that move as bodies do."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ PRESET = TypeAdapter(Dataset).validate_python({"preset": "smmc_like"})
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", PRESET.takes)
-def test_sequence_shows_a_whole_body_that_moves_without_jumps(name):
+def test_recording_shows_a_whole_body_that_moves_without_jumps(name):
     scene = PRESET.takes[name].scene(name, PRESET.sensor(), PRESET.fps, 60)
     camera = scene.sensor.camera
     for pose in scene.poses()[::12]:
@@ -29,16 +29,16 @@ def test_sequence_shows_a_whole_body_that_moves_without_jumps(name):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", PRESET.takes)
-def test_sequence_begins_facing_the_camera(name):
+def test_recording_begins_facing_the_camera(name):
     scene = PRESET.takes[name].scene(name, PRESET.sensor(), PRESET.fps, 1)
     truth = dict(zip(scene.joints, scene.truth()[0], strict=True))
     left = truth["left_hip"] - truth["right_hip"]
     assert abs(np.degrees(np.arctan2(left[2], left[0]))) < 75.0
 
 
-def test_there_are_28_sequences_of_three_subjects():
-    sequences = PRESET.model_copy(update={"frames": 20}).chosen()
-    assert [s.name[:3] for s in sequences] == [f"{number:02d}_" for number in range(1, 29)]
-    assert {s.subject for s in sequences} == {"average", "small", "tall"}
-    assert {s.length for s in sequences} == {20}
+def test_there_are_28_recordings_of_three_subjects():
+    recordings = PRESET.model_copy(update={"frames": 20}).chosen()
+    assert [s.name[:3] for s in recordings] == [f"{number:02d}_" for number in range(1, 29)]
+    assert {s.subject for s in recordings} == {"average", "small", "tall"}
+    assert {s.length for s in recordings} == {20}
     assert all(take.difficulty and take.view.distance is None for take in PRESET.takes.values())

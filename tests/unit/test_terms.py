@@ -8,7 +8,7 @@ import pytest
 from regkit.geometry.camera import Camera
 from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import vector_to_matrix
-from regkit.interfaces import Scene, Shares
+from regkit.interfaces import Scene, VisibilityWeights
 from regkit.observation import Observation
 from regkit.primitives import Gaussians
 from regkit.system.errors import ConfigError
@@ -27,11 +27,11 @@ CAMERA = Camera(width=176, height=144, fx=230.0, fy=230.0, cx=87.5, cy=71.5)
 def posed(linkage, random, spread=0.9):
     bones = linkage.skeleton
     root = rigid(vector_to_matrix(random.normal(size=3)), np.array([0.2, -0.1, 2.0]))
-    return bones.retract(bones.rest(root), spread * random.normal(size=bones.freedoms))
+    return bones.retract(bones.rest(root), spread * random.normal(size=bones.dofs))
 
 
 def scene_at(linkage, random, shape, start):
-    primitives = shape.attach(linkage)
+    primitives = shape.bind(linkage)
     # Twice as large, so that parts that are no neighbours meet.
     primitives = replace(primitives, scales=2.0 * primitives.scales)
     placed = primitives.place(linkage.place(start).transforms)
@@ -66,18 +66,16 @@ def test_hidden_primitive_takes_hardly_part(linkage):
     behind = before_camera([BALL, BALL], [[0.0, 0.0, 2.0], [0.0, 0.0, 3.0]])
     depth = np.zeros((CAMERA.height, CAMERA.width))
     term = Visibility(least=0.1)
-    np.testing.assert_array_equal(term.against(scene_of(linkage, shown, depth)).factors, [1.0, 1.0])
-    np.testing.assert_array_equal(
-        term.against(scene_of(linkage, behind, depth)).factors, [1.0, 0.1]
-    )
-    np.testing.assert_array_equal(term.against(scene_of(linkage, behind)).factors, [1.0, 1.0])
+    np.testing.assert_array_equal(term.bind(scene_of(linkage, shown, depth)).factors, [1.0, 1.0])
+    np.testing.assert_array_equal(term.bind(scene_of(linkage, behind, depth)).factors, [1.0, 0.1])
+    np.testing.assert_array_equal(term.bind(scene_of(linkage, behind)).factors, [1.0, 1.0])
 
 
 def test_half_hidden_primitive_takes_part_by_half(linkage):
     placed = before_camera([BALL, [0.3, 0.1, 0.1]], [[0.25, 0.0, 2.0], [0.0, 0.0, 2.6]])
     depth = np.zeros((CAMERA.height, CAMERA.width))
-    shares = Visibility().against(scene_of(linkage, placed, depth))
-    assert isinstance(shares, Shares)
+    shares = Visibility().bind(scene_of(linkage, placed, depth))
+    assert isinstance(shares, VisibilityWeights)
     assert 0.3 < shares.factors[1] < 1.0
 
 
@@ -86,31 +84,31 @@ def test_intersection_pushes_strangers_apart_and_leaves_neighbours_alone(linkage
     centres = [[0.0, 0.0, 2.0], [0.05, 0.0, 2.0]]
     base, arm, leg = (names.index(name) for name in ("base", "arm", "leg"))
     strangers = before_camera([BALL, BALL], centres, (arm, leg))
-    response = Intersection().against(scene_of(linkage, strangers))(strangers)
+    response = Intersection().bind(scene_of(linkage, strangers))(strangers)
     assert response.energy > 0.0
     assert response.wrenches[0, 0] > 0.0 > response.wrenches[1, 0]  # Downhill is apart.
     np.testing.assert_allclose(response.wrenches[0, :3], -response.wrenches[1, :3])
     neighbours = before_camera([BALL, BALL], centres, (base, arm))
-    assert Intersection().against(scene_of(linkage, neighbours))(neighbours).energy == 0.0
+    assert Intersection().bind(scene_of(linkage, neighbours))(neighbours).energy == 0.0
 
 
 def test_free_space_draws_into_the_silhouette_and_behind_the_surface(linkage):
     depth = np.zeros((CAMERA.height, CAMERA.width))
     depth[:, 80:96] = 2.0
     placed = before_camera([BALL, BALL], [[0.5, 0.0, 2.1], [0.0, 0.0, 1.5]])
-    response = FreeSpace().against(scene_of(linkage, placed, depth))(placed)
+    response = FreeSpace().bind(scene_of(linkage, placed, depth))(placed)
     assert response.wrenches[0, 0] > 0.0  # Downhill is to the left, into the silhouette.
     assert response.wrenches[1, 2] < 0.0  # Downhill is away from the camera.
     inside = before_camera([BALL, BALL], [[0.0, 0.0, 2.1], [0.0, 0.3, 2.5]])
-    assert FreeSpace().against(scene_of(linkage, inside, depth))(inside).energy == 0.0
-    assert FreeSpace().against(scene_of(linkage, placed))(placed).energy == 0.0
+    assert FreeSpace().bind(scene_of(linkage, inside, depth))(inside).energy == 0.0
+    assert FreeSpace().bind(scene_of(linkage, placed))(placed).energy == 0.0
 
 
 def test_continuity_costs_the_square_of_the_turn(linkage):
     bones = linkage.skeleton
     scene = Scene(linkage, None, bones.rest(), None)
-    energy = Continuity(weight=2.0, joint_deg=10.0).against(scene)
-    step = np.zeros(bones.freedoms)
+    energy = Continuity(weight=2.0, joint_deg=10.0).bind(scene)
+    step = np.zeros(bones.dofs)
     step[bones.freedoms_of("forearm")] = np.radians(20.0)
     assert energy(bones.retract(bones.rest(), step)).energy == pytest.approx(0.5 * 2.0 * 4.0)
     step[:6] = 1.0  # The root is free.
@@ -125,10 +123,10 @@ def test_continuity_of_an_unknown_joint_is_refused(linkage):
 
 def test_limits_cost_nothing_within_and_agree_with_the_violation(linkage, random):
     bones = linkage.skeleton
-    energy = LimitsTerm(weight=1.0, tolerance_deg=10.0).against(Scene(linkage, None, None, None))
+    energy = LimitsTerm(weight=1.0, tolerance_deg=10.0).bind(Scene(linkage, None, None, None))
     within = bones.limits.projected(posed(linkage, random))
     assert energy(within).energy == pytest.approx(0.0, abs=1e-20)
-    step = np.zeros(bones.freedoms)
+    step = np.zeros(bones.dofs)
     step[bones.freedoms_of("forearm")] = np.radians(150.0)  # Its limit is 140 degrees.
     assert energy(bones.retract(bones.rest(), step)).energy == pytest.approx(0.5)
 
@@ -138,8 +136,8 @@ def test_clamp_makes_of_the_correlation_the_smaller_of_overlap_and_own(linkage, 
     start = posed(linkage, random, 0.2)
     scene, _ = scene_at(linkage, random, GeneralizedSumOfGaussians(), start)
     data, placed = scene.observation, scene.placed
-    kernel = Correlation().against(data, placed)(placed).energy
-    excess = Clamp().against(scene)(placed).energy
+    kernel = Correlation().bind(data, placed)(placed).energy
+    excess = Clamp().bind(scene)(placed).energy
     variance = data.variances[0] * np.eye(3)
     overlaps = np.zeros(len(data.points))
     for mean, covariance in zip(placed.centres, placed.covariances(), strict=True):

@@ -9,14 +9,14 @@ from scipy.spatial import KDTree
 from regkit.body import Body
 from regkit.experiment.experiment import Experiment
 from regkit.geometry.rigid import rigid
-from regkit.interfaces import Fit, Registered, Registrar
+from regkit.interfaces import Evaluation, Past, Registrar, RegistrationResult
 from regkit.observation import Observation
 from regkit.search.limb_search import LimbSearch
 from regkit.search.limbs import limbs_of
 from regkit.skeleton import Pose, PoseDescription
 from regkit_plugins.templates.hand import Hand
 from regkit_plugins.templates.human import Human
-from regkit_plugins.trackers.constant_pose import Hold
+from regkit_plugins.trackers.constant_pose import ConstantPose
 from regkit_plugins.trackers.constant_velocity.constant_velocity import ConstantVelocity
 from regkit_plugins.trackers.constant_velocity.recovery import Recovery
 
@@ -31,22 +31,26 @@ class Recorder(Registrar):
     explained: float = 0.9
     calls: list[tuple[Pose, ...]] = field(default_factory=list)
 
-    def register(self, observation, expected, *others, blurs=None, after=None):
-        self.calls.append((expected, *others))
-        return Registered(expected, 0.0, self.explained, True, 1, 1, "")
+    def register(self, observation, candidates, *, prior=None, warm_start=None):
+        self.calls.append(tuple(candidates))
+        return RegistrationResult(candidates[0], 0.0, self.explained, True, 1, 1, "")
 
-    def fit(self, observation, pose) -> Fit:
-        return Fit(0.0, np.full(len(observation.points), self.explained))
-
-
-def seen(pose: Pose, explained: float = 0.9) -> Registered:
-    return Registered(pose, 0.0, explained, True, 1, 1, "")
+    def evaluate(self, observation, pose) -> Evaluation:
+        return Evaluation(0.0, np.full(len(observation.points), self.explained))
 
 
-def test_hold_sets_out_from_the_last_pose(linkage):
+def seen(pose: Pose, explained: float = 0.9) -> RegistrationResult:
+    return RegistrationResult(pose, 0.0, explained, True, 1, 1, "")
+
+
+def test_constant_pose_sets_out_from_the_last_pose(linkage):
     recorder = Recorder(linkage)
     poses = [linkage.skeleton.rest(rigid(np.eye(3), np.array([x, 0, 2.0]))) for x in (0.0, 0.1)]
-    found = Hold().follow(recorder).step(NOTHING, [seen(pose) for pose in poses])
+    found = (
+        ConstantPose()
+        .bind(recorder)
+        .step(NOTHING, Past.start(poses[0]).followed_by(seen(poses[1])))
+    )
     assert recorder.calls == [(poses[1],)]
     assert found.pose is poses[1]
 
@@ -54,12 +58,12 @@ def test_hold_sets_out_from_the_last_pose(linkage):
 def test_constant_velocity_offers_the_last_step_again_within_the_limits(linkage):
     bones = linkage.skeleton
     recorder = Recorder(linkage)
-    step = np.zeros(bones.freedoms)
+    step = np.zeros(bones.dofs)
     step[0] = 0.1
     step[bones.freedoms_of("forearm")] = np.radians(80.0)  # Twice that is beyond 140 degrees.
     before, last = bones.rest(), bones.retract(bones.rest(), step)
-    past = [Registered.given(before), seen(before), seen(last)]
-    ConstantVelocity(recovery=None).follow(recorder).step(NOTHING, past)
+    past = Past.start(before).followed_by(seen(before)).followed_by(seen(last))
+    ConstantVelocity(recovery=None).bind(recorder).step(NOTHING, past)
     ((expected, predicted),) = recorder.calls
     assert expected is last
     np.testing.assert_allclose(predicted.root[:3, 3], [0.2, 0.0, 0.0])
@@ -69,7 +73,7 @@ def test_constant_velocity_offers_the_last_step_again_within_the_limits(linkage)
 def test_constant_velocity_has_no_step_to_repeat_at_first(linkage):
     recorder = Recorder(linkage)
     rest = linkage.skeleton.rest()
-    ConstantVelocity(recovery=None).follow(recorder).step(NOTHING, [seen(rest)])
+    ConstantVelocity(recovery=None).bind(recorder).step(NOTHING, Past.start(rest))
     assert recorder.calls == [(rest,)]
 
 
@@ -82,15 +86,17 @@ def test_recovery_looks_when_less_is_explained_than_usual(linkage, explained, fr
     looked = []
 
     class Watching(Recorder):
-        def fit(self, observation, pose):
+        def evaluate(self, observation, pose):
             looked.append(pose)
-            return super().fit(observation, pose)
+            return super().evaluate(observation, pose)
 
-    rescuer = Recovery(every=10, samples=10).prepare(Watching(linkage))
+    recovery = Recovery(every=10, samples=10).bind(Watching(linkage))
     rest = linkage.skeleton.rest()
-    past = [Registered.given(rest), *(seen(rest, 0.95) for _ in range(frames))]
+    past = Past.start(rest)
+    for _ in range(frames):
+        past = past.followed_by(seen(rest, 0.95))
     found = seen(rest, explained)
-    assert rescuer.checked(NOTHING, found, past) is found
+    assert recovery.checked(NOTHING, found, past) is found
     assert bool(looked) == looks
 
 
@@ -168,12 +174,12 @@ def test_recovery_brings_back_a_lost_arm(raised, random, tmp_path, preset):
     body, hanging, truth = raised
     file = tmp_path / "experiment.yaml"
     file.write_text(METHOD.replace("PRESET", preset))
-    registrar = Experiment.read(file).methods["method"].prepare(body)
+    registrar = Experiment.read(file).methods["method"].bind(body)
     points = surface(body, truth, random)
     observation = Observation(points, np.ones(len(points)), np.full(len(points), 0.01**2))
-    lost = registrar.register(observation, hanging)
+    lost = registrar.register(observation, [hanging])
     assert hand_error(body, lost.pose, truth) > 0.4
-    rescuer = Recovery().prepare(registrar)
-    found = rescuer.checked(observation, lost, [Registered.given(hanging)])
+    recovery = Recovery().bind(registrar)
+    found = recovery.checked(observation, lost, Past.start(hanging))
     assert hand_error(body, found.pose, truth) < 0.05
-    assert found.explained > lost.explained
+    assert found.inlier_share > lost.inlier_share

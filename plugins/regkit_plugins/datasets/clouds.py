@@ -9,13 +9,13 @@ from typing import Literal
 
 from regkit.clouds import read_cloud
 from regkit.config.model import InputPath
-from regkit.interfaces import Dataset, Sequence
+from regkit.interfaces import Dataset, Recording
 from regkit.observation import Frame, Truth
 from regkit_plugins.datasets.formats.folders import (
-    SequenceDescription,
+    RecordingDescription,
     numbered_files,
     read_truth,
-    sequences_in,
+    recordings_in,
 )
 
 SUFFIXES = (".ply", ".pcd", ".xyz", ".npz")
@@ -30,16 +30,16 @@ class CloudFolders(Dataset):
     kind: Literal["clouds"] = "clouds"
 
     root: InputPath
-    """The sequence's folder, or one that holds several."""
+    """The recording's folder, or one that holds several."""
 
-    def found(self) -> list[Sequence]:
-        """A sequence for each folder that has ``clouds/``."""
-        return sequences_in(self.root, "clouds", self._sequence, self.wanted)
+    def found(self) -> list[Recording]:
+        """A recording for each folder that has ``clouds/``."""
+        return recordings_in(self.root, "clouds", self._recording, self.wanted)
 
-    def _sequence(self, folder: Path) -> CloudSequence:
-        description = SequenceDescription.read(folder)
+    def _recording(self, folder: Path) -> CloudRecording:
+        description = RecordingDescription.read(folder)
         files = numbered_files(folder / "clouds", SUFFIXES)[: self.frames]
-        return CloudSequence(
+        return CloudRecording(
             name=description.name or folder.name,
             fps=description.fps,
             length=len(files),
@@ -49,7 +49,7 @@ class CloudFolders(Dataset):
 
 
 @dataclass(frozen=True)
-class CloudSequence(Sequence):
+class CloudRecording(Recording):
     """One folder of clouds.
 
     Attributes:

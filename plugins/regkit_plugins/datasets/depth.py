@@ -11,15 +11,15 @@ import numpy as np
 
 from regkit.config.model import InputPath
 from regkit.geometry.camera import Camera
-from regkit.interfaces import Dataset, Sequence
+from regkit.interfaces import Dataset, Recording
 from regkit.observation import Frame, Truth
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
 from regkit_plugins.datasets.formats.folders import (
-    SequenceDescription,
+    RecordingDescription,
     numbered_files,
     read_truth,
-    sequences_in,
+    recordings_in,
 )
 
 
@@ -29,16 +29,16 @@ class DepthFolders(Dataset):
     kind: Literal["depth"] = "depth"
 
     root: InputPath
-    """The sequence's folder, or one that holds several."""
+    """The recording's folder, or one that holds several."""
 
-    def found(self) -> list[Sequence]:
-        """A sequence for each folder that has ``depth/``."""
-        return sequences_in(self.root, "depth", self._sequence, self.wanted)
+    def found(self) -> list[Recording]:
+        """A recording for each folder that has ``depth/``."""
+        return recordings_in(self.root, "depth", self._recording, self.wanted)
 
-    def _sequence(self, folder: Path) -> DepthSequence:
-        description = SequenceDescription.read(folder)
+    def _recording(self, folder: Path) -> DepthRecording:
+        description = RecordingDescription.read(folder)
         files = numbered_files(folder / "depth", (".png",))[: self.frames]
-        return DepthSequence(
+        return DepthRecording(
             name=description.name or folder.name,
             fps=description.fps,
             length=len(files),
@@ -49,7 +49,7 @@ class DepthFolders(Dataset):
 
 
 @dataclass(frozen=True)
-class DepthSequence(Sequence):
+class DepthRecording(Recording):
     """One folder of depth images.
 
     Attributes:

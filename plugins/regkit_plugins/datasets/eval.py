@@ -14,19 +14,19 @@ from regkit_plugins.datasets.formats.subjects import SubjectPattern
 class Eval(FrameRecords):
     """EVAL (Ganapathi, Plagemann, Koller and Thrun, ECCV 2012).
 
-    Three people, eight sequences each, before a Kinect; the reference is motion capture.
+    Three people, eight recordings each, before a Kinect; the reference is motion capture.
     The records are as the loader of pyKinectTools reads them. That loader also says that the points
     are in metres and that the camera looks along their -z. Not verified are: that x points right
     (``axes``), that a file's name holds the person's letter (``subjects``), the rate (``fps``), and
     which joint has which number; the joints are therefore called ``joint_0``, ``joint_1``, ... and
     are matched to markers by ``joints``. The room behind people is in the images: cut it away with
-    the observer's ``crop``, or with ``foreground``.
+    the preprocessor's ``crop``, or with ``foreground``.
     """
 
     kind: Literal["eval"] = "eval"
 
     files: str = "seq_*.bin"
-    """Which files of the folder are sequences, as a pattern with ``*``."""
+    """Which files of the folder are recordings, as a pattern with ``*``."""
     subjects: SubjectPattern | None = "^seq_([A-Za-z]+)"
     """A regular expression whose one group finds the subject in a file's name."""
     record: Record = Record(width=320, height=240)

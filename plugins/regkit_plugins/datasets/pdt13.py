@@ -12,7 +12,7 @@ from pydantic import Field
 
 from regkit.config.model import InputPath, Model
 from regkit.geometry.camera import Camera
-from regkit.interfaces import Dataset, Sequence
+from regkit.interfaces import Dataset, Recording
 from regkit.observation import Frame, Truth
 from regkit.system.errors import DataError
 from regkit_plugins.datasets.formats.axes import Axes, in_camera
@@ -37,11 +37,11 @@ class Pdt13(Dataset):
     The data set's page (https://gvvperfcapeva.mpi-inf.mpg.de/public/PersonalizedDepthTracker) says
     that people called M1 to M3 and F1 to F3 were seen by a Kinect, and the paper that a system with
     markers saw them too. How the files of the tracking part are arranged could *not* be found out
-    from public sources. MATLAB's files are *assumed*, for each sequence one with the depth images
+    from public sources. MATLAB's files are *assumed*, for each recording one with the depth images
     (rows, columns, T) and one with the reference positions (J, 3, T). Their names, arrays,
     units and directions can all be set, and what is held in another form can be
     brought into this one, or into the folder format (``depth``). The images are taken as they are:
-    cut the background away with the observer's ``crop``.
+    cut the background away with the preprocessor's ``crop``.
     """
 
     kind: Literal["pdt13"] = "pdt13"
@@ -49,7 +49,7 @@ class Pdt13(Dataset):
     root: InputPath
     """The folder that holds the files."""
     depth_suffix: str = "_depth.mat"
-    """How the depth images' files end; what precedes it names the sequence."""
+    """How the depth images' files end; what precedes it names the recording."""
     depth_array: str = "depth"
     """The array of the depth images in them."""
     depth_scale: Positive = 1000.0
@@ -69,29 +69,30 @@ class Pdt13(Dataset):
     joint_axes: Axes = ("x", "y", "z")
     """The axes of the reference positions that point right, down and forward from the camera."""
     subjects: SubjectPattern | None = "([MF][1-3])"
-    """A regular expression whose one group finds the subject in a sequence's name."""
+    """A regular expression whose one group finds the subject in a recording's name."""
     fps: Positive = 30.0
     """Frames per second."""
 
-    def found(self) -> list[Sequence]:
-        """A sequence for each file of depth images."""
+    def found(self) -> list[Recording]:
+        """A recording for each file of depth images."""
         files = {
             path.name.removesuffix(self.depth_suffix): path
             for path in sorted(self.root.glob(f"*{self.depth_suffix}"))
         }
         if not files:
             raise DataError(
-                f"no sequence here: no file ends with '{self.depth_suffix}' (dataset.depth_suffix)",
+                f"no recording here: no file ends with '{self.depth_suffix}' "
+                "(dataset.depth_suffix)",
                 place=str(self.root),
             )
         wanted = [name for name in files if self.wanted(name)]
         # If none is, all are told, so that a misspelt name can be set right.
-        return [self._sequence(name, files[name]) for name in wanted or files]
+        return [self._recording(name, files[name]) for name in wanted or files]
 
-    def _sequence(self, name: str, path: Path) -> Sequence:
+    def _recording(self, name: str, path: Path) -> Recording:
         height, width, length = array_shape(path, self.depth_array)
         focal, (cx, cy) = self.intrinsics.focal_px, self.intrinsics.centre_px
-        return Pdt13Sequence(
+        return Pdt13Recording(
             name=name,
             fps=self.fps,
             length=min(length, self.frames or length),
@@ -104,8 +105,8 @@ class Pdt13(Dataset):
 
 
 @dataclass(frozen=True)
-class Pdt13Sequence(Sequence):
-    """One sequence.
+class Pdt13Recording(Recording):
+    """One recording.
 
     Attributes:
         layout: What the files are like.

@@ -14,18 +14,18 @@ from regkit_plugins.datasets.formats.subjects import SubjectPattern
 class Smmc10(FrameRecords):
     """SMMC-10 (Ganapathi, Plagemann, Koller and Thrun, CVPR 2010).
 
-    28 sequences of one person before a SwissRanger SR4000 (176x144 pixels, 25 frames per second);
+    28 recordings of one person before a SwissRanger SR4000 (176x144 pixels, 25 frames per second);
     the reference is motion capture. No public description or loader of its files was found. The
     layout is *assumed* to be that of EVAL, by the same authors, at the size of this camera; its
     sizes (``record``), directions (``axes``), the pattern of the files and the rate can all be set.
     A file of another layout is refused by its size and counts, not misread. Whether the room is in
-    the images is not known either; what is may be cut away with the observer's ``crop``.
+    the images is not known either; what is may be cut away with the preprocessor's ``crop``.
     """
 
     kind: Literal["smmc10"] = "smmc10"
 
     files: str = "*.bin"
-    """Which files of the folder are sequences, as a pattern with ``*``."""
+    """Which files of the folder are recordings, as a pattern with ``*``."""
     subjects: SubjectPattern | None = None
     """A regular expression whose one group finds the subject in a file's name."""
     record: Record = Record(width=176, height=144)

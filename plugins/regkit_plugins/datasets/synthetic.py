@@ -12,16 +12,16 @@ from pydantic import Field, model_validator
 
 from regkit.config.model import misplaced
 from regkit.config.preset import changed
-from regkit.interfaces import Dataset, Sequence
+from regkit.interfaces import Dataset, Recording
 from regkit.observation import Frame, Truth
 from regkit.system.errors import DataError, RegkitError
 from regkit_plugins.datasets.depth import DepthFolders
-from regkit_synthesis.cache import SequenceCache
+from regkit_synthesis.cache import RecordingCache
 from regkit_synthesis.cameras import CameraChoice, camera_of
 from regkit_synthesis.digest import digest
 from regkit_synthesis.noise import NOISES, DepthNoise, NoiseChoice, noise_of
+from regkit_synthesis.recording import DepthRecording
 from regkit_synthesis.scene import Scene, Sensor
-from regkit_synthesis.sequence import DepthSequence
 from regkit_synthesis.take import Take
 
 Name = Annotated[str, Field(pattern=r"^\w[\w. -]*$")]
@@ -30,7 +30,7 @@ Name = Annotated[str, Field(pattern=r"^\w[\w. -]*$")]
 class Synthetic(Dataset):
     """Rigged bodies moved by recorded motion, ray-cast into depth, with exact joints.
 
-    Each take becomes a sequence. It is rendered when it is first needed, and kept in the user's
+    Each take becomes a recording. It is rendered when it is first needed, and kept in the user's
     cache folder, which ``regkit doctor`` names, until that is deleted. The noise of a frame depends
     on the seed, the take's name and the frame's number only.
     """
@@ -49,7 +49,7 @@ class Synthetic(Dataset):
     defaults: Take = Take()
     """What all takes have in common."""
     takes: dict[Name, Take] = Field(min_length=1)
-    """The sequences by name, each with what it has of its own."""
+    """The recordings by name, each with what it has of its own."""
 
     @model_validator(mode="before")
     @classmethod
@@ -74,13 +74,13 @@ class Synthetic(Dataset):
                 raise misplaced(type(self), message, "takes", name)
         return self
 
-    def found(self) -> list[Sequence]:
-        """A sequence for each take; nothing is rendered yet."""
-        return [self._sequence(name, take) for name, take in self.takes.items()]
+    def found(self) -> list[Recording]:
+        """A recording for each take; nothing is rendered yet."""
+        return [self._recording(name, take) for name, take in self.takes.items()]
 
-    def _sequence(self, name: str, take: Take) -> SyntheticSequence:
+    def _recording(self, name: str, take: Take) -> SyntheticRecording:
         length = min(take.frames, self.frames or take.frames)
-        return SyntheticSequence(
+        return SyntheticRecording(
             name=name,
             fps=self.fps,
             length=length,
@@ -105,7 +105,7 @@ class Synthetic(Dataset):
 
 
 @dataclass(frozen=True)
-class SyntheticSequence(Sequence):
+class SyntheticRecording(Recording):
     """One take.
 
     Attributes:
@@ -133,7 +133,7 @@ class SyntheticSequence(Sequence):
     def _folder(self) -> Path:
         scene, seed = self._scene(), self.dataset.seed
         try:
-            return SequenceCache.of_user().entry(digest(scene, seed), lambda: _seen(scene, seed))
+            return RecordingCache.of_user().entry(digest(scene, seed), lambda: _seen(scene, seed))
         except RegkitError as error:
             raise self._located(error) from None
 
@@ -168,22 +168,22 @@ def _over(defaults: Mapping[str, Any], take: Mapping[str, Any]) -> dict[str, Any
     return {**changed(common, own), **preset}
 
 
-def _seen(scene: Scene, seed: int) -> DepthSequence:
+def _seen(scene: Scene, seed: int) -> DepthRecording:
     """The rendered scene.
 
     Raises:
         DataError: If a frame shows nothing.
     """
-    sequence = scene.rendered(_random(scene.name, seed))
-    empty = np.flatnonzero(~sequence.depth.any(axis=(1, 2)))
+    recording = scene.rendered(_random(scene.name, seed))
+    empty = np.flatnonzero(~recording.depth.any(axis=(1, 2)))
     if len(empty):
         raise DataError(
             f"nothing of the body is in the image of frame {empty[0]}; give another view.distance, "
             "or none"
         )
-    return sequence
+    return recording
 
 
 def _random(name: str, seed: int) -> Callable[[int], np.random.Generator]:
-    """Where the noise of a frame comes from: of each frame of each sequence, from elsewhere."""
+    """Where the noise of a frame comes from: of each frame of each recording, from elsewhere."""
     return lambda frame: np.random.default_rng([seed, frame, *name.encode()])

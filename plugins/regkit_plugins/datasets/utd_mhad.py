@@ -12,7 +12,7 @@ from pydantic import Field
 
 from regkit.config.model import InputPath
 from regkit.geometry.camera import Camera
-from regkit.interfaces import Dataset, Sequence
+from regkit.interfaces import Dataset, Recording
 from regkit.observation import Frame, Truth
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
@@ -46,25 +46,25 @@ class UtdMhad(Dataset):
     """The folder that holds ``Depth/`` and ``Skeleton/``."""
     skeleton_lead: Annotated[float, Field(ge=0.0)] = 1.5
     """By how many frames the skeletons are ahead of the images. Held against the images alone, the
-    joints of moving arms fit those that come one to two frames later, in every sequence looked at,
+    joints of moving arms fit those that come one to two frames later, in every recording looked at,
     whoever moves."""
 
-    def found(self) -> list[Sequence]:
-        """A sequence for each file of ``Depth/``."""
+    def found(self) -> list[Recording]:
+        """A recording for each file of ``Depth/``."""
         files = sorted((self.root / "Depth").glob("*_depth.mat"), key=_by_numbers)
         if not files:
             raise DataError(
-                "no sequence here: Depth/ must hold files like a1_s1_t1_depth.mat",
+                "no recording here: Depth/ must hold files like a1_s1_t1_depth.mat",
                 place=str(self.root),
             )
         names = {path: path.stem.removesuffix("_depth") for path in files}
         wanted = [path for path, name in names.items() if self.wanted(name)]
         # If none is, all are told, so that a misspelt name can be set right.
-        return [self._sequence(path, names[path]) for path in wanted or files]
+        return [self._recording(path, names[path]) for path in wanted or files]
 
-    def _sequence(self, path: Path, name: str) -> UtdSequence:
+    def _recording(self, path: Path, name: str) -> UtdRecording:
         length = array_shape(path, "d_depth")[2]
-        return UtdSequence(
+        return UtdRecording(
             name=name,
             fps=30.0,
             length=min(length, self.frames or length),
@@ -76,7 +76,7 @@ class UtdMhad(Dataset):
 
 
 @dataclass(frozen=True)
-class UtdSequence(Sequence):
+class UtdRecording(Recording):
     """One action of one person.
 
     Attributes:

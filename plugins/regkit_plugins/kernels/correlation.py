@@ -28,17 +28,17 @@ class Correlation(Kernel):
     """Whether covariances turn with their segments, or keep their orientation of the start pose, as
     the paper has it (after eq. 11)."""
 
-    def against(
-        self, observation: Observation, start: Placed[Gaussians], *, blur: float = 0.0
-    ) -> CorrelationSimilarity:
+    def bind(
+        self, observation: Observation, start: Placed[Gaussians], *, smoothing: float = 0.0
+    ) -> BoundCorrelation:
         """Bind the kernel to a frame's data."""
-        return CorrelationSimilarity(self, observation, start, blur)
+        return BoundCorrelation(self, observation, start, smoothing)
 
 
-class CorrelationSimilarity(GaussianSimilarity):
+class BoundCorrelation(GaussianSimilarity):
     """Eq. 8 in closed form.
 
-    With q = y_j - m_i and S = C_i + (sigma_j^2 + blur^2) I it reads
+    With q = y_j - m_i and S = C_i + (sigma_j^2 + smoothing^2) I it reads
 
         E_ij = (2 pi)^(3/2) sqrt(|C_i| sigma_j^6 / |S|) exp(-1/2 q^T S^-1 q).
     """
@@ -46,7 +46,11 @@ class CorrelationSimilarity(GaussianSimilarity):
     volume_power = 1.0
 
     def __init__(
-        self, kernel: Correlation, observation: Observation, start: Placed[Gaussians], blur: float
+        self,
+        kernel: Correlation,
+        observation: Observation,
+        start: Placed[Gaussians],
+        smoothing: float,
     ) -> None:
         # The integrals of the data's Gaussians but for (2 pi)^(3/2).
         masses = observation.weights * observation.variances**1.5
@@ -55,7 +59,7 @@ class CorrelationSimilarity(GaussianSimilarity):
             start,
             data_weights=masses / masses.sum(),
             log_weights=np.log(start.primitives.weights),
-            blur=blur,
+            smoothing=smoothing,
             frozen=kernel.covariance == "frozen",
         )
 
@@ -63,7 +67,7 @@ class CorrelationSimilarity(GaussianSimilarity):
         """A pair weighs as much as it overlaps, for the derivative of exp is exp."""
         return None
 
-    def explains(self, densities: Array, data_weights: Array) -> Array:
+    def inliers(self, densities: Array, data_weights: Array) -> Array:
         """Each point's overlap with the primitives, as a part of that with itself."""
         overlap = densities.sum(axis=0) / data_weights
         return np.asarray(np.minimum(overlap / SELF_SIMILARITY, 1.0))

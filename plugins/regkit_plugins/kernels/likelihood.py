@@ -31,20 +31,24 @@ class Likelihood(Kernel):
     covariance: Literal["exact", "frozen"] = "exact"
     """Whether covariances turn with their segments, or keep their orientation of the start pose."""
 
-    def against(
-        self, observation: Observation, start: Placed[Gaussians], *, blur: float = 0.0
-    ) -> LikelihoodSimilarity:
+    def bind(
+        self, observation: Observation, start: Placed[Gaussians], *, smoothing: float = 0.0
+    ) -> BoundLikelihood:
         """Bind the kernel to a frame's data."""
-        return LikelihoodSimilarity(self, observation, start, blur)
+        return BoundLikelihood(self, observation, start, smoothing)
 
 
-class LikelihoodSimilarity(GaussianSimilarity):
+class BoundLikelihood(GaussianSimilarity):
     """The likelihood bound to a frame."""
 
     volume_power = 0.0
 
     def __init__(
-        self, kernel: Likelihood, observation: Observation, start: Placed[Gaussians], blur: float
+        self,
+        kernel: Likelihood,
+        observation: Observation,
+        start: Placed[Gaussians],
+        smoothing: float,
     ) -> None:
         mixing = start.primitives.weights * seen(start, observation.camera).areas()
         share = (1.0 - kernel.outliers) / (2.0 * np.pi) ** 1.5
@@ -53,7 +57,7 @@ class LikelihoodSimilarity(GaussianSimilarity):
             start,
             data_weights=observation.weights / observation.weights.sum(),
             log_weights=np.log(share * mixing / mixing.sum()),
-            blur=blur,
+            smoothing=smoothing,
             frozen=kernel.covariance == "frozen",
         )
         self._background = kernel.outliers / box_volume(observation)
@@ -64,7 +68,7 @@ class LikelihoodSimilarity(GaussianSimilarity):
         densities *= data_weights / total
         return -float(data_weights @ np.log(total / data_weights))
 
-    def explains(self, densities: Array, data_weights: Array) -> Array:
+    def inliers(self, densities: Array, data_weights: Array) -> Array:
         """The share of each point that is no outlier's."""
         total = densities.sum(axis=0)
         return np.asarray(total / (total + self._background * data_weights))

@@ -7,7 +7,7 @@ from typing import Literal
 from regkit.observation import Observation
 from regkit.primitives import Placed
 from regkit.primitives.surfels import Surfels
-from regkit_plugins.kernels.point_to_plane.correspondences import MatchingSimilarity
+from regkit_plugins.kernels.point_to_plane.correspondences import BoundMatching
 from regkit_plugins.kernels.point_to_plane.matching import MatchingKernel
 
 
@@ -19,8 +19,8 @@ class PointToPoint(MatchingKernel):
 
     kind: Literal["point_to_point"] = "point_to_point"
 
-    def against(
-        self, observation: Observation, start: Placed[Surfels], *, blur: float = 0.0
-    ) -> MatchingSimilarity:
+    def bind(
+        self, observation: Observation, start: Placed[Surfels], *, smoothing: float = 0.0
+    ) -> BoundMatching:
         """Bind the kernel to a frame's data."""
-        return MatchingSimilarity(self, observation, start, blur, point_share=1.0)
+        return BoundMatching(self, observation, start, smoothing, point_share=1.0)

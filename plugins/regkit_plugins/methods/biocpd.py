@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from regkit.alignment.rigid_method import Aligned, Frame, RigidMethod
-from regkit.geometry.rigid import moved
+from regkit.geometry.rigid import transformed
 from regkit.system.arrays import Array
 from regkit.system.optional import library as loaded
 
@@ -32,7 +32,7 @@ class BioCPD(RigidMethod):
         frame = Frame.around(target, size)
         registration = self.library().RigidRegistration(
             X=frame.inside(target),
-            Y=frame.inside(moved(start, source)),
+            Y=frame.inside(transformed(start, source)),
             scale=False,
             w=self.outliers,
             max_iterations=self.max_iterations,

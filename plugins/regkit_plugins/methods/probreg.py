@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from regkit.alignment.rigid_method import Aligned, Frame, RigidMethod
-from regkit.geometry.rigid import moved
+from regkit.geometry.rigid import transformed
 from regkit.system.arrays import Array
 from regkit.system.optional import library as loaded
 
@@ -34,7 +34,7 @@ class ProbregCPD(RigidMethod):
         """Align by ``registration_cpd``."""
         frame = Frame.around(target, size)
         result = self.library().registration_cpd(
-            frame.inside(moved(start, source)),
+            frame.inside(transformed(start, source)),
             frame.inside(target),
             "rigid",
             w=self.outliers,
@@ -64,7 +64,7 @@ class ProbregFilterReg(RigidMethod):
         """Align by ``registration_filterreg``."""
         frame = Frame.around(target, size)
         result = self.library().registration_filterreg(
-            frame.inside(moved(start, source)),
+            frame.inside(transformed(start, source)),
             frame.inside(target),
             update_sigma2=self.shrinking,
             w=self.outliers,

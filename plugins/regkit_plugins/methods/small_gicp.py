@@ -13,7 +13,7 @@ from regkit.system.optional import library as loaded
 
 
 class SmallGICP(RigidMethod):
-    """small_gicp's registration on one thread; the clouds are not thinned any further."""
+    """small_gicp's registration on one thread; the clouds are not downsampled any further."""
 
     kind: Literal["small_gicp"] = "small_gicp"
 

@@ -1,1 +1,1 @@
-"""Observers."""
+"""Preprocessors."""

@@ -1,4 +1,4 @@
-"""The observer that makes the leaves of an octree Gaussians of their size."""
+"""The preprocessor that makes the leaves of an octree Gaussians of their size."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
-from regkit.interfaces import Observer
+from regkit.interfaces import Preprocessor
 from regkit.observation import Frame, Observation
 from regkit.observation.crop import Crop
 from regkit.system.arrays import Array, Indices
 
 
-class OctreeObserver(Observer):
+class OctreePreprocessor(Preprocessor):
     """A sum of Gaussians from the leaves of an octree, section 3 of the paper.
 
     A cube is divided until its side is ``leaf`` or it holds at most ``few`` points. A leaf becomes
@@ -32,7 +32,7 @@ class OctreeObserver(Observer):
     crop: Crop = Crop()
     """What part of the frame is looked at."""
 
-    def observe(self, frame: Frame) -> Observation:
+    def preprocess(self, frame: Frame) -> Observation:
         """One Gaussian for each leaf."""
         frame = self.crop.cropped(frame)
         points = frame.points

@@ -1,4 +1,4 @@
-"""The observer that makes every point, or every voxel, one Gaussian of the same variance."""
+"""The preprocessor that makes every point, or every voxel, one Gaussian of the same variance."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
-from regkit.clouds import normals, thinned
-from regkit.interfaces import Observer
+from regkit.clouds import normals, voxel_downsampled
+from regkit.interfaces import Preprocessor
 from regkit.observation import Frame, Observation
 from regkit.observation.crop import Crop
 
 Length = Annotated[float, Field(gt=0.0)]
 
 
-class PointsObserver(Observer):
+class PointsPreprocessor(Preprocessor):
     """A sum of Gaussians with a uniform variance, section 3 of the paper."""
 
     kind: Literal["points"] = "points"
@@ -29,7 +29,7 @@ class PointsObserver(Observer):
     crop: Crop = Crop()
     """What part of the frame is looked at."""
 
-    def observe(self, frame: Frame) -> Observation:
+    def preprocess(self, frame: Frame) -> Observation:
         """One Gaussian for each point or voxel, all of weight 1.
 
         Averaging also evens out how densely a surface is seen: near parts count no more than far
@@ -38,7 +38,7 @@ class PointsObserver(Observer):
         frame = self.crop.cropped(frame)
         points = frame.points
         if self.voxel is not None:
-            points = thinned(points, self.voxel)
+            points = voxel_downsampled(points, self.voxel)
             self.crop.check_thinned(len(points), frame, "voxel", self.voxel)
         ones = np.ones(len(points))
         return Observation(

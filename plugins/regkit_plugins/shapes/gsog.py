@@ -27,7 +27,7 @@ class GeneralizedSumOfGaussians(ShapeModel):
     surface: Surface = "volume"
     """Whether data are compared with the whole Gaussian, or with the side that the camera sees."""
 
-    def attach(self, body: Body) -> Gaussians:
+    def bind(self, body: Body) -> Gaussians:
         """The template's own Gaussians, or the moments of its capsules."""
         own = body.gaussians.get(self.kind)
         return shown(_moments_of(body) if own is None else own, self.surface)

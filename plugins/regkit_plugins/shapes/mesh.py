@@ -27,7 +27,7 @@ class Mesh(ShapeModel):
     kind: Literal["mesh"] = "mesh"
     makes: ClassVar[type[Primitives]] = Surfels
 
-    def attach(self, body: Body) -> Surfels:
+    def bind(self, body: Body) -> Surfels:
         """The vertices of the body's surface.
 
         Raises:

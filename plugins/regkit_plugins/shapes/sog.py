@@ -27,7 +27,7 @@ class SumOfGaussians(ShapeModel):
     surface: Surface = "volume"
     """Whether data are compared with the whole Gaussian, or with the side that the camera sees."""
 
-    def attach(self, body: Body) -> Gaussians:
+    def bind(self, body: Body) -> Gaussians:
         """The template's own isotropic Gaussians, or some made from its capsules."""
         own = body.gaussians.get(self.kind)
         if own is None:

@@ -33,7 +33,7 @@ class SphereMesh(ShapeModel):
     spacing: Annotated[float, Field(gt=0.0)] = 1.0
     """Distance of neighbouring spheres, as a part of their radius; for the spheres alone."""
 
-    def attach(self, body: Body) -> TaperedCapsules:
+    def bind(self, body: Body) -> TaperedCapsules:
         """The template's capsules, or spheres on their axes.
 
         Raises:

@@ -71,7 +71,10 @@ class GaussNewton(Solver):
 def _equations(problem: Problem, x: Array) -> tuple[float, Array, Array]:
     equations = problem.normal_equations(x)
     if equations is None:
-        raise ConfigError("gauss_newton needs a kernel with curvature; take lbfgs for this one")
+        lacking = ", ".join(problem.without_curvature())
+        raise ConfigError(
+            f"gauss_newton needs curvature, which {lacking} does not give; take the solver lbfgs"
+        )
     return equations
 
 

@@ -11,7 +11,7 @@ from pydantic import Field
 
 from regkit.alignment import cloud_body, cloud_description
 from regkit.body import Body, BodyDescription
-from regkit.clouds import read_cloud, thinned
+from regkit.clouds import read_cloud, voxel_downsampled
 from regkit.clouds.checks import check_shape
 from regkit.config.model import InputPath
 from regkit.interfaces.template import Template
@@ -58,7 +58,7 @@ class CloudTemplate(Template):
     def _points(self) -> Array:
         changed = self.path.stat().st_mtime_ns if self.path.is_file() else 0
         points = _read(self.path, changed)
-        return points if self.voxel is None else thinned(points, self.voxel)
+        return points if self.voxel is None else voxel_downsampled(points, self.voxel)
 
     def _markers(self, points: Array) -> dict[str, Array]:
         centre = points.mean(axis=0)

@@ -10,7 +10,7 @@ from pydantic import Field
 from regkit.interfaces import Response, Scene, Term
 from regkit.primitives import Gaussians, Placed, Primitives
 from regkit.system.arrays import Array
-from regkit_plugins.kernels.correlation import SELF_SIMILARITY, Correlation, CorrelationSimilarity
+from regkit_plugins.kernels.correlation import SELF_SIMILARITY, BoundCorrelation, Correlation
 
 
 class Clamp(Term):
@@ -29,12 +29,12 @@ class Clamp(Term):
     covariance: Literal["exact", "frozen"] = "exact"
     """Whether covariances turn with their segments; the same as the kernel's."""
 
-    def against(self, scene: Scene) -> Excess:
+    def bind(self, scene: Scene) -> Excess:
         """Bind the term to a frame's data."""
         return Excess(self, scene)
 
 
-class Excess(CorrelationSimilarity):
+class Excess(BoundCorrelation):
     """``weight * sum max(0, overlap - self-similarity)`` over the data."""
 
     def __init__(self, term: Clamp, scene: Scene) -> None:

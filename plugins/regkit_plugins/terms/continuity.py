@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import Field
 
 from regkit.body import Body
-from regkit.interfaces import JointEnergy, Scene, Strain, Term
+from regkit.interfaces import JointEnergy, JointResponse, Scene, Term
 from regkit.skeleton import Pose, Skeleton
 from regkit.skeleton.compiled_steps import ball_steps
 from regkit.system.arrays import Array
@@ -39,19 +39,19 @@ class Continuity(Term):
         for name in self.joints_deg:
             body.skeleton.freedoms_of(name)
 
-    def against(self, scene: Scene) -> ExpectedPose:
+    def bind(self, scene: Scene) -> BoundContinuity:
         """Bind the term to the pose that is expected."""
         skeleton = scene.body.skeleton
-        usual = np.full(skeleton.freedoms, self.joint_deg)
+        usual = np.full(skeleton.dofs, self.joint_deg)
         for name, degrees in self.joints_deg.items():
             usual[skeleton.freedoms_of(name)] = degrees
         weights = self.weight / np.radians(usual) ** 2
-        weights[: skeleton.ball_freedoms.start] = 0.0
-        return ExpectedPose(skeleton, scene.expected, weights, np.diag(weights))
+        weights[: skeleton.ball_dofs.start] = 0.0
+        return BoundContinuity(skeleton, scene.prior, weights, np.diag(weights))
 
 
 @dataclass(frozen=True)
-class ExpectedPose(JointEnergy):
+class BoundContinuity(JointEnergy):
     """``1/2 sum w r^2`` with the step r of the joints from the expected pose.
 
     Attributes:
@@ -66,10 +66,10 @@ class ExpectedPose(JointEnergy):
     weights: Array
     stiffness: Array
 
-    def __call__(self, pose: Pose) -> Strain:
+    def __call__(self, pose: Pose) -> JointResponse:
         """The force is w r itself: a rotation vector is the same before and after its rotation."""
-        step = np.zeros(self.skeleton.freedoms)
-        step[self.skeleton.ball_freedoms] = ball_steps(self.expected.balls, pose.balls).ravel()
-        step[self.skeleton.hinge_freedoms] = pose.hinges - self.expected.hinges
+        step = np.zeros(self.skeleton.dofs)
+        step[self.skeleton.ball_dofs] = ball_steps(self.expected.balls, pose.balls).ravel()
+        step[self.skeleton.hinge_dofs] = pose.hinges - self.expected.hinges
         force = self.weights * step
-        return Strain(0.5 * float(force @ step), force, self.stiffness)
+        return JointResponse(0.5 * float(force @ step), force, self.stiffness)

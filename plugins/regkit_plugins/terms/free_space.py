@@ -30,12 +30,12 @@ class FreeSpace(Term):
     margin: Annotated[float, Field(ge=0.0)] = 0.5
     """How far before the measured depth a middle line may lie, in smallest scales of it."""
 
-    def against(self, scene: Scene) -> SilhouetteGaps:
+    def bind(self, scene: Scene) -> BoundFreeSpace:
         """Bind the term to a frame's depth image."""
-        return SilhouetteGaps(self, scene)
+        return BoundFreeSpace(self, scene)
 
 
-class SilhouetteGaps(Similarity):
+class BoundFreeSpace(Similarity):
     """``sum w (sqrt(1 + (d / s)^2) - 1)`` over points of the primitives.
 
     d is how far a point is in free space, beside the silhouette or before it; s is the primitive's

@@ -31,7 +31,7 @@ class Intersection(Term):
     weight: Annotated[float, Field(gt=0.0)] = 0.3
     """Weight against the kernel's energy."""
 
-    def against(self, scene: Scene) -> Overlaps:
+    def bind(self, scene: Scene) -> BoundIntersection:
         """Bind the term to the pairs of primitives that must not meet."""
         primitives = scene.placed.primitives
         first, second = _strangers(primitives.segments, scene.body.skeleton)
@@ -42,11 +42,11 @@ class Intersection(Term):
         sections = np.sort(primitives.scales, axis=1)[:, 1:].prod(axis=1)
         sizes = sections / sections.sum()
         weights = self.weight * np.minimum(sizes[first], sizes[second])
-        return Overlaps(first, second, weights)
+        return BoundIntersection(first, second, weights)
 
 
 @dataclass(frozen=True)
-class Overlaps(Similarity):
+class BoundIntersection(Similarity):
     """``sum w exp(-1/2 d^T (C_a + C_b)^-1 d)`` over M pairs, with d = m_a - m_b.
 
     Attributes:

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from regkit.interfaces import JointEnergy, Scene, Strain, Term
+from regkit.interfaces import JointEnergy, JointResponse, Scene, Term
 from regkit.skeleton import Pose, Skeleton
 
 
@@ -25,13 +25,13 @@ class LimitsTerm(Term):
     tolerance_deg: Annotated[float, Field(gt=0.0)] = 10.0
     """A violation of so much costs half the weight [deg]."""
 
-    def against(self, scene: Scene) -> Violations:
+    def bind(self, scene: Scene) -> BoundLimits:
         """Bind the term to the body's limits."""
-        return Violations(scene.body.skeleton, self.weight / radians(self.tolerance_deg) ** 2)
+        return BoundLimits(scene.body.skeleton, self.weight / radians(self.tolerance_deg) ** 2)
 
 
 @dataclass(frozen=True)
-class Violations(JointEnergy):
+class BoundLimits(JointEnergy):
     """``1/2 w sum v^2`` over all violations v.
 
     Attributes:
@@ -42,11 +42,11 @@ class Violations(JointEnergy):
     skeleton: Skeleton
     weight: float
 
-    def __call__(self, pose: Pose) -> Strain:
+    def __call__(self, pose: Pose) -> JointResponse:
         """By the exact derivative of the violations; its curvature is that of Gauss-Newton."""
         violations, jacobian = self.skeleton.violations(pose)
         force = self.weight * violations @ jacobian
-        return Strain(
+        return JointResponse(
             0.5 * self.weight * float(violations @ violations),
             force,
             self.weight * jacobian.T @ jacobian,

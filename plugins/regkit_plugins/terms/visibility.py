@@ -7,7 +7,7 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 from pydantic import Field
 
-from regkit.interfaces import Scene, Shares, Term
+from regkit.interfaces import Scene, Term, VisibilityWeights
 from regkit.primitives import Placed, Primitives, Volumes
 from regkit.system.arrays import Array
 from regkit_plugins.terms.compiled import free_rays
@@ -26,11 +26,11 @@ class Visibility(Term):
     least: Annotated[float, Field(gt=0.0, le=1.0)] = 0.05
     """What a wholly hidden primitive still weighs, so that it can come into sight again."""
 
-    def against(self, scene: Scene) -> Shares:
+    def bind(self, scene: Scene) -> VisibilityWeights:
         """The visible shares; all are one where the camera is not known."""
         if scene.observation.camera is None:
-            return Shares(np.ones(len(scene.placed)))
-        return Shares(np.maximum(visible_shares(scene.placed), self.least))
+            return VisibilityWeights(np.ones(len(scene.placed)))
+        return VisibilityWeights(np.maximum(visible_shares(scene.placed), self.least))
 
 
 def visible_shares(placed: Placed[Primitives]) -> Array:

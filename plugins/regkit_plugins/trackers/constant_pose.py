@@ -2,30 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import ClassVar, Literal
 
-from regkit.interfaces import Follower, Registered, Registrar, Tracker
+from regkit.interfaces import BoundTracker, Past, Registrar, RegistrationResult, Tracker
 from regkit.observation import Observation
 
 
-class Hold(Tracker):
-    """Holds the last pose as the start of the next frame, as the paper does."""
+class ConstantPose(Tracker):
+    """Starts each frame from the pose of the last one, as the paper does."""
 
-    kind: Literal["hold"] = "hold"
+    formerly: ClassVar[tuple[str, ...]] = ("hold",)
+    kind: Literal["constant_pose"] = "constant_pose"
 
-    def follow(self, registrar: Registrar) -> Holding:
+    def bind(self, registrar: Registrar) -> BoundConstantPose:
         """Nothing is to be prepared."""
-        return Holding(registrar)
+        return BoundConstantPose(registrar)
 
 
 @dataclass(frozen=True)
-class Holding(Follower):
-    """``Hold`` for one registrar."""
+class BoundConstantPose(BoundTracker):
+    """``ConstantPose`` for one registrar."""
 
     registrar: Registrar
 
-    def step(self, observation: Observation, past: Sequence[Registered]) -> Registered:
+    def step(self, observation: Observation, past: Past) -> RegistrationResult:
         """Register the frame from the last pose."""
-        return self.registrar.register(observation, past[-1].pose, after=past[-1])
+        return self.registrar.register(observation, [past.last.pose], warm_start=past.last)

@@ -12,12 +12,12 @@ from regkit.system.errors import DataError
 from regkit_synthesis.motion.figure import figure_axes
 from regkit_synthesis.motion.joint_map import parts_of
 from regkit_synthesis.motion.motion import Rig
-from regkit_synthesis.motion.recording import Recording, recorded
+from regkit_synthesis.motion.sampled import SampledMotion, recorded
 
 
 def read_bvh(
     path: Path, *, scale: float = 1.0, skip: int = 0, map_name: str | None = None
-) -> Recording:
+) -> SampledMotion:
     """Read a BVH file, at rest where all its angles are zero.
 
     Which way it looks and what is up is told by its hips and its head at rest.

@@ -12,7 +12,7 @@ from regkit.geometry.rotation import IDENTITY, from_vector, normalized, product
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
 from regkit_synthesis.motion.motion import Rig
-from regkit_synthesis.motion.recording import Recording
+from regkit_synthesis.motion.sampled import SampledMotion
 from regkit_synthesis.motion.standing import STANDING
 
 _R_GROUND_CLIP = np.array([[0.0, 0.0, -1.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
@@ -59,7 +59,7 @@ RIG = Rig(_PARENTS, {own: STANDING[joint] for joint, own in _PARTS.items()}, _PA
 """The character of the clips."""
 
 
-def read_clip(path: Path) -> Recording:
+def read_clip(path: Path) -> SampledMotion:
     """Read a clip; the end of a looping one is bent a little so that it meets its beginning.
 
     Raises:
@@ -83,11 +83,13 @@ def read_clip(path: Path) -> Recording:
             place=str(path),
         )
     times = np.concatenate([[0.0], np.cumsum(rows[:-1, 0])])
-    recording = Recording(RIG, loops, times, rows[:, 1:4] @ _R_GROUND_CLIP.T, _joints(rows[:, 4:]))
-    return recording.closed() if loops else recording
+    sampled = SampledMotion(
+        RIG, loops, times, rows[:, 1:4] @ _R_GROUND_CLIP.T, _joints(rows[:, 4:])
+    )
+    return sampled.closed() if loops else sampled
 
 
-def with_arms_turned_out(clip: Recording, angle: float) -> Recording:
+def with_arms_turned_out(clip: SampledMotion, angle: float) -> SampledMotion:
     """The clip with both upper arms turned outward about themselves by ``angle`` [rad].
 
     The clips' character is slim: the bent arms of another body may go through its trunk.

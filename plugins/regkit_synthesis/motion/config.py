@@ -17,7 +17,7 @@ from regkit_synthesis.motion.keyframes import Keyframe, KeyframedMotion, Keyfram
 from regkit_synthesis.motion.map_files import MapName
 from regkit_synthesis.motion.motion import Motion
 from regkit_synthesis.motion.played import Placed, Played
-from regkit_synthesis.motion.recording import Recording
+from regkit_synthesis.motion.sampled import SampledMotion
 from regkit_synthesis.motion.shipped import BVH, CLIPS, KEYFRAMES, shipped_clip
 
 
@@ -59,19 +59,19 @@ class MotionConfig(Model, ABC):
 
 
 class RecordedConfig(MotionConfig, ABC):
-    """A motion of a recording."""
+    """A motion of a sampled motion."""
 
     repeated: bool = False
     """Whether a motion that was not recorded to loop is bent to go on from its beginning."""
 
-    def source(self) -> Recording:
-        """The recording."""
-        recording = self.recording()
-        return recording.looped() if self.repeated else recording
+    def source(self) -> SampledMotion:
+        """The sampled motion."""
+        sampled = self.sampled()
+        return sampled.looped() if self.repeated else sampled
 
     @abstractmethod
-    def recording(self) -> Recording:
-        """The recording as it is in its file."""
+    def sampled(self) -> SampledMotion:
+        """The sampled motion as it is in its file."""
 
 
 class ClipConfig(RecordedConfig):
@@ -90,7 +90,7 @@ class ClipConfig(RecordedConfig):
         CLIPS.check_choice(self.name, self.path)
         return self
 
-    def recording(self) -> Recording:
+    def sampled(self) -> SampledMotion:
         """The clip; one that ships is mended."""
         return read_clip(self.path) if self.path else shipped_clip(self.name or "")
 
@@ -123,7 +123,7 @@ class BvhConfig(RecordedConfig):
         BVH.check_choice(self.name, self.path)
         return self
 
-    def recording(self) -> Recording:
+    def sampled(self) -> SampledMotion:
         """The motion of the file."""
         path = self.path or BVH.path(self.name or "")
         return read_bvh(path, scale=self.scale, skip=self.skip, map_name=self.map)
@@ -144,7 +144,7 @@ class GltfConfig(RecordedConfig):
     """Which of its joints are those of a figure: the name of a map that ships (``mixamo``,
     ``cesium_man``), or a YAML file. Without it, the first map that ships whose joints it has."""
 
-    def recording(self) -> Recording:
+    def sampled(self) -> SampledMotion:
         """The animation."""
         return read_gltf(self.path, animation=self.animation, map_name=self.map)
 

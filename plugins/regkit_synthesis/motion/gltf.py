@@ -14,7 +14,7 @@ from regkit.system.errors import ConfigError, DataError, RegkitError
 from regkit_synthesis.motion.figure import figure_axes
 from regkit_synthesis.motion.joint_map import parts_of
 from regkit_synthesis.motion.motion import Rig
-from regkit_synthesis.motion.recording import Recording, recorded
+from regkit_synthesis.motion.sampled import SampledMotion, recorded
 
 _STEP = 1.0 / 60.0
 """An animation is read at its keyframes, and wherever they are farther apart than this [s]."""
@@ -22,7 +22,7 @@ _STEP = 1.0 / 60.0
 
 def read_gltf(
     path: Path, *, animation: str | None = None, map_name: str | None = None
-) -> Recording:
+) -> SampledMotion:
     """Read an animation of a rigged body, at rest as its mesh is bound to its bones.
 
     Which way it looks and what is up is told by its hips and its head at rest.

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from regkit.geometry.rotation import between
+from regkit.geometry.rotation import rotation_between
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError
@@ -67,7 +67,7 @@ class Retarget:
             carried = turns[self.mesh.parents[bone]]
             turns[bone] = carried if follower is None else follower.turn(pose)
         middle = self.scale * pose.root + [0.0, 0.0, self.lift]
-        return self.mesh.turned(turns, middle - turns[0] @ self.hips)
+        return self.mesh.rotated(turns, middle - turns[0] @ self.hips)
 
 
 def retargeted(
@@ -139,7 +139,7 @@ def _aimed(
     ]
     if len(ways) < 2 or min(np.linalg.norm(way) for way in ways) < 1e-6:
         return np.eye(3)
-    return between(*ways)
+    return rotation_between(*ways)
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from regkit.config.model import did_you_mean
 from regkit.system.errors import ConfigError
 from regkit_synthesis.assets import ASSETS
 from regkit_synthesis.motion.clip import read_clip, with_arms_turned_out
-from regkit_synthesis.motion.recording import Recording
+from regkit_synthesis.motion.sampled import SampledMotion
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ BVH = Shelf("BVH motion", ASSETS / "bvhtoolbox", "", ".bvh")
 KEYFRAMES = Shelf("keyframed motion", ASSETS / "keyframes", "", ".yaml")
 """Motions that were written for regkit."""
 
-_MENDED: Mapping[str, Callable[[Recording], Recording]] = {
+_MENDED: Mapping[str, Callable[[SampledMotion], SampledMotion]] = {
     # Half a cycle meets its mirror image after these rows, and does not quite go on.
     "walk": lambda clip: clip.bridged(18),
     "run": lambda clip: clip.bridged(11),
@@ -84,7 +84,7 @@ _MENDED: Mapping[str, Callable[[Recording], Recording]] = {
 }
 
 
-def shipped_clip(name: str) -> Recording:
+def shipped_clip(name: str) -> SampledMotion:
     """The clip of this name, without its defects.
 
     Raises:

@@ -8,7 +8,7 @@ from regkit.body import BodyDescription
 from regkit.body.description import GaussianDescription, SizeDescription
 from regkit.fitting.flesh import Flesh, flesh_of
 from regkit.fitting.moments import balls, clusters, gaussian, vector
-from regkit.geometry.rigid import moved
+from regkit.geometry.rigid import transformed
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.skeleton import PoseDescription, SegmentDescription
 from regkit.system.arrays import Array
@@ -98,7 +98,7 @@ def _segments(
             joint=joints[name],
             capsules=fitted(_pieces(name, layout), flesh[name], scale=0.002),
             markers={
-                marker: vector(frame.local(moved(layout.T_template_mesh, position[None]))[0])
+                marker: vector(frame.local(transformed(layout.T_template_mesh, position[None]))[0])
                 for marker, (owner, position) in landmarks.items()
                 if owner == name
             },

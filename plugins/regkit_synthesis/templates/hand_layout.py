@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from regkit.fitting.layout import Layout, SegmentFrame
-from regkit.geometry.rigid import moved
-from regkit.geometry.rotation import between, vector_to_matrix
+from regkit.geometry.rigid import transformed
+from regkit.geometry.rotation import rotation_between, vector_to_matrix
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.system.arrays import Array
 from regkit_synthesis.landmarks import hand_landmarks
@@ -57,7 +57,7 @@ def hand_layout(mesh: SkinnedMesh) -> HandLayout:
     phalanges: dict[str, Array] = {}
     bends: dict[str, Array] = {}
     for number, finger in enumerate(FINGERS, start=1):
-        joints = moved(
+        joints = transformed(
             T_template_mesh, np.array([positions[f"{finger}_{joint}"] for joint in _JOINTS[finger]])
         )
         turn, direction = np.eye(3), joints[1] - joints[0]
@@ -67,7 +67,7 @@ def hand_layout(mesh: SkinnedMesh) -> HandLayout:
             label, name = f"finger{number}-{part}.R", f"{finger}_{part}"
             bone = joints[part] - joints[part - 1]
             if finger != "thumb":
-                turn = between(turn @ bone, direction) @ turn
+                turn = rotation_between(turn @ bone, direction) @ turn
                 bend = unit(np.cross(direction, FORWARD))
             else:
                 # A bone of the mesh bends about its own x axis.

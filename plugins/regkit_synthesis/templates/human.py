@@ -9,7 +9,7 @@ from regkit.body.description import GaussianDescription, SizeDescription
 from regkit.fitting.flesh import Flesh, flesh_of
 from regkit.fitting.layout import Layout
 from regkit.fitting.moments import balls, gaussian, vector
-from regkit.geometry.rigid import moved
+from regkit.geometry.rigid import transformed
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.skeleton import PoseDescription, SegmentDescription
 from regkit.skeleton.joints import FixedJoint
@@ -96,7 +96,7 @@ def _segment(name: str, mesh: SkinnedMesh, layout: Layout, flesh: Flesh) -> Segm
     markers = {}
     for marker, landmark in human_landmarks(mesh).items():
         if MARKERS.get(marker) == name:
-            place = frame.local(moved(layout.T_template_mesh, landmark.position[None]))[0]
+            place = frame.local(transformed(layout.T_template_mesh, landmark.position[None]))[0]
             markers[marker] = vector(place if "left" in marker else place * [0.0, 1.0, 1.0])
     for marker, (landmark_name, away) in KINECT.items():
         if MARKERS[landmark_name] == name:

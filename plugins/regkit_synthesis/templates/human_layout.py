@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from regkit.fitting.layout import Layout, SegmentFrame
-from regkit.geometry.rigid import moved
-from regkit.geometry.rotation import between
+from regkit.geometry.rigid import transformed
+from regkit.geometry.rotation import rotation_between
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit_synthesis.templates.capsules import Piece
 from regkit_synthesis.templates.straight import (
@@ -137,7 +137,7 @@ def human_layout(mesh: SkinnedMesh) -> Layout:
     """
     hips = (mesh.origin("LeftUpLeg") + mesh.origin("RightUpLeg")) / 2.0
     T_template_mesh = mesh_axes(_AXES, hips)
-    places = moved(T_template_mesh, mesh.rest[:, :3, 3])
+    places = transformed(T_template_mesh, mesh.rest[:, :3, 3])
     at = dict(zip(mesh.labels, places, strict=True))
     turns = {name: np.eye(3) for name in ("pelvis", "chest", "head")}
     for side, prefix in (("left", "Left"), ("right", "Right")):
@@ -147,11 +147,11 @@ def human_layout(mesh: SkinnedMesh) -> Layout:
         turns[f"{side}_upper_arm"] = aligned(upper, bend, DOWN, -LEFT)
         turns[f"{side}_forearm"] = turns[f"{side}_hand"] = aligned(fore, bend, DOWN, -LEFT)
         hip, knee, ankle = (at[prefix + bone] for bone in ("UpLeg", "Leg", "Foot"))
-        thigh = between(knee - hip, DOWN)
+        thigh = rotation_between(knee - hip, DOWN)
         turns[f"{side}_thigh"] = thigh
-        turns[f"{side}_shin"] = between(thigh @ (ankle - knee), DOWN) @ thigh
+        turns[f"{side}_shin"] = rotation_between(thigh @ (ankle - knee), DOWN) @ thigh
         foot = (at[prefix + "ToeBase"] - ankle) * [1.0, 0.0, 1.0]
-        turns[f"{side}_foot"] = between(foot, FORWARD)
+        turns[f"{side}_foot"] = rotation_between(foot, FORWARD)
     owners: dict[str, str] = {}
     frames: dict[str, SegmentFrame] = {}
     for name, bones in BONES.items():

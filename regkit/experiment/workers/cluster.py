@@ -11,7 +11,7 @@ from queue import Empty, SimpleQueue
 from typing import Any
 
 from regkit import __version__
-from regkit.experiment.hold import Hold
+from regkit.experiment.lock import FolderLock
 from regkit.experiment.progress import Progress
 from regkit.experiment.task import Result, Task
 from regkit.experiment.workers.packed import Packed, check_worker, performed
@@ -109,10 +109,10 @@ def _quiet() -> Iterator[None]:
             logger.setLevel(level)
 
 
-def _answer(hold: Hold, version: str) -> str | None:
+def _answer(lock: FolderLock, version: str) -> str | None:
     """In a worker: why it cannot serve, or None."""
     try:
-        check_worker(hold, version)
+        check_worker(lock, version)
     except RegkitError as error:
         return str(error)
     return None
@@ -123,13 +123,13 @@ class _DaskTeam(Team):
 
     def __init__(self, client: Any, place: str) -> None:
         self._client, self._place = client, place
-        self._hold: Hold | None = None
+        self._lock: FolderLock | None = None
         self._ended: SimpleQueue[tuple[Task, Any]] = SimpleQueue()
 
-    def serve(self, hold: Hold) -> None:
+    def serve(self, lock: FolderLock) -> None:
         """See whether every worker can, before hours are spent."""
-        self._hold = hold
-        answers = self._client.run(_answer, hold, __version__, on_error="return")
+        self._lock = lock
+        answers = self._client.run(_answer, lock, __version__, on_error="return")
         for worker, answer in answers.items():
             if answer is not None:
                 raise ConfigError(f"the worker {worker} cannot serve: {answer}", place=self._place)
@@ -140,8 +140,8 @@ class _DaskTeam(Team):
 
     def begin(self, task: Task) -> None:
         """Send it to the scheduler."""
-        assert self._hold is not None
-        future = self._client.submit(performed, Packed.of(task, self._hold), pure=False)
+        assert self._lock is not None
+        future = self._client.submit(performed, Packed.of(task, self._lock), pure=False)
         future.add_done_callback(lambda done: self._ended.put((task, done)))
 
     def ended(self, progress: Progress) -> tuple[Task, Result]:

@@ -17,7 +17,7 @@ from regkit import __version__
 from regkit.config.document import Document
 from regkit.config.plugin import Plugin, from_file, plugin_files, run_plugin_file
 from regkit.experiment.experiment import Experiment
-from regkit.experiment.hold import Hold
+from regkit.experiment.lock import FolderLock
 from regkit.experiment.resolved import resolved
 from regkit.experiment.task import Result, Task
 from regkit.system.errors import ConfigError, DataError, DependencyError, RegkitError
@@ -37,30 +37,30 @@ class Packed:
     Attributes:
         config: The experiment, as JSON has it.
         plugins: Files with plug-ins, to be run first.
-        hold: The run that wants the work.
+        lock: The run that wants the work.
         version: Of the regkit that asks.
-        folder, sequence, method, setting: As in the task.
+        folder, recording, method, setting: As in the task.
     """
 
     config: dict[str, Any]
     plugins: tuple[Path, ...]
-    hold: Hold
+    lock: FolderLock
     version: str
     folder: Path
-    sequence: str
+    recording: str
     method: str | None
     setting: str
 
     @classmethod
-    def of(cls, task: Task, hold: Hold) -> Packed:
+    def of(cls, task: Task, lock: FolderLock) -> Packed:
         """A task of the run that holds the results folder."""
         return cls(
             resolved(task.experiment),
             plugin_files(),
-            hold,
+            lock,
             __version__,
             task.folder.absolute(),
-            task.sequence,
+            task.recording,
             task.method,
             task.setting,
         )
@@ -71,13 +71,13 @@ class Packed:
         Raises:
             RegkitError: If this worker cannot do it.
         """
-        check_worker(self.hold, self.version)
+        check_worker(self.lock, self.version)
         for path in self.plugins:
             if not path.is_file():
                 raise DataError("the worker does not see this file", place=str(path))
         _run_files(tuple((path, _digest(path)) for path in self.plugins))
         experiment = Document(self.config, {(): "on a worker"}).validated(Experiment)
-        return Task(experiment, self.folder, self.sequence, self.method, self.setting)
+        return Task(experiment, self.folder, self.recording, self.method, self.setting)
 
 
 def performed(packed: Packed) -> Result:
@@ -88,12 +88,12 @@ def performed(packed: Packed) -> Result:
         except RegkitError as error:
             return error
         try:
-            return task.result(_Wanted(packed.hold).check)
+            return task.result(_Wanted(packed.lock).check)
         except _NotWanted:
             return DataError("the run that wanted this is over")
 
 
-def check_worker(hold: Hold, version: str) -> None:
+def check_worker(lock: FolderLock, version: str) -> None:
     """See whether this worker can serve a run.
 
     Raises:
@@ -102,11 +102,11 @@ def check_worker(hold: Hold, version: str) -> None:
     """
     if version != __version__:
         raise DependencyError(f"the worker has regkit {__version__}, and the run has {version}")
-    if not hold.stands():
+    if not lock.stands():
         raise DataError(
             "the worker does not see the results folder; it must be on a file system that all "
             "machines share, under the same path",
-            place=str(hold.folder),
+            place=str(lock.folder),
         )
 
 
@@ -157,8 +157,8 @@ class _NotWanted(BaseException):
 class _Wanted:
     """Looks now and then whether the run that wanted the work still holds its folder."""
 
-    def __init__(self, hold: Hold) -> None:
-        self._hold = hold
+    def __init__(self, lock: FolderLock) -> None:
+        self._lock = lock
         self._next = time.monotonic() + CHECKED_EVERY
 
     def check(self) -> None:
@@ -166,5 +166,5 @@ class _Wanted:
         if time.monotonic() < self._next:
             return
         self._next = time.monotonic() + CHECKED_EVERY
-        if not self._hold.stands():
+        if not self._lock.stands():
             raise _NotWanted

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from queue import Empty, SimpleQueue
 from typing import Any
 
-from regkit.experiment.hold import Hold
+from regkit.experiment.lock import FolderLock
 from regkit.experiment.progress import Progress
 from regkit.experiment.task import Result, Task
 from regkit.experiment.workers.packed import Packed, performed
@@ -64,16 +64,16 @@ class _ProcessTeam(Team):
     """Each worker is a pool of one process, so that it is known whose task killed it."""
 
     def __init__(self, jobs: int) -> None:
-        self._hold: Hold | None = None
+        self._lock: FolderLock | None = None
         self._idle = [_pool() for _ in range(jobs)]
         self._busy: dict[Task, Any] = {}
         self._deaths: Counter[Task] = Counter()
         self._ended: SimpleQueue[tuple[Task, Any]] = SimpleQueue()
         self._jobs = jobs
 
-    def serve(self, hold: Hold) -> None:
+    def serve(self, lock: FolderLock) -> None:
         """They see what this process sees."""
-        self._hold = hold
+        self._lock = lock
 
     def count(self) -> int:
         """As many as there are processes."""
@@ -81,10 +81,10 @@ class _ProcessTeam(Team):
 
     def begin(self, task: Task) -> None:
         """Send it to an idle process, which starts when it is first needed."""
-        assert self._hold is not None
+        assert self._lock is not None
         pool = self._busy[task] = self._idle.pop()
         with _deaf_children():
-            future = pool.submit(performed, Packed.of(task, self._hold))
+            future = pool.submit(performed, Packed.of(task, self._lock))
         future.add_done_callback(lambda done: self._ended.put((task, done)))
 
     def ended(self, progress: Progress) -> tuple[Task, Result]:

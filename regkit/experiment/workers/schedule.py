@@ -9,14 +9,14 @@ from regkit.experiment.task import Task
 
 
 class Schedule:
-    """Sequences that are to be made ready, and the tracks that may begin once theirs is.
+    """Recordings that are to be made ready, and the tracks that may begin once theirs is.
 
-    Sequences are made ready one ahead of need: early enough that no worker waits, and late enough
-    that the first results come soon. One process does sequence after sequence.
+    Recordings are made ready one ahead of need: early enough that no worker waits, and late enough
+    that the first results come soon. One process does recording after recording.
     """
 
     def __init__(self, tracks: Iterable[tuple[Task, list[Task]]]) -> None:
-        """The task that makes a sequence ready, and the tracks that wait for it, in order."""
+        """The task that makes a recording ready, and the tracks that wait for it, in order."""
         self._waiting = dict(tracks)
         self._openings = deque(self._waiting)
         self._ready: deque[Task] = deque()
@@ -33,9 +33,9 @@ class Schedule:
         return self._ready.popleft() if self._ready else None
 
     def opened(self, opening: Task) -> None:
-        """A sequence is ready."""
+        """A recording is ready."""
         self._ready.extend(self._waiting.pop(opening))
 
     def closed(self, opening: Task) -> list[Task]:
-        """A sequence cannot be made ready; its tracks are dropped and returned."""
+        """A recording cannot be made ready; its tracks are dropped and returned."""
         return self._waiting.pop(opening)

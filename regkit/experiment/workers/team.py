@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from contextlib import AbstractContextManager
 from types import TracebackType
 
-from regkit.experiment.hold import Hold
+from regkit.experiment.lock import FolderLock
 from regkit.experiment.progress import Progress
 from regkit.experiment.task import Result, Task
 
@@ -18,7 +18,7 @@ class Team(ABC):
     """Workers that are there for one run."""
 
     @abstractmethod
-    def serve(self, hold: Hold) -> None:
+    def serve(self, lock: FolderLock) -> None:
         """Work for the run that holds a results folder.
 
         Raises:
@@ -96,7 +96,7 @@ class ThisProcess(Workers, Team):
     ) -> None:
         """Nothing to leave."""
 
-    def serve(self, hold: Hold) -> None:
+    def serve(self, lock: FolderLock) -> None:
         """Nothing stands in the way."""
 
     def count(self) -> int:

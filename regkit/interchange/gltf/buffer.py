@@ -12,7 +12,7 @@ _TYPES = {1: "SCALAR", 3: "VEC3", 4: "VEC4", 16: "MAT4"}
 
 
 class GltfBuffer:
-    """Numbers gathered into one buffer, and what is to be said of them.
+    """Numbers accumulated into one buffer, and what is to be said of them.
 
     Attributes:
         content: The buffer.

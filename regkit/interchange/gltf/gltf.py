@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from regkit.config.model import did_you_mean
-from regkit.geometry.rigid import moved
+from regkit.geometry.rigid import transformed
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.interchange.bone_frames import along_bones, nearest_rotations
 from regkit.interchange.gltf import webxr_hand
@@ -82,7 +82,7 @@ class RiggedBody:
         rest = along_bones(bound[:, :3, 3], nearest_rotations(bound[:, :3, :3]), above)
         vertices = skinned_vertices(file, len(joints)).joined()
         mesh = SkinnedMesh(
-            vertices=read_only(moved(shown, vertices.positions)),
+            vertices=read_only(transformed(shown, vertices.positions)),
             faces=vertices.faces,
             labels=tuple(nodes.names[joint] for joint in joints),
             parents=np.array(above, dtype=np.intp),

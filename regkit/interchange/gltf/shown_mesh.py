@@ -6,7 +6,7 @@ import numpy as np
 
 from regkit.body import Body
 from regkit.geometry.capsules import Capsules
-from regkit.geometry.rigid import moved
+from regkit.geometry.rigid import transformed
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.interchange.gltf.capsule_mesh import capsule_mesh
 from regkit.system.arrays import Array, Indices
@@ -45,7 +45,7 @@ def _rigid_parts(body: Body, points: Array, faces: Indices, segments: Indices) -
     """Points (V, 3) in the frames of the segments (V,) that carry them."""
     rest = body.place(body.skeleton.rest()).transforms
     return SkinnedMesh(
-        vertices=moved(rest[segments], points),
+        vertices=transformed(rest[segments], points),
         faces=faces,
         labels=body.skeleton.names,
         parents=body.skeleton.parents,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from regkit.report.figures.bars import sequence_bars, shape_bars
+from regkit.report.figures.bars import recording_bars, shape_bars
 from regkit.report.figures.density import densities
 from regkit.report.figures.joints import joint_dots
 from regkit.report.figures.methods import method_means
@@ -20,7 +20,7 @@ def plots(run: Run) -> Iterator[Plot]:
     for make in (
         method_means,
         shape_bars,
-        sequence_bars,
+        recording_bars,
         threshold_curves,
         joint_dots,
         errors_over_time,

@@ -1,4 +1,4 @@
-"""Bars of each sequence, the methods side by side."""
+"""Bars of each recording, the methods side by side."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ BAR = 0.13
 """Height of a bar, in inches; thinner where there are many."""
 
 MOST = 60
-"""Of so many sequences bars are drawn: those with the largest figures."""
+"""Of so many recordings bars are drawn: those with the largest figures."""
 
 
-def sequence_bars(run: Run) -> Plot | None:
-    """The figure that methods are judged by, of all methods on all sequences."""
+def recording_bars(run: Run) -> Plot | None:
+    """The figure that methods are judged by, of all methods on all recordings."""
     if run.shape_pairs and set(run.shape_pairs[0]) == set(run.finished):
         return None  # The figure of two shape models shows it all.
     return _bars(
         run,
         run.drawn,
-        "sequences",
-        "Each sequence",
-        f"The {NAMES[run.figure]} of every method on every sequence; shorter is better, and where "
-        f"a bar is missing the sequence failed or was not done.{run.not_drawn}",
+        "recordings",
+        "Each recording",
+        f"The {NAMES[run.figure]} of every method on every recording; shorter is better, and where "
+        f"a bar is missing the recording failed or was not done.{run.not_drawn}",
     )
 
 
@@ -38,7 +38,7 @@ def shape_bars(run: Run) -> Plot | None:
     if not run.shape_pairs:
         return None
     one, other = run.shape_pairs[0]
-    values = [(run.value(one, s), run.value(other, s)) for s in run.sequences]
+    values = [(run.value(one, s), run.value(other, s)) for s in run.recordings]
     both = [(a, b) for a, b in values if a is not None and b is not None]
     if not both:
         return None
@@ -50,7 +50,7 @@ def shape_bars(run: Run) -> Plot | None:
         "Two shape models",
         f"The {NAMES[run.figure]} of {_named(run, one)} and {_named(run, other)}, which differ in "
         f"the shape model alone: it is smaller with {one} in {won} of "
-        f"{many(len(both), 'sequence')}.",
+        f"{many(len(both), 'recording')}.",
     )
 
 
@@ -61,7 +61,7 @@ def _named(run: Run, method: str) -> str:
 
 
 def _bars(run: Run, methods: Sequence[str], name: str, title: str, caption: str) -> Plot | None:
-    rows = [[s, *(run.value(method, s) for method in methods)] for s in run.sequences]
+    rows = [[s, *(run.value(method, s) for method in methods)] for s in run.recordings]
     rows = [row for row in rows if any(value is not None for value in row[1:])]
     if not rows:
         return None
@@ -70,7 +70,7 @@ def _bars(run: Run, methods: Sequence[str], name: str, title: str, caption: str)
         largest = {row[0]: max(float(one) for one in row[1:] if one is not None) for row in rows}
         worst = set(sorted(largest, key=lambda name: -largest[name])[:MOST])
         shown = [row for row in rows if row[0] in worst]
-        caption += f" Of {len(rows)} sequences the {MOST} with the largest are drawn."
+        caption += f" Of {len(rows)} recordings the {MOST} with the largest are drawn."
 
     def draw(ink: Ink) -> Figure:
         return _drawn(run, methods, shown, ink)
@@ -81,7 +81,7 @@ def _bars(run: Run, methods: Sequence[str], name: str, title: str, caption: str)
         caption=caption,
         alt=f"Horizontal bars. {caption} The numbers are in {name}.csv.",
         draw=draw,
-        columns=["sequence", *(f"{method} [{unit}]" for method in methods)],
+        columns=["recording", *(f"{method} [{unit}]" for method in methods)],
         rows=rows,
     )
 

@@ -27,14 +27,14 @@ PIXELS = 260
 
 
 def densities(run: Run) -> Plot | None:
-    """One look at each shape model, in the first frame of one sequence."""
+    """One look at each shape model, in the first frame of one recording."""
     looks = _looks(run)
     if not looks:
         return None
-    sequence, by_shape = looks
+    recording, by_shape = looks
     dense = [shape for shape, (_, look) in by_shape.items() if look.form.kind == "gaussians"]
     caption = (
-        f"The shape models in the poses found in the first frame of {sequence}, from the front"
+        f"The shape models in the poses found in the first frame of {recording}, from the front"
     )
     if dense:
         caption += f": of {' and '.join(dense)} the sum of the Gaussians along the line of sight"
@@ -89,15 +89,15 @@ def projected(form: Form, across: Array, down: Array) -> Array:
 
 
 def _looks(run: Run) -> tuple[str, dict[str, tuple[str, Look]]] | None:
-    """The sequence that most shape models finished, and the first method and look of each."""
+    """The recording that most shape models finished, and the first method and look of each."""
     best: tuple[str, dict[str, tuple[str, Look]]] | None = None
-    for sequence in run.sequences:
+    for recording in run.recordings:
         by_shape: dict[str, tuple[str, Look]] = {}
         for method, records in run.records.items():
-            if sequence in records and len(by_shape) < MOST:
-                by_shape.setdefault(run.style(method).shape, (method, records[sequence].looks[0]))
+            if recording in records and len(by_shape) < MOST:
+                by_shape.setdefault(run.style(method).shape, (method, records[recording].looks[0]))
         if by_shape and (best is None or len(by_shape) > len(best[1])):
-            best = sequence, by_shape
+            best = recording, by_shape
     return best
 
 

@@ -29,7 +29,7 @@ def joint_means(errors: list[JointErrors], kind: str) -> dict[str, float]:
 
 
 def errors_of(run: Run, method: str) -> list[JointErrors]:
-    """The joints' errors of a method on each sequence that has them."""
+    """The joints' errors of a method on each recording that has them."""
     records = run.records.get(method, {}).values()
     return [record.errors for record in records if record.errors is not None]
 
@@ -42,7 +42,7 @@ def joint_dots(run: Run) -> Plot | None:
     if len(joints) < 2:
         return None
     caption = (
-        "The mean error of each joint over all frames of all sequences, the joint that is worst "
+        "The mean error of each joint over all frames of all recordings, the joint that is worst "
         f"over all methods at the top.{run.not_drawn}"
     )
     joints.sort(key=lambda name: -float(np.mean([by[name] for by in means.values() if name in by])))

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def method_means(run: Run) -> Plot | None:
-    """Each method's mean over the sequences, its 95 % interval, and the sequences themselves."""
+    """Each method's mean over the recordings, its 95 % interval, and the recordings themselves."""
     figures = [run.figure]
     if run.compared:
         figures.append("joint_error_adjusted_cm")
@@ -34,13 +34,13 @@ def method_means(run: Run) -> Plot | None:
             low, high = found.interval or (None, None)
             rows.append((method, run.style(method).shape, name, found.n, found.mean, found.median,
                          low, high))  # fmt: skip
-    enough = len(run.sequences) >= FEWEST
+    enough = len(run.recordings) >= FEWEST
     caption = (
-        f"The mean over the sequences of the {NAMES[run.figure]}"
+        f"The mean over the recordings of the {NAMES[run.figure]}"
         + (", as it is and adjusted" if len(figures) > 1 else "")
         + (", with its 95 % bootstrap interval" if enough else "")
-        + "; the pale points are the sequences, and methods of one shape model stand together."
-        + ("" if enough else f" Fewer than {FEWEST} sequences allow no interval.")
+        + "; the pale points are the recordings, and methods of one shape model stand together."
+        + ("" if enough else f" Fewer than {FEWEST} recordings allow no interval.")
     )
 
     def draw(ink: Ink) -> Figure:
@@ -56,7 +56,7 @@ def method_means(run: Run) -> Plot | None:
             "method",
             "shape model",
             "figure (cm or mm by its name)",
-            "sequences",
+            "recordings",
             "mean",
             "median",
             "95 % interval from",
@@ -67,7 +67,7 @@ def method_means(run: Run) -> Plot | None:
 
 
 def _values(run: Run, method: str, figure: str) -> list[float]:
-    values = [run.value(method, sequence, figure) for sequence in run.finished[method]]
+    values = [run.value(method, recording, figure) for recording in run.finished[method]]
     return [value for value in values if value is not None]
 
 

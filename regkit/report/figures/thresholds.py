@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from regkit.metrics import NEAR, share_within
-from regkit.metrics.measure import WIDEST
+from regkit.metrics import PCK_PART, share_within
+from regkit.metrics.measure import AUC_PART
 from regkit.report.plot import Ink, Plot, canvas, legend_above, styled
 from regkit.report.run import Run
 from regkit.report.words import label
@@ -21,11 +21,11 @@ KINDS = {"raw": "as they are", "adjusted": "adjusted"}
 
 
 def threshold_curves(run: Run) -> Plot | None:
-    """The percent of all joints of all frames and sequences within x cm, for each method."""
+    """The percent of all joints of all frames and recordings within x cm, for each method."""
     sizes = [r.size for by in run.records.values() for r in by.values() if r.errors is not None]
     if not sizes:
         return None
-    widest = WIDEST * max(sizes)
+    widest = AUC_PART * max(sizes)
     thresholds = np.linspace(0.0, widest, STEPS)
     curves = {
         (method, kind): curve
@@ -35,11 +35,11 @@ def threshold_curves(run: Run) -> Plot | None:
     }
     if not curves:
         return None
-    near = 100.0 * NEAR * max(sizes)
+    near = 100.0 * PCK_PART * max(sizes)
     caption = (
-        f"The percent of all joints, in all frames of all sequences, that are within a distance; "
-        f"it ends at {100 * WIDEST:.0f} % of the body's size, and the upright line is at "
-        f"{100 * NEAR:.0f} % ({near:.3g} cm). Higher and farther to the left is better."
+        f"The percent of all joints, in all frames of all recordings, that are within a distance; "
+        f"it ends at {100 * AUC_PART:.0f} % of the body's size, and the upright line is at "
+        f"{100 * PCK_PART:.0f} % ({near:.3g} cm). Higher and farther to the left is better."
     ) + run.not_drawn
 
     def draw(ink: Ink) -> Figure:

@@ -17,31 +17,31 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 MOST = 6
-"""So many sequences are drawn: those with the largest errors."""
+"""So many recordings are drawn: those with the largest errors."""
 
 
 def errors_over_time(run: Run) -> Plot | None:
-    """Each frame's mean joint error, or distance to the surface, in the worst sequences."""
+    """Each frame's mean joint error, or distance to the surface, in the worst recordings."""
     joints = run.figure == "joint_error_raw_cm"
     curves: dict[str, dict[str, Array]] = {}
-    for method, by_sequence in run.records.items():
-        for sequence, record in by_sequence.items():
+    for method, by_recording in run.records.items():
+        for recording, record in by_recording.items():
             curve = _curve(record, joints)
             if curve is not None and np.isfinite(curve).any():
-                curves.setdefault(sequence, {})[method] = curve
+                curves.setdefault(recording, {})[method] = curve
     if not curves:
         return None
     drawn = {
-        sequence: shown
-        for sequence, by in curves.items()
+        recording: shown
+        for recording, by in curves.items()
         if (shown := {method: by[method] for method in run.drawn if method in by})
     }
     worst = sorted(
         drawn, key=lambda name: -max(float(np.nanmean(c)) for c in drawn[name].values())
     )[:MOST]
-    drawn = {name: drawn[name] for name in run.sequences if name in worst}
+    drawn = {name: drawn[name] for name in run.recordings if name in worst}
     what = "mean joint error" if joints else "median distance of the data to the surface"
-    chosen = f", in the {MOST} sequences with the largest" if len(curves) > MOST else ""
+    chosen = f", in the {MOST} recordings with the largest" if len(curves) > MOST else ""
     caption = (
         f"The {what} of each frame{chosen}"
         + (
@@ -58,13 +58,13 @@ def errors_over_time(run: Run) -> Plot | None:
         return _drawn(run, drawn, f"error [{unit}]", ink)
 
     rows: list[list[Value]] = []
-    for sequence, by_method in curves.items():
+    for recording, by_method in curves.items():
         for method, curve in by_method.items():
             # References may be of fewer frames than there are, and then have no joint at all.
-            losses = run.records[method][sequence].losses if joints else None
-            fps = run.records[method][sequence].fps
+            losses = run.records[method][recording].losses if joints else None
+            fps = run.records[method][recording].fps
             rows += [
-                [sequence, method, frame, frame / fps, float(value),
+                [recording, method, frame, frame / fps, float(value),
                  None if losses is None else int(losses.lost[frame])]
                 for frame, value in enumerate(curve)
             ]  # fmt: skip
@@ -72,10 +72,10 @@ def errors_over_time(run: Run) -> Plot | None:
         name="over_time",
         title="Over time",
         caption=caption,
-        alt=f"Curves over time, one panel for each sequence. {caption} The numbers of all "
-        "sequences are in over_time.csv.",
+        alt=f"Curves over time, one panel for each recording. {caption} The numbers of all "
+        "recordings are in over_time.csv.",
         draw=draw,
-        columns=["sequence", "method", "frame", "time [s]", f"{what} [{unit}]", "lost"],
+        columns=["recording", "method", "frame", "time [s]", f"{what} [{unit}]", "lost"],
         rows=rows,
     )
 
@@ -97,17 +97,17 @@ def _drawn(run: Run, curves: dict[str, dict[str, Array]], what: str, ink: Ink) -
     figure = canvas(ink, 0.7 + 1.45 * len(curves))
     grid = figure.subplots(len(curves), 1, squeeze=False)[:, 0]
     methods = [name for name in run.records if any(name in by for by in curves.values())]
-    for axes, (sequence, by_method) in zip(grid, curves.items(), strict=True):
+    for axes, (recording, by_method) in zip(grid, curves.items(), strict=True):
         styled(axes, ink, grid="y")
-        axes.set_title(label(sequence), loc="left", color=ink.text, fontsize=9)
+        axes.set_title(label(recording), loc="left", color=ink.text, fontsize=9)
         for method, curve in by_method.items():
             style = run.style(method)
-            seconds = np.arange(len(curve)) / run.records[method][sequence].fps
+            seconds = np.arange(len(curve)) / run.records[method][recording].fps
             axes.plot(
                 seconds, curve, color=style.colour, linestyle=style.dash, linewidth=1.2,
                 marker=style.marker if len(curve) < 4 else None, markersize=4,
             )  # fmt: skip
-        _shade(axes, run, sequence, list(by_method))
+        _shade(axes, run, recording, list(by_method))
         axes.set_ylabel(what)
     grid[-1].set_xlabel("time [s]")
     handles = [
@@ -119,17 +119,17 @@ def _drawn(run: Run, curves: dict[str, dict[str, Array]], what: str, ink: Ink) -
     return figure
 
 
-def _shade(axes: Axes, run: Run, sequence: str, methods: list[str]) -> None:
+def _shade(axes: Axes, run: Run, recording: str, methods: list[str]) -> None:
     """A strip below zero for each method that was lost, in its colour."""
     top = axes.get_ylim()[1]
     lost = [
         (method, losses.stretches())
         for method in methods
-        if (losses := run.records[method][sequence].losses) is not None and losses.lost.any()
+        if (losses := run.records[method][recording].losses) is not None and losses.lost.any()
     ]
     strip = 0.07 * top
     for row, (method, stretches) in enumerate(lost):
-        style, fps = run.style(method), run.records[method][sequence].fps
+        style, fps = run.style(method), run.records[method][recording].fps
         for first, end in stretches:
             span = (first - 0.5) / fps, (end - first) / fps
             axes.broken_barh([span], (-(row + 1.0) * strip, 0.8 * strip), color=style.colour,

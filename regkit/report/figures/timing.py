@@ -15,20 +15,20 @@ if TYPE_CHECKING:
 
 
 def timing_split(run: Run) -> Plot | None:
-    """The mean time of a frame, split into observing and registering."""
+    """The mean time of a frame, split into preprocessing and registering."""
     rows: list[tuple[str, float, float, float]] = []
-    for method, by_sequence in run.records.items():
-        records = list(by_sequence.values())
+    for method, by_recording in run.records.items():
+        records = list(by_recording.values())
         if not records:
             continue
-        observing = np.concatenate([record.observing for record in records])
+        preprocessing = np.concatenate([record.preprocessing for record in records])
         seconds = np.concatenate([record.seconds for record in records])
         evaluations = np.concatenate([record.evaluations for record in records])
         rows.append(
             (
                 method,
-                1000.0 * float(observing.mean()),
-                1000.0 * float((seconds - observing).mean()),
+                1000.0 * float(preprocessing.mean()),
+                1000.0 * float((seconds - preprocessing).mean()),
                 float(evaluations.mean()),
             )
         )
@@ -48,7 +48,7 @@ def timing_split(run: Run) -> Plot | None:
         caption=caption,
         alt=f"Stacked horizontal bars. {caption} The numbers are in timing.csv.",
         draw=draw,
-        columns=["method", "observing [ms]", "registering [ms]", "evaluations per frame"],
+        columns=["method", "preprocessing [ms]", "registering [ms]", "evaluations per frame"],
         rows=rows,
     )
 
@@ -58,15 +58,21 @@ def _drawn(run: Run, rows: list[tuple[str, float, float, float]], ink: Ink) -> F
 
     figure = canvas(ink, 0.95 + 0.3 * len(rows))
     axes = styled(figure.add_subplot(), ink, grid="x")
-    widest = max(observing + registering for _, observing, registering, _ in rows)
-    for place, (method, observing, registering, evaluations) in enumerate(rows):
+    widest = max(preprocessing + registering for _, preprocessing, registering, _ in rows)
+    for place, (method, preprocessing, registering, evaluations) in enumerate(rows):
         style = run.style(method)
-        axes.barh(place, observing, height=0.6, color=style.colour, alpha=0.4, linewidth=0)
+        axes.barh(place, preprocessing, height=0.6, color=style.colour, alpha=0.4, linewidth=0)
         axes.barh(
-            place, registering, left=observing, height=0.6, color=style.colour, hatch=style.hatch,
-            edgecolor=ink.paper, linewidth=0,
-        )  # fmt: skip
-        total = observing + registering
+            place,
+            registering,
+            left=preprocessing,
+            height=0.6,
+            color=style.colour,
+            hatch=style.hatch,
+            edgecolor=ink.paper,
+            linewidth=0,
+        )
+        total = preprocessing + registering
         # Methods of other libraries do not count them.
         counted = f", {_rounded(evaluations)} evaluations" if evaluations else ""
         told = f"{_rounded(total)} ms{counted}"
@@ -79,7 +85,7 @@ def _drawn(run: Run, rows: list[tuple[str, float, float, float]], ink: Ink) -> F
     axes.tick_params(axis="y", length=0)
     axes.set_xlabel("time of a frame [ms]")
     handles = [
-        Patch(facecolor=ink.text, alpha=0.35, label="observing"),
+        Patch(facecolor=ink.text, alpha=0.35, label="preprocessing"),
         Patch(facecolor=ink.text, label="registering"),
     ]
     legend_above(figure, ink, handles)

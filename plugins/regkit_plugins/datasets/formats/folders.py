@@ -1,6 +1,6 @@
-"""The folder format of recorded sequences, common to depth images and clouds.
+"""The folder format of recorded recordings, common to depth images and clouds.
 
-my_sequence/
+my_recording/
 sequence.yaml      name, fps, depth_scale, source, licence
 camera.json        intrinsics (depth images)
 depth/000000.png   or clouds/000000.ply; numbered without gaps
@@ -19,18 +19,18 @@ from pydantic import Field
 
 from regkit.config.document import Document
 from regkit.config.model import Model
-from regkit.interfaces import Sequence
+from regkit.interfaces import Recording
 from regkit.observation import Truth
 from regkit.system.errors import DataError, RegkitError
 
 Positive = Annotated[float, Field(gt=0.0)]
 
 
-class SequenceDescription(Model):
+class RecordingDescription(Model):
     """What ``sequence.yaml`` holds."""
 
     name: Annotated[str, Field(pattern=r"^\w[\w. -]*$")] | None = None
-    """Name of the sequence; that of its folder without it."""
+    """Name of the recording; that of its folder without it."""
     fps: Positive = 30.0
     """Frames per second."""
     depth_scale: Positive = 1000.0
@@ -41,13 +41,13 @@ class SequenceDescription(Model):
     """What may be done with them."""
 
     @classmethod
-    def read(cls, folder: Path) -> SequenceDescription:
-        """The description of a sequence's folder."""
+    def read(cls, folder: Path) -> RecordingDescription:
+        """The description of a recording's folder."""
         return Document.read(folder / "sequence.yaml").validated(cls)
 
 
-def sequence_folders(root: Path, content: str) -> list[Path]:
-    """``root`` itself if it is one sequence, or the sequences in it; each has a ``content`` folder.
+def recording_folders(root: Path, content: str) -> list[Path]:
+    """``root`` itself if it is a recording, or the recordings in it; each has a ``content`` folder.
 
     Raises:
         DataError: If there is none.
@@ -59,26 +59,26 @@ def sequence_folders(root: Path, content: str) -> list[Path]:
     folders = sorted(folder.parent for folder in root.glob(f"*/{content}") if folder.is_dir())
     if not folders:
         raise DataError(
-            f"no sequence here: neither the folder nor one in it has a folder '{content}/' "
+            f"no recording here: neither the folder nor one in it has a folder '{content}/' "
             "beside a sequence.yaml",
             place=str(root),
         )
     return folders
 
 
-def sequences_in(
+def recordings_in(
     root: Path,
     content: str,
-    read: Callable[[Path], Sequence],
+    read: Callable[[Path], Recording],
     wanted: Callable[[str], bool],
-) -> list[Sequence]:
-    """What ``read`` makes of each sequence's folder; a damaged one counts only if it is wanted.
+) -> list[Recording]:
+    """What ``read`` makes of each recording's folder; a damaged one counts only if it is wanted.
 
     Raises:
         DataError: If there is none, or one that is wanted is damaged.
     """
     found = []
-    for folder in sequence_folders(root, content):
+    for folder in recording_folders(root, content):
         try:
             found.append(read(folder))
         except RegkitError:

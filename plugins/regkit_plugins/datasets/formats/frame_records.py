@@ -19,21 +19,21 @@ from typing import Annotated
 from pydantic import Field
 
 from regkit.config.model import InputPath
-from regkit.interfaces import Dataset, Sequence
+from regkit.interfaces import Dataset, Recording
 from regkit.system.errors import DataError
 from regkit_plugins.datasets.formats.axes import Axes
 from regkit_plugins.datasets.formats.record import Record, RecordFile
-from regkit_plugins.datasets.formats.record_sequence import RecordSequence
+from regkit_plugins.datasets.formats.record_recording import RecordRecording
 from regkit_plugins.datasets.formats.subjects import SubjectPattern, subject_of
 
 
 class FrameRecords(Dataset, ABC):
-    """Files of frame records, each a sequence."""
+    """Files of frame records, each a recording."""
 
     root: InputPath
     """The folder that holds the files."""
     files: str
-    """Which files of the folder are sequences, as a pattern with ``*``."""
+    """Which files of the folder are recordings, as a pattern with ``*``."""
     subjects: SubjectPattern | None
     """A regular expression whose one group finds the subject in a file's name."""
     record: Record
@@ -43,26 +43,26 @@ class FrameRecords(Dataset, ABC):
     fps: Annotated[float, Field(gt=0.0)]
     """Frames per second."""
     camera: bool = True
-    """Fit a pinhole camera to the grid of points; without it the frames are mere clouds."""
+    """Evaluation a pinhole camera to the grid of points; without it the frames are mere clouds."""
     foreground: Annotated[float, Field(gt=0.0)] | None = None
-    """Keep only what is so much nearer [m] than the farthest that its pixel saw in the sequence.
+    """Keep only what is so much nearer [m] than the farthest that its pixel saw in the recording.
     It needs people who leave every place where they stood; everything is kept without it."""
 
-    def found(self) -> list[Sequence]:
-        """A sequence for each file."""
+    def found(self) -> list[Recording]:
+        """A recording for each file."""
         files = sorted(path for path in self.root.glob(self.files) if path.is_file())
         if not files:
             raise DataError(
-                f"no sequence here: no file is called like '{self.files}' (dataset.files)",
+                f"no recording here: no file is called like '{self.files}' (dataset.files)",
                 place=str(self.root),
             )
         wanted = [path for path in files if self.wanted(path.stem)]
         # If none is, all are told, so that a misspelt name can be set right.
-        return [self._sequence(path) for path in wanted or files]
+        return [self._recording(path) for path in wanted or files]
 
-    def _sequence(self, path: Path) -> Sequence:
+    def _recording(self, path: Path) -> Recording:
         file = RecordFile.of(path, self.record)
-        return RecordSequence(
+        return RecordRecording(
             name=path.stem,
             fps=self.fps,
             length=min(file.length, self.frames or file.length),

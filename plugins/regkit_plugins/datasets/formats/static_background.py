@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from regkit.system.arrays import Array
 
 SAMPLES = 60
-"""How many frames of a sequence tell its background."""
+"""How many frames of a recording tell its background."""
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class StaticBackground:
 
     @classmethod
     def of(cls, depth_of: Callable[[int], Array], length: int, margin: float) -> StaticBackground:
-        """The background of a sequence.
+        """The background of a recording.
 
         Args:
             depth_of: The depth image (H, W) [m] of a frame.

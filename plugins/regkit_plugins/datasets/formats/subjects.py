@@ -1,4 +1,4 @@
-"""Who is seen in a sequence, as its name tells."""
+"""Who is seen in a recording, as its name tells."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ def _of_one_group(pattern: str) -> str:
 
 
 SubjectPattern = Annotated[str, AfterValidator(_of_one_group)]
-"""A regular expression whose only group is the subject's name within a sequence's."""
+"""A regular expression whose only group is the subject's name within a recording's."""
 
 
 def subject_of(name: str, pattern: SubjectPattern | None) -> str | None:
-    """Who is seen in the sequence ``name``; None if the pattern is not found in it."""
+    """Who is seen in the recording ``name``; None if the pattern is not found in it."""
     found = re.search(pattern, name) if pattern else None
     return found[1] if found else None

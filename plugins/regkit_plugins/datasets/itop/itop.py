@@ -9,8 +9,8 @@ from pydantic import Field
 
 from regkit.config.model import InputPath
 from regkit.geometry.camera import Camera
-from regkit.interfaces import Dataset, Sequence
-from regkit_plugins.datasets.itop.sequence import ItopFiles, ItopSequence
+from regkit.interfaces import Dataset, Recording
+from regkit_plugins.datasets.itop.recording import ItopFiles, ItopRecording
 
 CAMERA = Camera(width=320, height=240, fx=1 / 0.0035, fy=1 / 0.0035, cx=160.0, cy=120.0)
 """The nominal camera that relates the joints in metres to those in pixels."""
@@ -27,7 +27,7 @@ class Itop(Dataset):
     right, y *up*, z forward. Right and left are the person's own. Not verified is that
     the images are no mirror images (``mirrored``), and the rate (``fps``).
 
-    The frames of all people follow each other in one file; a sequence is a run of one person's
+    The frames of all people follow each other in one file; a recording is a run of one person's
     frames whose numbers follow each other, and is called after the person and its first frame:
     ``02_00143``.
     """
@@ -45,19 +45,19 @@ class Itop(Dataset):
     frames that people approved (``is_valid``), and the others are then left out; with the
     background kept they are in, and their joints are not scored."""
     gap: Annotated[int, Field(ge=1)] = 1
-    """By how much the frames' numbers may grow within a sequence."""
+    """By how much the frames' numbers may grow within a recording."""
     mirrored: bool = False
     """Whether images and joints are stored as in a mirror, and must be turned round."""
     fps: Annotated[float, Field(gt=0.0)] = 30.0
     """Frames per second."""
 
-    def found(self) -> list[Sequence]:
-        """A sequence for each run of frames of one person."""
+    def found(self) -> list[Recording]:
+        """A recording for each run of frames of one person."""
         stem = f"ITOP_{self.view}_{self.split}"
         files = ItopFiles(self._file(f"{stem}_depth_map.h5"), self._file(f"{stem}_labels.h5"))
         runs = files.runs(valid_only=self.background == "dropped", gap=self.gap)
         return [
-            ItopSequence(
+            ItopRecording(
                 name=f"{run.person}_{run.number:05d}",
                 fps=self.fps,
                 length=min(len(run.indices), self.frames or len(run.indices)),

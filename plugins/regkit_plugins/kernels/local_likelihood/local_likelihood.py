@@ -37,14 +37,14 @@ class LocalLikelihood(Kernel):
     """Standard deviation of a data Gaussian along the surface's normal, as a part of that in the
     surface; 1 makes it round."""
 
-    def against(
-        self, observation: Observation, start: Placed[Gaussians], *, blur: float = 0.0
-    ) -> LocalLikelihoodSimilarity:
+    def bind(
+        self, observation: Observation, start: Placed[Gaussians], *, smoothing: float = 0.0
+    ) -> BoundLocalLikelihood:
         """Bind the kernel to a frame's data, with the neighbours of the start pose."""
-        return LocalLikelihoodSimilarity(self, observation, start, blur)
+        return BoundLocalLikelihood(self, observation, start, smoothing)
 
 
-class LocalLikelihoodSimilarity(Similarity):
+class BoundLocalLikelihood(Similarity):
     """The energy -sum_j w_j log(sum_i c_i |S|^(-1/2) exp(-1/2 q^T S^-1 q) + c_0).
 
     Here q = y_j - m_i and S = C_i + D_j; j runs over the data, i over the neighbours of j. With
@@ -61,7 +61,7 @@ class LocalLikelihoodSimilarity(Similarity):
         kernel: LocalLikelihood,
         observation: Observation,
         start: Placed[Gaussians],
-        blur: float,
+        smoothing: float,
     ) -> None:
         from scipy.spatial import KDTree
 
@@ -70,7 +70,7 @@ class LocalLikelihoodSimilarity(Similarity):
         directions = observation.normals
         if directions is None:
             directions = normals(observation.points)
-        variances = observation.variances + blur**2
+        variances = observation.variances + smoothing**2
         self._covariances = flattened(variances, directions, kernel.flatness)
         near = min(kernel.neighbours, len(start))
         _, neighbours = KDTree(start.centres).query(self._points, near)
@@ -84,7 +84,7 @@ class LocalLikelihoodSimilarity(Similarity):
         energy, wrenches, blocks, _ = self._mixture(placed, curvature)
         return Response(energy, wrenches, blocks if curvature else None)
 
-    def explained(self, placed: Placed[Gaussians]) -> Array:
+    def inlier_probability(self, placed: Placed[Gaussians]) -> Array:
         """The share of each point that is no outlier's, (N,)."""
         return self._mixture(placed, curvature=False)[3]
 

@@ -35,7 +35,7 @@ class Matches:
     lost: float
 
 
-class MatchingSimilarity(Similarity):
+class BoundMatching(Similarity):
     """A matching kernel bound to a frame.
 
     The residual r of a pair, with the normal n and the way q from the surfel to the point, is
@@ -45,7 +45,7 @@ class MatchingSimilarity(Similarity):
         kernel: Its options.
         observation: The data.
         start: The surfels in the start pose; what is hidden there takes no part.
-        blur: Standard deviation [m] that widens the loss.
+        smoothing: Standard deviation [m] that widens the loss.
         point_share: t; with one there is no need of normals.
         normals: Those of the data, (N, 3), to be taken instead of the surfels'.
     """
@@ -55,7 +55,7 @@ class MatchingSimilarity(Similarity):
         kernel: MatchingKernel,
         observation: Observation,
         start: Placed[Surfels],
-        blur: float,
+        smoothing: float,
         *,
         point_share: float,
         normals: Array | None = None,
@@ -72,9 +72,11 @@ class MatchingSimilarity(Similarity):
                 self._facing = np.where(away[:, None], -self._facing, self._facing)
         self._point_share, self._normals = point_share, normals
         self._shown = visible(start) if self._oriented else np.arange(len(start))
-        self._cloud = cKDTree(observation.points) if kernel.way_back > 0.0 else None
-        self._loss = self._bound_loss(float(np.sqrt(observation.variances.mean())), start, blur)
-        self._reach = kernel.reach * self._loss.scale
+        self._cloud = cKDTree(observation.points) if kernel.reverse_weight > 0.0 else None
+        self._loss = self._bound_loss(
+            float(np.sqrt(observation.variances.mean())), start, smoothing
+        )
+        self._max_distance = kernel.max_correspondence_distance * self._loss.scale
         self._fixed = self._matched(start) if kernel.matches == "fixed" else None
 
     def __call__(self, placed: Placed[Surfels], *, curvature: bool = False) -> Response:
@@ -82,7 +84,7 @@ class MatchingSimilarity(Similarity):
         matches = self._matched(placed) if self._fixed is None else self._fixed
         offsets, normals = self._offsets(placed, matches.points, matches.surfels)
         sizes = self._sizes(offsets, normals)
-        limit = self._loss.values(np.array([self._reach]))[0]
+        limit = self._loss.values(np.array([self._max_distance]))[0]
         energy = matches.weights @ self._loss.values(sizes) + matches.lost * limit
         wrenches, blocks = pulled_surfels(
             matches.surfels,
@@ -95,15 +97,15 @@ class MatchingSimilarity(Similarity):
         )
         return Response(float(energy), wrenches, blocks if curvature else None)
 
-    def explained(self, placed: Placed[Surfels]) -> Array:
+    def inlier_probability(self, placed: Placed[Surfels]) -> Array:
         """By how much each point counts for its partner's, (N,); nothing where it has none."""
         found = self._partners(placed)
         offsets, normals = self._offsets(placed, found.points, found.surfels)
-        explained = np.zeros(len(self._points))
-        explained[found.points] = self._loss.shares(self._sizes(offsets, normals))
-        return explained
+        probability = np.zeros(len(self._points))
+        probability[found.points] = self._loss.inlier_probability(self._sizes(offsets, normals))
+        return probability
 
-    def _bound_loss(self, deviation: float, start: Placed[Surfels], blur: float) -> Loss:
+    def _bound_loss(self, deviation: float, start: Placed[Surfels], smoothing: float) -> Loss:
         """The loss, for data of a standard deviation [m]."""
         robust, noise = self._kernel.robust, self._kernel.noise
         if robust.scale is None and noise is not None:
@@ -113,7 +115,7 @@ class MatchingSimilarity(Similarity):
             _, nearest = self._nearest(start, np.inf)
             ways = self._offsets(start, np.arange(len(nearest)), self._shown[nearest])
             residuals = self._sizes(*ways)
-        return robust.bound(residuals, least=deviation, blur=blur)
+        return robust.bound(residuals, least=deviation, smoothing=smoothing)
 
     def _matched(self, placed: Placed[Surfels]) -> Matches:
         """The pairs, from the data and, where it is asked for, from the surfels."""
@@ -121,11 +123,11 @@ class MatchingSimilarity(Similarity):
         if self._cloud is None:
             return found
         weights = placed.primitives.weights[self._shown]
-        weights = self._kernel.way_back * weights / weights.sum()
+        weights = self._kernel.reverse_weight * weights / weights.sum()
         distances, points = self._cloud.query(
-            placed.centres[self._shown], distance_upper_bound=self._reach
+            placed.centres[self._shown], distance_upper_bound=self._max_distance
         )
-        near = np.asarray(distances) < self._reach
+        near = np.asarray(distances) < self._max_distance
         return Matches(
             np.concatenate([found.points, np.asarray(points)[near]]),
             np.concatenate([found.surfels, self._shown[near]]),
@@ -135,8 +137,8 @@ class MatchingSimilarity(Similarity):
 
     def _partners(self, placed: Placed[Surfels]) -> Matches:
         """The nearest visible surfel of each point, if it is near and faces alike."""
-        distances, nearest = self._nearest(placed, self._reach)
-        points = np.flatnonzero(distances < self._reach)
+        distances, nearest = self._nearest(placed, self._max_distance)
+        points = np.flatnonzero(distances < self._max_distance)
         surfels = self._shown[nearest[points]]
         if self._facing is not None and self._kernel.angle_deg is not None:
             alike = (self._facing[points] * placed.axes[surfels, :, 2]).sum(axis=1)

@@ -9,7 +9,7 @@ from pydantic import Field
 from regkit.observation import Observation
 from regkit.primitives import Placed
 from regkit.primitives.surfels import Surfels
-from regkit_plugins.kernels.point_to_plane.correspondences import MatchingSimilarity
+from regkit_plugins.kernels.point_to_plane.correspondences import BoundMatching
 from regkit_plugins.kernels.point_to_plane.matching import MatchingKernel, given_normals
 
 
@@ -27,20 +27,20 @@ class PointToPlane(MatchingKernel):
 
     normals: Literal["model", "data"] = "model"
     """Whose planes: those of the surfels, which turn with their segments, or those of the data,
-    which the observer has to give."""
+    which the preprocessor has to give."""
     point_share: Annotated[float, Field(ge=0.0, le=1.0)] = 0.1
     """Share of the squared distance to the point itself in that to the plane, which keeps ends of
     limbs where they are; with one it is point_to_point."""
 
-    def against(
-        self, observation: Observation, start: Placed[Surfels], *, blur: float = 0.0
-    ) -> MatchingSimilarity:
+    def bind(
+        self, observation: Observation, start: Placed[Surfels], *, smoothing: float = 0.0
+    ) -> BoundMatching:
         """Bind the kernel to a frame's data.
 
         Raises:
             ConfigError: If the data's normals are needed, and there are none.
         """
         normals = given_normals(observation, "normals") if self.normals == "data" else None
-        return MatchingSimilarity(
-            self, observation, start, blur, point_share=self.point_share, normals=normals
+        return BoundMatching(
+            self, observation, start, smoothing, point_share=self.point_share, normals=normals
         )

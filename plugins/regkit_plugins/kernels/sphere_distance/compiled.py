@@ -130,7 +130,7 @@ def residuals_and_rows(
 
 
 @compiled
-def gathered_rows(
+def accumulated_rows(
     owners: Indices, residuals: Array, weights: Array, rows: Array, count: int
 ) -> tuple[Array, Array]:
     """Over each capsule's points, sum w r J (K, 6), and sum w J J^T (K, 6, 6)."""

@@ -12,7 +12,7 @@ from regkit.primitives import Placed, Primitives, TaperedCapsules
 from regkit.registration.robust import Robust
 from regkit.system.arrays import Array, Indices
 from regkit_plugins.kernels.sphere_distance.compiled import (
-    gathered_rows,
+    accumulated_rows,
     nearest_capsules,
     residuals_and_rows,
 )
@@ -40,14 +40,14 @@ class SphereDistance(Kernel):
     """Whether a point that is nearer to the back of a primitive, which the camera cannot have seen,
     is held against the outline of its front; where there is no camera the whole surface counts."""
 
-    def against(
-        self, observation: Observation, start: Placed[TaperedCapsules], *, blur: float = 0.0
-    ) -> SurfaceDistances:
+    def bind(
+        self, observation: Observation, start: Placed[TaperedCapsules], *, smoothing: float = 0.0
+    ) -> BoundSphereDistance:
         """Bind the kernel to a frame's data; the loss keeps the scale of the start."""
-        return SurfaceDistances(self, observation, start, blur)
+        return BoundSphereDistance(self, observation, start, smoothing)
 
 
-class SurfaceDistances(Similarity):
+class BoundSphereDistance(Similarity):
     """The distances of one frame's points.
 
     For a point at the height y along a capsule's axis and at the distance x from it, the nearest
@@ -70,7 +70,7 @@ class SurfaceDistances(Similarity):
         kernel: SphereDistance,
         observation: Observation,
         start: Placed[TaperedCapsules],
-        blur: float,
+        smoothing: float,
     ) -> None:
         self._points = observation.points
         self._weights = observation.weights / observation.weights.sum()
@@ -81,11 +81,11 @@ class SurfaceDistances(Similarity):
         self._deviation = float(np.sqrt(self._weights @ observation.variances))
         self._scale = self._deviation
         _, residuals, _ = self._residuals(start)
-        self._loss = kernel.robust.bound(residuals, least=self._deviation, blur=blur)
+        self._loss = kernel.robust.bound(residuals, least=self._deviation, smoothing=smoothing)
         self._scale = self._loss.scale
         self._constant = float(np.log(self._scale / self._deviation))
 
-    def explained(self, placed: Placed[TaperedCapsules]) -> Array | None:
+    def inlier_probability(self, placed: Placed[TaperedCapsules]) -> Array | None:
         """How far each point is taken for the body's own, (N,); None by squares, which cannot tell.
 
         It is the share that the robust loss leaves of the point's pull. An estimated scale is that
@@ -93,14 +93,14 @@ class SurfaceDistances(Similarity):
         """
         _, residuals, _ = self._residuals(placed)
         loss = self._robust.bound(residuals, least=self._deviation)
-        return loss.shares(residuals) if np.isfinite(loss.tuning) else None
+        return loss.inlier_probability(residuals) if np.isfinite(loss.tuning) else None
 
     def __call__(self, placed: Placed[TaperedCapsules], *, curvature: bool = False) -> Response:
         """The energy, the exact wrenches and the Gauss-Newton blocks, sum w J J^T."""
         owners, residuals, rows = self._residuals(placed)
         costs = self._loss.values(residuals) + self._surprise[owners]
         weights = self._weights * self._loss.weights(residuals)
-        wrenches, blocks = gathered_rows(owners, residuals, weights, rows, len(placed))
+        wrenches, blocks = accumulated_rows(owners, residuals, weights, rows, len(placed))
         energy = float(self._weights @ costs) + self._constant
         return Response(energy, wrenches, blocks if curvature else None)
 

@@ -11,7 +11,15 @@ from pydantic import Field, model_validator
 
 from regkit.body import Body
 from regkit.gaussians.cloud_shape import CloudShape
-from regkit.interfaces import Fit, Kernel, Method, Registered, Registrar, ShapeModel, Solver
+from regkit.interfaces import (
+    Evaluation,
+    Kernel,
+    Method,
+    Registrar,
+    RegistrationResult,
+    ShapeModel,
+    Solver,
+)
 from regkit.observation import Observation
 from regkit.primitives import Gaussians, Placed
 from regkit.registration.coordinates import TangentCoordinates
@@ -26,8 +34,8 @@ Part = Annotated[float, Field(gt=0.0)]
 class CoarseToFine(Method):
     """A body's surface points against a cloud, from few wide Gaussians to many narrow ones.
 
-    At each resolution both are thinned to one point in a voxel, each of which is a Gaussian some
-    voxels wide. The energy is made small there, the neighbours being searched anew after each
+    At each resolution both are downsampled to one point in a voxel, and each point is a Gaussian
+    some voxels wide. The energy is made small there, the neighbours being searched anew after each
     solution, and the pose found begins the next resolution. The last one takes all points.
     """
 
@@ -63,7 +71,7 @@ class CoarseToFine(Method):
         self.kernel.check_shape(self.shape)
         return self
 
-    def prepare(self, body: Body) -> CoarseToFineRegistrar:
+    def bind(self, body: Body) -> BoundCoarseToFine:
         """Make Gaussians of the body's surface at every resolution.
 
         Raises:
@@ -78,7 +86,7 @@ class CoarseToFine(Method):
             count=self.resolutions,
             width=self.width,
         )
-        return CoarseToFineRegistrar(self, body, levels[-1].primitives, levels)
+        return BoundCoarseToFine(self, body, levels[-1].primitives, levels)
 
 
 @dataclass(frozen=True)
@@ -87,7 +95,7 @@ class _Settled:
 
     pose: Pose
     energy: float
-    explained: Array
+    inlier_probability: Array
     converged: bool
     iterations: int
     evaluations: int
@@ -95,7 +103,7 @@ class _Settled:
 
 
 @dataclass(frozen=True)
-class CoarseToFineRegistrar(Registrar):
+class BoundCoarseToFine(Registrar):
     """``CoarseToFine`` for one body.
 
     Attributes:
@@ -113,51 +121,50 @@ class CoarseToFineRegistrar(Registrar):
     def register(
         self,
         observation: Observation,
-        expected: Pose,
-        *others: Pose,
-        blurs: Sequence[float] | None = None,
-        after: Registered | None = None,
-    ) -> Registered:
-        """The pose of least energy, from resolution to resolution, from the best of the given ones.
+        candidates: Sequence[Pose],
+        *,
+        prior: Pose | None = None,
+        warm_start: RegistrationResult | None = None,
+    ) -> RegistrationResult:
+        """The pose of least energy, from resolution to resolution, from the best candidate.
 
-        With ``blurs`` only the finest resolution is used, smoothed by one after the other.
+        Neither a prior nor a warm start changes the result, for the data determine every motion.
         """
-        levels = self.levels if blurs is None else (self.levels[-1],) * len(blurs)
-        data = observations(observation, self.levels)[-len(levels) :]
-        pose = expected
-        if others:
-            pose = min((pose, *others), key=lambda one: self._energy(levels[0], data[0], one))
+        data = observations(observation, self.levels)
+        pose = candidates[0]
+        if len(candidates) > 1:
+            pose = min(candidates, key=lambda one: self._energy(self.levels[0], data[0], one))
         stages = []
-        for level, seen, blur in zip(levels, data, blurs or [0.0] * len(levels), strict=True):
-            stages.append(self._settled(level, seen, pose, blur))
+        for level, downsampled in zip(self.levels, data, strict=True):
+            stages.append(self._settled(level, downsampled, pose))
             pose = stages[-1].pose
         last = stages[-1]
-        return Registered(
+        return RegistrationResult(
             pose=pose,
             energy=last.energy,
-            explained=Fit(last.energy, last.explained).share,
+            inlier_share=Evaluation(last.energy, last.inlier_probability).inlier_share,
             converged=last.converged,
             iterations=sum(stage.iterations for stage in stages),
             evaluations=sum(stage.evaluations for stage in stages),
             message=last.message,
         )
 
-    def fit(self, observation: Observation, pose: Pose) -> Fit:
+    def evaluate(self, observation: Observation, pose: Pose) -> Evaluation:
         """The energy at the finest resolution, with the neighbours that a pose has."""
         data = observations(observation, self.levels[-1:])[-1]
         placed = self._placed(self.levels[-1], pose)
-        similarity = self.method.kernel.against(data, placed)
-        return Fit(similarity(placed).energy, _known(similarity.explained(placed)))
+        similarity = self.method.kernel.bind(data, placed)
+        return Evaluation(similarity(placed).energy, _known(similarity.inlier_probability(placed)))
 
-    def _settled(self, level: Resolution, data: Observation, pose: Pose, blur: float) -> _Settled:
+    def _settled(self, level: Resolution, data: Observation, pose: Pose) -> _Settled:
         """The pose at which a resolution comes to rest, neighbours being searched again."""
         iterations = evaluations = 0
         converged, message = False, f"it still moves after {self.method.searches} searches"
         placed = self._placed(level, pose)
         for _ in range(self.method.searches):
-            similarity = self.method.kernel.against(data, placed, blur=blur)
+            similarity = self.method.kernel.bind(data, placed)
             coordinates = TangentCoordinates(self.body.skeleton, pose)
-            problem = RegistrationProblem(coordinates, level.primitives, (similarity,))
+            problem = RegistrationProblem(coordinates, level.primitives, {"kernel": similarity})
             solution = self.method.solver.minimize(problem)
             pose = coordinates.pose(solution.x)
             iterations += solution.iterations
@@ -167,19 +174,17 @@ class CoarseToFineRegistrar(Registrar):
             if moved <= self.method.motion_tolerance * level.voxel:
                 converged, message = True, "the body came to rest"
                 break
-        explained = _known(similarity.explained(placed))
-        return _Settled(
-            pose, solution.value, explained, converged, iterations, evaluations, message
-        )
+        inliers = _known(similarity.inlier_probability(placed))
+        return _Settled(pose, solution.value, inliers, converged, iterations, evaluations, message)
 
     def _placed(self, level: Resolution, pose: Pose) -> Placed[Gaussians]:
         return level.primitives.place(self.body.place(pose).transforms)
 
     def _energy(self, level: Resolution, data: Observation, pose: Pose) -> float:
         placed = self._placed(level, pose)
-        return self.method.kernel.against(data, placed)(placed).energy
+        return self.method.kernel.bind(data, placed)(placed).energy
 
 
-def _known(explained: Array | None) -> Array:
-    """How far each point is explained; NaN where the kernel cannot tell."""
-    return np.array([np.nan]) if explained is None else explained
+def _known(inlier_probability: Array | None) -> Array:
+    """The inlier probability of each point; NaN where the kernel cannot tell."""
+    return np.array([np.nan]) if inlier_probability is None else inlier_probability

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from regkit.body import Body
-from regkit.clouds import normals, spacing, thinned
+from regkit.clouds import normals, spacing, voxel_downsampled
 from regkit.gaussians.cloud_shape import CloudShape
 from regkit.geometry.surface import SkinnedSurface
 from regkit.observation import Observation
@@ -59,10 +59,10 @@ def resolutions(
     found = []
     for index, voxel in reversed(list(enumerate(voxels))):
         if index < count - 1:
-            surface = thinned_surface(surface, float(voxel))
+            surface = voxel_downsampled_surface(surface, float(voxel))
         deviation = float(width * voxel / np.sqrt(2.0))
         thin = replace(body, surface=surface)
-        found.append(Resolution(float(voxel), deviation, shape.wide(deviation).attach(thin)))
+        found.append(Resolution(float(voxel), deviation, shape.wide(deviation).bind(thin)))
     return tuple(reversed(found))
 
 
@@ -73,13 +73,13 @@ def observations(
     points, found = observation.points, []
     for index, level in reversed(list(enumerate(levels))):
         if index < len(levels) - 1:
-            points = thinned(points, level.voxel)
+            points = voxel_downsampled(points, level.voxel)
         ones = np.ones(len(points))
         found.append(Observation(points, ones, level.width**2 * ones, normals=normals(points)))
     return tuple(reversed(found))
 
 
-def thinned_surface(surface: SkinnedSurface, voxel: float) -> SkinnedSurface:
+def voxel_downsampled_surface(surface: SkinnedSurface, voxel: float) -> SkinnedSurface:
     """One point in each voxel [m] of each segment's own frame, carried by that segment alone."""
     carrier = surface.blend.argmax(axis=1)
     vertices = np.arange(len(surface))
@@ -87,7 +87,7 @@ def thinned_surface(surface: SkinnedSurface, voxel: float) -> SkinnedSurface:
     pieces: list[Array] = []
     segments: list[Indices] = []
     for segment in np.unique(owners):
-        pieces.append(thinned(points[owners == segment], voxel))
+        pieces.append(voxel_downsampled(points[owners == segment], voxel))
         segments.append(np.full(len(pieces[-1]), segment, dtype=np.intp))
     return SkinnedSurface(
         segments=np.concatenate(segments)[:, None],

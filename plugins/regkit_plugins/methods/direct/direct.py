@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -12,35 +12,36 @@ from pydantic import Field, model_validator
 from regkit.body import Body
 from regkit.config.model import misplaced
 from regkit.interfaces import (
-    Fit,
+    Evaluation,
     JointEnergy,
     Kernel,
     Method,
-    Registered,
     Registrar,
+    RegistrationResult,
     Scene,
     ShapeModel,
-    Shares,
     Similarity,
     Solver,
     Term,
+    VisibilityWeights,
 )
 from regkit.observation import Observation
 from regkit.primitives import Primitives
 from regkit.registration.coordinates import COORDINATES, CoordinatesName
 from regkit.skeleton import Pose
 from regkit.system.errors import DataError
-from regkit_plugins.methods.direct.bound import Bound
+from regkit_plugins.methods.direct.energy import FrameEnergy
 
 HARD = 1e-6
 """By how much a pose may be beyond a hard limit [rad]: what rounding makes."""
 
-Blur = Annotated[float, Field(ge=0.0)]
+Smoothing = Annotated[float, Field(ge=0.0)]
 
 
 class Direct(Method):
     """A shape model, a kernel and a solver: the pose of least energy near the start."""
 
+    renamed: ClassVar[dict[str, str]] = {"blur": "annealing"}
     kind: Literal["direct"] = "direct"
 
     shape: ShapeModel
@@ -57,7 +58,7 @@ class Direct(Method):
     hard_limits: bool = False
     """Whether a pose beyond a joint limit is never taken. It changes no result, but a solver that
     cannot promise it is refused."""
-    blur: Annotated[tuple[Blur, ...], Field(min_length=1)] = (0.0,)
+    annealing: Annotated[tuple[Smoothing, ...], Field(min_length=1)] = (0.0,)
     """Annealing: standard deviations [m] that smooth the energy, one solution after the other.
     Beyond a limb's radius the limbs get lost."""
 
@@ -88,19 +89,19 @@ class Direct(Method):
                 )
         return self
 
-    def prepare(self, body: Body) -> DirectRegistrar:
-        """Attach the shape model to the body.
+    def bind(self, body: Body) -> BoundDirect:
+        """Make the primitives, and check what the terms ask for.
 
         Raises:
             RegkitError: If the shape model or a term cannot be used with such a body.
         """
         for term in self.terms:
             term.check(body)
-        return DirectRegistrar(self, body, self.shape.attach(body))
+        return BoundDirect(self, body, self.shape.bind(body))
 
 
 @dataclass(frozen=True)
-class DirectRegistrar(Registrar):
+class BoundDirect(Registrar):
     """``Direct`` for one body.
 
     Attributes:
@@ -116,42 +117,56 @@ class DirectRegistrar(Registrar):
     def register(
         self,
         observation: Observation,
-        expected: Pose,
-        *others: Pose,
-        blurs: Sequence[float] | None = None,
-        after: Registered | None = None,
-    ) -> Registered:
-        """The pose of least energy near the best of the given ones, through one or more blurs."""
-        iterations = evaluations = 0
-        pose = expected
-        multipliers = None if after is None else after.multipliers
-        for blur in blurs or self.method.blur:
-            bound = self._bound(observation, pose, expected, blur)
-            if others:
-                pose = min((pose, *others), key=lambda start: bound.misfit(self.body, start))
-                evaluations += 1 + len(others)
-                others = ()
+        candidates: Sequence[Pose],
+        *,
+        prior: Pose | None = None,
+        warm_start: RegistrationResult | None = None,
+    ) -> RegistrationResult:
+        """The pose of least energy near the best candidate, from smooth to sharp."""
+        annealing = self.method.annealing
+        energy, pose = self._best(observation, candidates, prior, annealing[0])
+        evaluations = len(candidates) if len(candidates) > 1 else 0
+        iterations = 0
+        multipliers = None if warm_start is None else warm_start.multipliers
+        for index, smoothing in enumerate(annealing):
+            if index:
+                energy = self._bound(observation, pose, prior or candidates[0], smoothing)
             # Bounds are the limits only where the start is within them.
             start = self.body.skeleton.limits.hinged(pose)
             coordinates = COORDINATES[self.method.coordinates](self.body.skeleton, start)
-            problem = bound.problem(coordinates, multipliers)
-            solution = self.method.solver.minimize(problem)
+            solution = self.method.solver.minimize(energy.problem(coordinates, multipliers))
             pose, multipliers = coordinates.pose(solution.x), solution.multipliers
             iterations += solution.iterations
             evaluations += solution.evaluations
         if self.method.hard_limits:
             self._check_limits(pose)
-        fit = Fit(solution.value, bound.explained(self.body, pose))
-        return Registered(
+        evaluation = Evaluation(solution.value, energy.inlier_probability(pose))
+        return RegistrationResult(
             pose=pose,
-            energy=fit.energy,
-            explained=fit.share,
+            energy=evaluation.energy,
+            inlier_share=evaluation.inlier_share,
             converged=solution.converged,
             iterations=iterations,
             evaluations=evaluations,
             message=solution.message,
             multipliers=multipliers,
         )
+
+    def _best(
+        self,
+        observation: Observation,
+        candidates: Sequence[Pose],
+        prior: Pose | None,
+        smoothing: float,
+    ) -> tuple[FrameEnergy, Pose]:
+        """The candidate of least energy, each bound at its own pose, and what it is bound to."""
+        energies = [
+            self._bound(observation, pose, prior or candidates[0], smoothing) for pose in candidates
+        ]
+        if len(candidates) == 1:
+            return energies[0], candidates[0]
+        pairs = zip(energies, candidates, strict=True)
+        return min(pairs, key=lambda pair: pair[0].similarity(pair[1]))
 
     def _check_limits(self, pose: Pose) -> None:
         """Refuse what was promised not to happen.
@@ -166,27 +181,30 @@ class DirectRegistrar(Registrar):
                 f"{np.degrees(violation):.3g} degrees, which hard_limits forbids"
             )
 
-    def fit(self, observation: Observation, pose: Pose) -> Fit:
+    def evaluate(self, observation: Observation, pose: Pose) -> Evaluation:
         """The energy in a pose, with everything bound to the frame there."""
-        bound = self._bound(observation, pose, pose, 0.0)
-        placed = bound.primitives.place(self.body.place(pose).transforms)
-        energy = sum(similarity(placed).energy for similarity in bound.similarities)
-        strain = sum(joint(pose).energy for joint in bound.joints)
-        return Fit(energy + strain, bound.explained(self.body, pose))
+        energy = self._bound(observation, pose, pose, 0.0)
+        return Evaluation(energy.total(pose), energy.inlier_probability(pose))
 
-    def _bound(self, observation: Observation, pose: Pose, expected: Pose, blur: float) -> Bound:
+    def _bound(
+        self, observation: Observation, pose: Pose, prior: Pose, smoothing: float
+    ) -> FrameEnergy:
         """The kernel and all terms bound to a frame at a pose."""
         placed = self.primitives.place(self.body.place(pose).transforms)
-        scene = Scene(self.body, observation, expected, placed)
-        effects = [term.against(scene) for term in self.method.terms]
+        scene = Scene(self.body, observation, prior, placed)
+        effects = {
+            f"terms[{index}] ({term.kind})": term.bind(scene)
+            for index, term in enumerate(self.method.terms)
+        }
         primitives = self.primitives
-        for effect in effects:
-            if isinstance(effect, Shares):
+        for effect in effects.values():
+            if isinstance(effect, VisibilityWeights):
                 primitives = replace(primitives, weights=primitives.weights * effect.factors)
         placed = replace(placed, primitives=primitives)
-        kernel = self.method.kernel.against(observation, placed, blur=blur)
-        return Bound(
+        return FrameEnergy(
+            self.body,
             primitives,
-            (kernel, *(effect for effect in effects if isinstance(effect, Similarity))),
-            tuple(effect for effect in effects if isinstance(effect, JointEnergy)),
+            self.method.kernel.bind(observation, placed, smoothing=smoothing),
+            {name: one for name, one in effects.items() if isinstance(one, Similarity)},
+            tuple(one for one in effects.values() if isinstance(one, JointEnergy)),
         )

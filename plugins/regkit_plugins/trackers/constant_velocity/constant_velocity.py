@@ -2,46 +2,47 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from regkit.interfaces import Follower, Registered, Registrar, Tracker
+from regkit.interfaces import BoundTracker, Past, Registrar, RegistrationResult, Tracker
 from regkit.observation import Observation
 from regkit.skeleton import Pose
-from regkit_plugins.trackers.constant_velocity.recovery import Recovery, Rescuer
+from regkit_plugins.trackers.constant_velocity.recovery import BoundRecovery, Recovery
 
 
 class ConstantVelocity(Tracker):
-    """Starts each frame where the last motion leads, if that explains the frame better."""
+    """Starts each frame where the last motion leads, if that pose fits the frame better."""
 
     kind: Literal["constant_velocity"] = "constant_velocity"
 
     recovery: Recovery | None = Recovery()
     """How lost limbs are found again; null for not at all."""
 
-    def follow(self, registrar: Registrar) -> Coasting:
+    def bind(self, registrar: Registrar) -> BoundConstantVelocity:
         """Prepare the recovery."""
-        rescuer = None if self.recovery is None else self.recovery.prepare(registrar)
-        return Coasting(registrar, rescuer)
+        recovery = None if self.recovery is None else self.recovery.bind(registrar)
+        return BoundConstantVelocity(registrar, recovery)
 
 
 @dataclass(frozen=True)
-class Coasting(Follower):
+class BoundConstantVelocity(BoundTracker):
     """``ConstantVelocity`` for one registrar."""
 
     registrar: Registrar
-    rescuer: Rescuer | None
+    recovery: BoundRecovery | None
 
-    def step(self, observation: Observation, past: Sequence[Registered]) -> Registered:
+    def step(self, observation: Observation, past: Past) -> RegistrationResult:
         """Register the frame from the better of the last pose and the predicted one."""
-        # What is hidden is expected to stay; it would run away if it went on as it moved last.
-        last = past[-1].pose
-        moved = [self._predicted(past[-2].pose, last)] if len(past) > 2 else []
-        found = self.registrar.register(observation, last, *moved, after=past[-1])
-        if self.rescuer is None:
+        last = past.last.pose
+        candidates = [last]
+        if past.before is not None:
+            candidates.append(self._predicted(past.before.pose, last))
+        # The prior is the last pose: a hidden limb would run away if it went on as it moved last.
+        found = self.registrar.register(observation, candidates, prior=last, warm_start=past.last)
+        if self.recovery is None:
             return found
-        return self.rescuer.checked(observation, found, past)
+        return self.recovery.checked(observation, found, past)
 
     def _predicted(self, before: Pose, last: Pose) -> Pose:
         """Where the last step leads if it is taken again, within the limits."""

@@ -10,7 +10,7 @@ from pydantic import Field
 from scipy.special import gamma
 
 from regkit.body import Body
-from regkit.geometry.rotation import between
+from regkit.geometry.rotation import rotation_between
 from regkit.interfaces import Kernel, Response, ShapeModel, Similarity
 from regkit.observation import Observation
 from regkit.primitives import SPHERE, Placed, Primitives, Volumes
@@ -59,7 +59,7 @@ class Superquadric(ShapeModel):
     girth: Annotated[float, Field(gt=0.0)] = 1.0
     """Radius as a part of the capsule's mean radius."""
 
-    def attach(self, body: Body) -> Superellipsoids:
+    def bind(self, body: Body) -> Superellipsoids:
         """One superellipsoid about each capsule's axis."""
         capsules = body.capsules
         if not len(capsules):
@@ -83,7 +83,7 @@ class Superquadric(ShapeModel):
 
 def _turned_to(way: Array) -> Array:
     """Axes (3, 3) of which the second has the direction of ``way`` (3,), if it has one."""
-    return between(np.array([0.0, 1.0, 0.0]), way) if way.any() else np.eye(3)
+    return rotation_between(np.array([0.0, 1.0, 0.0]), way) if way.any() else np.eye(3)
 
 
 class RadialDistance(Kernel):
@@ -98,11 +98,11 @@ class RadialDistance(Kernel):
     width: Annotated[float, Field(gt=0.0)] = 0.03
     """Distance beyond which a point counts for less and less [m]."""
 
-    def against(
-        self, observation: Observation, start: Placed[Any], *, blur: float = 0.0
+    def bind(
+        self, observation: Observation, start: Placed[Any], *, smoothing: float = 0.0
     ) -> RadialDistances:
         """Bind the kernel to a frame's data."""
-        return RadialDistances(observation, self.width**2 + blur**2)
+        return RadialDistances(observation, self.width**2 + smoothing**2)
 
 
 class RadialDistances(Similarity):
@@ -115,7 +115,7 @@ class RadialDistances(Similarity):
         self._points, self._square = observation.points, square
         self._weights = observation.weights / observation.weights.sum()
 
-    def explained(self, placed: Placed[Superellipsoids]) -> Array:
+    def inlier_probability(self, placed: Placed[Superellipsoids]) -> Array:
         """By how much the loss lets each point count, (N,)."""
         return np.asarray(self._square / (self._square + self._residuals(placed)[1] ** 2))
 

@@ -23,7 +23,7 @@ def of(start, end, radius) -> Superellipsoids:
     capsules = Capsules(
         np.zeros(1, dtype=np.intp), np.array([[start, end]]), np.full((1, 2), radius)
     )
-    return Superquadric().attach(Body(**{**vars(body), "capsules": capsules}))
+    return Superquadric().bind(Body(**{**vars(body), "capsules": capsules}))
 
 
 def test_ball_stays_a_ball_and_its_radial_distance_is_the_distance():
@@ -34,7 +34,7 @@ def test_ball_stays_a_ball_and_its_radial_distance_is_the_distance():
     expected = np.linalg.norm(points - [0.1, 0.0, 0.0], axis=1) - 0.2
     for point, distance in zip(points, expected, strict=True):
         data = Observation(point[None], np.ones(1), np.full(1, 1e-4))
-        energy = RadialDistance(width=0.1).against(data, placed)(placed).energy
+        energy = RadialDistance(width=0.1).bind(data, placed)(placed).energy
         assert energy == pytest.approx(0.5 * np.log1p((distance / 0.1) ** 2))
 
 
@@ -42,7 +42,7 @@ def test_point_at_a_centre_is_as_deep_as_the_solid_is_wide():
     solid = of([0.1, 0.0, 0.0], [0.4, 0.0, 0.0], 0.2)
     placed = solid.place(np.eye(4)[None])
     data = Observation(placed.centres.copy(), np.ones(1), np.full(1, 1e-4))
-    answer = RadialDistance(width=0.1).against(data, placed)(placed, curvature=True)
+    answer = RadialDistance(width=0.1).bind(data, placed)(placed, curvature=True)
     assert answer.energy == pytest.approx(0.5 * np.log1p(2.0**2))
     assert np.isfinite(answer.wrenches).all()
 
@@ -58,13 +58,13 @@ def test_volume_is_that_of_the_capsule(length, random):
 
 
 def test_surface_points_lie_on_the_surface():
-    solids = Superquadric().attach(linkage())
+    solids = Superquadric().bind(linkage())
     values, _ = gauge(solids.surface_points(), solids.scales[:, None], solids.exponents[:, None])
     np.testing.assert_allclose(values, 1.0)
 
 
 def test_girth_widens_and_does_not_lengthen():
-    thin, thick = Superquadric().attach(linkage()), Superquadric(girth=2.0).attach(linkage())
+    thin, thick = Superquadric().bind(linkage()), Superquadric(girth=2.0).bind(linkage())
     np.testing.assert_allclose(thick.scales, thin.scales * [2.0, 1.0, 2.0])
 
 

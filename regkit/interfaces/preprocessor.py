@@ -1,4 +1,4 @@
-"""Observers: from a frame to the data that a kernel compares with."""
+"""Preprocessors: from a frame to the data that a kernel compares with."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from regkit.config.plugin import Plugin
 from regkit.observation import Frame, Observation
 
 
-class Observer(Plugin, ABC):
+class Preprocessor(Plugin, ABC):
     """Makes a sum of Gaussians of a frame's points."""
 
-    group = "regkit.observers"
+    group = "regkit.preprocessors"
 
     @abstractmethod
-    def observe(self, frame: Frame) -> Observation:
+    def preprocess(self, frame: Frame) -> Observation:
         """The frame as data.
 
         Raises:

@@ -19,7 +19,7 @@ MARK = ".running"
 
 
 @dataclass(frozen=True)
-class Hold:
+class FolderLock:
     """A run's claim on its results folder.
 
     The operating system ends it with the process, so that a killed run never stands in the way.
@@ -43,7 +43,7 @@ class Hold:
 
 
 @contextmanager
-def held(folder: Path) -> Iterator[Hold]:
+def locked(folder: Path) -> Iterator[FolderLock]:
     """A results folder as this run's alone.
 
     It is made if it is not there, and then is gone again if nothing was written to it.
@@ -52,16 +52,16 @@ def held(folder: Path) -> Iterator[Hold]:
         ConfigError: If another run is writing there.
         DataError: If it cannot be written to.
     """
-    hold, new = Hold(folder.absolute(), uuid4().hex), not folder.exists()
+    lock, new = FolderLock(folder.absolute(), uuid4().hex), not folder.exists()
     with _told(folder):
         folder.mkdir(parents=True, exist_ok=True)
-        descriptor = _locked(folder)
+        descriptor = _lock_file(folder)
     try:
-        claim = {"run": hold.run, "process": os.getpid(), "machine": platform.node()}
+        claim = {"run": lock.run, "process": os.getpid(), "machine": platform.node()}
         with _told(folder):
             os.truncate(descriptor, 0)
             os.write(descriptor, json.dumps(claim).encode())
-        yield hold
+        yield lock
     finally:
         with suppress(OSError):
             (folder / MARK).unlink()
@@ -82,7 +82,7 @@ def _told(folder: Path) -> Iterator[None]:
         ) from None
 
 
-def _locked(folder: Path) -> int:
+def _lock_file(folder: Path) -> int:
     """An open descriptor of the mark, which nobody else has locked."""
     while True:
         descriptor = os.open(folder / MARK, os.O_RDWR | os.O_CREAT, 0o644)

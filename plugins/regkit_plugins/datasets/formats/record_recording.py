@@ -1,4 +1,4 @@
-"""A sequence of frame records."""
+"""A recording of frame records."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from regkit.interfaces import Sequence
+from regkit.interfaces import Recording
 from regkit.observation import Frame, Truth
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
@@ -19,7 +19,7 @@ from regkit_plugins.datasets.formats.static_background import StaticBackground
 
 
 @dataclass(frozen=True)
-class RecordSequence(Sequence):
+class RecordRecording(Recording):
     """One file of records.
 
     Attributes:

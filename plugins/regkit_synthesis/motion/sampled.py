@@ -14,7 +14,7 @@ from regkit_synthesis.motion.motion import Motion, Rig, SourcePose
 
 
 @dataclass(frozen=True)
-class Recording(Motion):
+class SampledMotion(Motion):
     """A recorded motion, interpolated along the shortest rotations.
 
     Attributes:
@@ -57,24 +57,24 @@ class Recording(Motion):
         """The mean velocity of the hips (3,) along the ground [m/s]."""
         return np.asarray((self.roots[-1] - self.roots[0]) / self.duration * [1.0, 1.0, 0.0])
 
-    def bridged(self, row: int) -> Recording:
-        """The recording without the jump between ``row`` and the next.
+    def bridged(self, row: int) -> SampledMotion:
+        """The sampled motion without the jump between ``row`` and the next.
 
         Some are joined from parts that do not quite meet. Both sides are bent towards each other,
         so that this step becomes the mean of its neighbours.
         """
         return replace(self, joints=mending.bridged(self.times, self.joints, row))
 
-    def smoothed(self) -> Recording:
-        """The recording with every rotation drawn halfway to the mean of those beside it."""
+    def smoothed(self) -> SampledMotion:
+        """The sampled motion with every rotation drawn halfway to the mean of those beside it."""
         return replace(self, joints=mending.smoothed(self.joints))
 
-    def closed(self) -> Recording:
-        """The recording with its rotations bent so that they end as they begin."""
+    def closed(self) -> SampledMotion:
+        """The sampled motion with its rotations bent so that they end as they begin."""
         return replace(self, joints=mending.closed(self.times, self.joints))
 
-    def looped(self) -> Recording:
-        """The recording bent so that it ends as it begins, at the same height, and goes on.
+    def looped(self) -> SampledMotion:
+        """The sampled motion bent so that it ends as it begins, at the same height, and goes on.
 
         For one that was not recorded to loop, but comes back to nearly its first pose.
         """
@@ -83,8 +83,8 @@ class Recording(Motion):
         return replace(self.closed(), roots=roots, loops=True)
 
 
-def recorded(rig: Rig, times: Array, roots: Array, turns: Array) -> Recording:
-    """A recording that does not loop, from rotations in the ground's axes.
+def recorded(rig: Rig, times: Array, roots: Array, turns: Array) -> SampledMotion:
+    """A sampled motion that does not loop, from rotations in the ground's axes.
 
     Args:
         rig: The J joints.
@@ -98,4 +98,4 @@ def recorded(rig: Rig, times: Array, roots: Array, turns: Array) -> Recording:
         if parent:
             before = turns[:, names.index(parent)]
             relative[:, index] = np.swapaxes(before, -1, -2) @ turns[:, index]
-    return Recording(rig, False, times, roots, from_matrix(relative))
+    return SampledMotion(rig, False, times, roots, from_matrix(relative))

@@ -1,20 +1,20 @@
-"""Observers: what of a frame they keep, and the Gaussians that they make of it."""
+"""Preprocessors: what of a frame they keep, and the Gaussians that they make of it."""
 
 import numpy as np
 import pytest
 from pydantic import ValidationError
 
 from regkit.geometry.camera import Camera
-from regkit.interfaces import Observer
+from regkit.interfaces import Preprocessor
 from regkit.observation import Frame
 from regkit.observation.crop import Crop
 from regkit.system.errors import DataError
-from regkit_plugins.preprocessors.octree import OctreeObserver
-from regkit_plugins.preprocessors.points import PointsObserver
+from regkit_plugins.preprocessors.octree import OctreePreprocessor
+from regkit_plugins.preprocessors.points import PointsPreprocessor
 
 ANY = Crop(min_points=1)
 
-OBSERVERS = [Observer.load(kind)() for kind in Observer.available()]
+OBSERVERS = [Preprocessor.load(kind)() for kind in Preprocessor.available()]
 
 
 def frame(points, place: str | None = "some/000003.png") -> Frame:
@@ -31,7 +31,7 @@ def cloud(random) -> np.ndarray:
 
 
 def test_points_without_voxels_are_kept_as_they_are(cloud):
-    observation = PointsObserver(sigma=0.03).observe(frame(cloud))
+    observation = PointsPreprocessor(sigma=0.03).preprocess(frame(cloud))
     np.testing.assert_array_equal(observation.points, cloud)
     np.testing.assert_array_equal(observation.weights, 1.0)
     np.testing.assert_allclose(observation.variances, 0.03**2, rtol=1e-15)
@@ -39,7 +39,7 @@ def test_points_without_voxels_are_kept_as_they_are(cloud):
 
 def test_points_of_a_voxel_become_their_mean(cloud):
     voxel = 0.05
-    observation = PointsObserver(voxel=voxel, sigma=0.01).observe(frame(cloud))
+    observation = PointsPreprocessor(voxel=voxel, sigma=0.01).preprocess(frame(cloud))
     groups: dict[tuple[int, ...], list[np.ndarray]] = {}
     for point in cloud:
         groups.setdefault(tuple(np.floor(point / voxel).astype(int)), []).append(point)
@@ -53,7 +53,7 @@ def test_points_of_a_voxel_become_their_mean(cloud):
 
 def test_points_larger_voxels_leave_fewer_points(cloud):
     counts = [
-        len(PointsObserver(voxel=voxel, crop=ANY).observe(frame(cloud)).points)
+        len(PointsPreprocessor(voxel=voxel, crop=ANY).preprocess(frame(cloud)).points)
         for voxel in (0.01, 0.03, 0.1, 100.0)
     ]
     assert counts == sorted(counts, reverse=True)
@@ -62,12 +62,15 @@ def test_points_larger_voxels_leave_fewer_points(cloud):
 
 
 @pytest.mark.parametrize(
-    ("observer", "field"), [(PointsObserver(voxel=30), "voxel"), (OctreeObserver(leaf=45), "leaf")]
+    ("preprocessor", "field"),
+    [(PointsPreprocessor(voxel=30), "voxel"), (OctreePreprocessor(leaf=45), "leaf")],
 )
-def test_millimetres_for_metres_are_told(cloud, observer, field):
+def test_millimetres_for_metres_are_told(cloud, preprocessor, field):
     shifted = cloud + 100.0  # The planes through the origin cut nothing here.
-    with pytest.raises(DataError, match=rf"m is too large: .* 705 .*observer\.{field}, in metres"):
-        observer.observe(frame(shifted))
+    with pytest.raises(
+        DataError, match=rf"m is too large: .* 705 .*preprocessor\.{field}, in metres"
+    ):
+        preprocessor.preprocess(frame(shifted))
 
 
 def test_crop_keeps_what_lies_between_near_and_far(cloud):
@@ -100,57 +103,62 @@ def test_crop_near_beyond_far_is_refused(near, far):
         Crop(near=near, far=far)
 
 
-@pytest.mark.parametrize("observer", OBSERVERS, ids=lambda observer: observer.kind)
+@pytest.mark.parametrize("preprocessor", OBSERVERS, ids=lambda preprocessor: preprocessor.kind)
 class TestEveryObserver:
-    def test_observation_does_not_depend_on_the_order_of_the_points(self, observer, cloud, random):
+    def test_observation_does_not_depend_on_the_order_of_the_points(
+        self, preprocessor, cloud, random
+    ):
         def rows(points: np.ndarray) -> np.ndarray:
-            seen = observer.observe(frame(points))
+            seen = preprocessor.preprocess(frame(points))
             table = np.column_stack([seen.points, seen.weights, seen.variances])
             return table[np.lexsort(table.round(9).T)]
 
         np.testing.assert_allclose(rows(cloud), rows(random.permutation(cloud)), atol=1e-9)
 
     @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
-    def test_point_that_is_not_finite_is_refused(self, observer, cloud, value):
+    def test_point_that_is_not_finite_is_refused(self, preprocessor, cloud, value):
         cloud[41, 1] = cloud[97, 2] = value
         with pytest.raises(DataError) as caught:
-            observer.observe(frame(cloud))
+            preprocessor.preprocess(frame(cloud))
         assert str(caught.value).startswith(
             f"some/000003.png: 2 of {len(cloud)} points have a NaN or infinite coordinate, first "
             "at point 41: ["
         )
 
-    def test_empty_frame_is_refused(self, observer):
+    def test_empty_frame_is_refused(self, preprocessor):
         with pytest.raises(DataError) as caught:
-            observer.observe(frame(np.zeros((0, 3))))
+            preprocessor.preprocess(frame(np.zeros((0, 3))))
         assert str(caught.value) == "some/000003.png: the frame is empty: it has no measured point"
 
-    def test_too_few_points_are_refused(self, observer, cloud):
+    def test_too_few_points_are_refused(self, preprocessor, cloud):
         with pytest.raises(DataError) as caught:
-            observer.observe(frame(cloud[:19]))
+            preprocessor.preprocess(frame(cloud[:19]))
         assert str(caught.value) == (
             "some/000003.png: 19 of the frame's 19 points are left after cropping; at least 20 are "
-            "needed (observer.crop)"
+            "needed (preprocessor.crop)"
         )
-        assert len(observer.observe(frame(cloud[:20])).points)
+        assert len(preprocessor.preprocess(frame(cloud[:20])).points)
 
-    def test_crop_that_leaves_nothing_is_refused(self, observer, cloud):
-        cropped = observer.model_validate(
-            {"kind": observer.kind, "crop": {"far": 0.1, "behind_nearest": 0.1, "min_points": 5}}
+    def test_crop_that_leaves_nothing_is_refused(self, preprocessor, cloud):
+        cropped = preprocessor.model_validate(
+            {
+                "kind": preprocessor.kind,
+                "crop": {"far": 0.1, "behind_nearest": 0.1, "min_points": 5},
+            }
         )
         with pytest.raises(DataError, match=rf"0 of the frame's {len(cloud)} points are left"):
-            cropped.observe(frame(cloud))
+            cropped.preprocess(frame(cloud))
 
-    def test_points_of_another_shape_are_refused(self, observer):
+    def test_points_of_another_shape_are_refused(self, preprocessor):
         with pytest.raises(DataError, match=r"points have the shape \(30, 2\); they must be"):
-            observer.observe(frame(np.ones((30, 2))))
+            preprocessor.preprocess(frame(np.ones((30, 2))))
 
 
 @pytest.mark.parametrize("largest", [0, 2, 6])
 @pytest.mark.parametrize("few", [1, 2, 10])
 def test_octree_keeps_the_number_and_the_mean_of_the_points(cloud, few, largest):
     """Each point is in one leaf, whose weight is the number of its points."""
-    seen = OctreeObserver(leaf=0.05, few=few, largest=largest).observe(frame(cloud))
+    seen = OctreePreprocessor(leaf=0.05, few=few, largest=largest).preprocess(frame(cloud))
     assert seen.weights.sum() == len(cloud)
     np.testing.assert_array_equal(seen.weights, seen.weights.round())
     np.testing.assert_allclose(
@@ -160,7 +168,7 @@ def test_octree_keeps_the_number_and_the_mean_of_the_points(cloud, few, largest)
 
 def test_octree_sigma_is_half_the_side_of_a_cube_of_the_tree(cloud):
     leaf, largest = 0.05, 3
-    seen = OctreeObserver(leaf=leaf, largest=largest).observe(frame(cloud))
+    seen = OctreePreprocessor(leaf=leaf, largest=largest).preprocess(frame(cloud))
     doublings = np.log2(2.0 * np.sqrt(seen.variances) / leaf)
     np.testing.assert_allclose(doublings, doublings.round(), atol=1e-9)
     assert set(doublings.round()) == {0.0, 1.0, 2.0, 3.0}
@@ -168,7 +176,7 @@ def test_octree_sigma_is_half_the_side_of_a_cube_of_the_tree(cloud):
 
 def test_octree_leaf_that_could_be_divided_holds_few_points(cloud):
     """And there are leaves of more points among the smallest, or the law would say nothing."""
-    seen = OctreeObserver(leaf=0.05, few=3, largest=4).observe(frame(cloud))
+    seen = OctreePreprocessor(leaf=0.05, few=3, largest=4).preprocess(frame(cloud))
     smallest = seen.variances == seen.variances.min()
     assert (seen.weights[~smallest] <= 3).all()
     assert (seen.weights[smallest] > 3).any()
@@ -177,7 +185,7 @@ def test_octree_leaf_that_could_be_divided_holds_few_points(cloud):
 def test_octree_leaves_are_cubes_that_hold_their_points(cloud):
     """Points are counted anew in the cube of each leaf, from the corner of the cloud."""
     leaf = 0.05
-    seen = OctreeObserver(leaf=leaf, few=3, largest=2).observe(frame(cloud))
+    seen = OctreePreprocessor(leaf=leaf, few=3, largest=2).preprocess(frame(cloud))
     corner = cloud.min(axis=0)
     for mean, weight, variance in zip(seen.points, seen.weights, seen.variances, strict=True):
         side = 2.0 * np.sqrt(variance)
@@ -189,7 +197,7 @@ def test_octree_leaves_are_cubes_that_hold_their_points(cloud):
 
 def test_octree_coarser_leaves_are_fewer(cloud):
     counts = [
-        len(OctreeObserver(leaf=leaf, largest=0, crop=ANY).observe(frame(cloud)).points)
+        len(OctreePreprocessor(leaf=leaf, largest=0, crop=ANY).preprocess(frame(cloud)).points)
         for leaf in (0.02, 0.04, 0.08, 0.16, 10.0)
     ]
     assert counts == sorted(counts, reverse=True)
@@ -197,8 +205,8 @@ def test_octree_coarser_leaves_are_fewer(cloud):
 
 
 def test_octree_with_room_for_all_points_is_their_mean(cloud):
-    observer = OctreeObserver(leaf=1.0, few=len(cloud), largest=5, crop=ANY)
-    seen = observer.observe(frame(cloud))
+    preprocessor = OctreePreprocessor(leaf=1.0, few=len(cloud), largest=5, crop=ANY)
+    seen = preprocessor.preprocess(frame(cloud))
     np.testing.assert_allclose(seen.points, [cloud.mean(axis=0)], atol=1e-12)
     np.testing.assert_array_equal(seen.variances, [(0.5 * 1.0 * 2**5) ** 2])
 
@@ -213,5 +221,5 @@ def test_what_is_cropped_is_cut_out_of_the_depth_image_too():
     cropped = Crop(far=2.0, min_points=1).cropped(whole)
     np.testing.assert_array_equal(cropped.depth, np.where(depth == 1.0, 1.0, 0.0))
     np.testing.assert_allclose(camera.back_projected(cropped.depth), cropped.points)
-    observation = PointsObserver(crop=Crop(far=2.0, min_points=1)).observe(whole)
+    observation = PointsPreprocessor(crop=Crop(far=2.0, min_points=1)).preprocess(whole)
     np.testing.assert_array_equal(observation.depth, cropped.depth)

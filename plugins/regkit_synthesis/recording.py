@@ -1,4 +1,4 @@
-"""Writes depth sequences in regkit's folder format."""
+"""Writes depth recordings in regkit's folder format."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _RUN_LENGTHS = 3
 
 
 @dataclass(frozen=True)
-class DepthSequence:
+class DepthRecording:
     """Depth images with the true joints.
 
     Attributes:
@@ -48,14 +48,14 @@ class DepthSequence:
     truth: Array
 
     def write(self, folder: Path) -> None:
-        """Write the folder, all of it or nothing; a sequence that was there before is replaced.
+        """Write the folder, all of it or nothing; a recording that was there before is replaced.
 
         Raises:
             DataError: If something else is there, or the folder cannot be written.
         """
         if folder.exists() and not (folder / _HEADER).is_file():
             raise DataError(
-                f"it exists and is not a depth sequence (it has no {_HEADER}); name another "
+                f"it exists and is not a depth recording (it has no {_HEADER}); name another "
                 "folder or remove it",
                 place=str(folder),
             )

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from regkit.geometry.camera import Camera
-from regkit.interfaces import Sequence
+from regkit.interfaces import Recording
 from regkit.observation import Frame, Truth
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
@@ -95,7 +95,7 @@ class ItopFiles:
 
 
 @dataclass(frozen=True)
-class ItopSequence(Sequence):
+class ItopRecording(Recording):
     """One run of frames.
 
     Attributes:

@@ -1,0 +1,63 @@
+"""What a method minimises in one frame: everything bound to the frame's data at one pose."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from regkit.body import Body
+from regkit.interfaces import JointEnergy, Multipliers, Similarity
+from regkit.primitives import Primitives
+from regkit.registration.coordinates import Coordinates
+from regkit.registration.problem import RegistrationProblem
+from regkit.skeleton import Pose
+from regkit.system.arrays import Array
+
+
+@dataclass(frozen=True)
+class FrameEnergy:
+    """The kernel and all terms, bound to a frame.
+
+    Attributes:
+        body: Whose pose is sought.
+        primitives: With the weights that they have in this frame.
+        kernel: The kernel.
+        terms: The terms that look at primitives, by their places in the YAML.
+        joints: The terms that look at joints.
+    """
+
+    body: Body
+    primitives: Primitives
+    kernel: Similarity
+    terms: Mapping[str, Similarity]
+    joints: tuple[JointEnergy, ...]
+
+    def similarity(self, pose: Pose) -> float:
+        """The kernel's energy in a pose."""
+        return self.kernel(self.primitives.place(self.body.place(pose).transforms)).energy
+
+    def total(self, pose: Pose) -> float:
+        """The energy of the kernel and all terms in a pose."""
+        placed = self.primitives.place(self.body.place(pose).transforms)
+        energies = [similarity(placed).energy for similarity in (self.kernel, *self.terms.values())]
+        return sum(energies) + sum(joint(pose).energy for joint in self.joints)
+
+    def inlier_probability(self, pose: Pose) -> Array:
+        """The inlier probability of each point in a pose, (N,); NaN if the kernel cannot tell."""
+        placed = self.primitives.place(self.body.place(pose).transforms)
+        probability = self.kernel.inlier_probability(placed)
+        return np.array([np.nan]) if probability is None else probability
+
+    def problem(
+        self, coordinates: Coordinates, multipliers: Multipliers | None
+    ) -> RegistrationProblem:
+        """The problem in some coordinates of the pose."""
+        return RegistrationProblem(
+            coordinates,
+            self.primitives,
+            {"kernel": self.kernel, **self.terms},
+            self.joints,
+            multipliers,
+        )
