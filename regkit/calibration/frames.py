@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from regkit.body import Body
-from regkit.calibration.gaps import Cloud
+from regkit.calibration.cloud import Cloud
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit.tracking import TrackedFrame

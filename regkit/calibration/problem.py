@@ -7,37 +7,38 @@ from collections.abc import Sequence
 import numpy as np
 
 from regkit.body import Body
-from regkit.calibration.gaps import Cloud
+from regkit.calibration.cloud import Cloud
+from regkit.calibration.jacobian import ProportionJacobian
 from regkit.calibration.shape import Shape
-from regkit.calibration.slopes import Slopes
 from regkit.interfaces import Problem
 from regkit.registration.coordinates import TangentCoordinates
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array, Indices
 
-REACH = 2.0
-"""Gaps beyond so many times the usual one count ever less; the usual one is the median, which holds
-the noise of the data and how well such a body can fit at all."""
+CUTOFF = 2.0
+"""The cutoff of distances in units of the usual one, the median, which holds the noise of the data
+and the misfit of such a body."""
 
 RANGE = 0.06
-"""Along its ray a point is looked for on the surface within this part of the body's size."""
+"""The surface is traced along a point's ray within this part of the body's size."""
 
 EVIDENCE = 1000.0
-"""As many gaps all frames together are worth: neighbouring points and frames tell much the same."""
+"""Number of independent distances in all frames together: neighbouring points and frames repeat
+each other."""
 
 STIFFNESS = 0.05
-"""Weight of a joint's turn [rad] against a gap [reach]: what nothing pulls keeps its pose."""
+"""Weight of a joint's rotation [rad] against a distance [cutoff]; a joint without data stays."""
 
 
 class SubjectProblem(Problem):
-    """Gaps in all frames, turns of the joints, and how unusual the proportions are.
+    """Surface distances in all frames, turns of the joints, and how unusual the proportions are.
 
-    With the gaps g of the weights w in units of the reach, the joints' turns t and the numbers s of
-    the shape, each of which is usually about u, the energy over F frames is
+    With the distances g in units of the cutoff, their weights w, the joints' rotations t and the
+    numbers s of the shape, whose usual sizes are u, the energy over F frames is
 
         EVIDENCE / F sum_F (sum 1/2 w log(1 + g^2) + sum 1/2 (STIFFNESS t)^2) + sum 1/2 (s / u)^2.
 
-    Under the logarithm, Cauchy's loss, what is no part of the body hardly counts.
+    Under the logarithm, Cauchy's loss, points that are not of the body count little.
 
     Args:
         shape: The body's proportions.
@@ -52,7 +53,7 @@ class SubjectProblem(Problem):
         self._shape, self._clouds = shape, clouds
         body = shape.body(start)
         self._range = RANGE * body.size
-        self._reach = REACH * self._usual_gap(body, poses)
+        self._cutoff = CUTOFF * self._usual_distance(body, poses)
         self._charts = [TangentCoordinates(body.skeleton, pose) for pose in poses]
         self._weight = EVIDENCE / len(clouds)
         self._spring = np.full(len(self._charts[0].origin()), STIFFNESS**2)
@@ -109,25 +110,30 @@ class SubjectProblem(Problem):
         """What one frame contributes, its derivatives to the shape and then to the pose's step."""
         placement = body.place(chart.pose(step))
         capsules = body.capsules.place(placement.transforms)
-        slopes = Slopes(body, placement, self._shape.groups)
-        sides = (cloud.unexplained(capsules, self._range), cloud.unseen(capsules))
-        gaps = np.concatenate([side.lengths for side in sides]) / self._reach
-        weights = np.concatenate([side.weights for side in sides])
-        factors = np.concatenate([slopes.to_proportions(side) for side in sides])
-        turns = np.concatenate([slopes.to_pose(side) for side in sides])
+        proportions = ProportionJacobian(body, placement, self._shape.groups)
+        to_model = cloud.data_to_model(capsules, self._range)
+        to_data, visible = cloud.model_to_data(capsules)
+        sides = (to_model, to_data)
+        distances = np.concatenate([side.lengths for side in sides]) / self._cutoff
+        even = np.full(len(to_model.lengths), 1.0 / len(to_model.lengths))
+        weights = np.concatenate([even, visible])
+        factors = np.concatenate([proportions.rows(side) for side in sides])
+        turns = np.concatenate([side.rows(placement) for side in sides])
         rows = np.column_stack([factors.sum(axis=1), factors, turns @ chart.jacobian(step)])
-        rows /= self._reach
-        tensions = weights / (1.0 + gaps**2)
+        rows /= self._cutoff
+        tensions = weights / (1.0 + distances**2)
         spring = np.concatenate([np.zeros(len(self._shape)), self._spring])
         rest = np.concatenate([np.zeros(len(self._shape)), step])
-        energy = 0.5 * float(weights @ np.log1p(gaps**2) + spring @ rest**2)
-        gradient = (tensions * gaps) @ rows + spring * rest
+        energy = 0.5 * float(weights @ np.log1p(distances**2) + spring @ rest**2)
+        gradient = (tensions * distances) @ rows + spring * rest
         return energy, gradient, rows.T @ (tensions[:, None] * rows) + np.diag(spring)
 
-    def _usual_gap(self, body: Body, poses: Sequence[Pose]) -> float:
+    def _usual_distance(self, body: Body, poses: Sequence[Pose]) -> float:
         """The median distance of all points to the surface [m]."""
         lengths = [
-            cloud.unexplained(body.capsules.place(body.place(pose).transforms), self._range).lengths
+            cloud.data_to_model(
+                body.capsules.place(body.place(pose).transforms), self._range
+            ).lengths
             for cloud, pose in zip(self._clouds, poses, strict=True)
         ]
         return float(np.median(np.abs(np.concatenate(lengths))))

@@ -67,17 +67,26 @@ class Capsules:
 
     def axis_points(self, spacing: float) -> AxisPoints:
         """Points on the axes, at most ``spacing`` [m] apart."""
-        segments, points, radii = [], [], []
-        for segment, (start, end), (first, last) in zip(
-            self.segments, self.ends, self.radii, strict=True
-        ):
-            # Less a little, so that their number is the same wherever the capsules are placed.
-            count = int(np.ceil(np.linalg.norm(end - start) / spacing - 1e-6)) + 1
-            along = np.linspace(0.0, 1.0, count)
-            segments.append(np.full(count, segment))
-            points.append(start + along[:, None] * (end - start))
-            radii.append(first + along * (last - first))
-        return AxisPoints(np.concatenate(segments), np.concatenate(points), np.concatenate(radii))
+        lengths = np.linalg.norm(self.ends[:, 1] - self.ends[:, 0], axis=1)
+        # Less a little, so that their number is the same wherever the capsules are placed.
+        return self._on_axes(np.ceil(lengths / spacing - 1e-6).astype(np.intp) + 1)
+
+    def axis_samples(self, count: int) -> AxisPoints:
+        """``count`` evenly spaced points on each axis."""
+        return self._on_axes(np.full(len(self), count, dtype=np.intp))
+
+    def _on_axes(self, counts: Indices) -> AxisPoints:
+        """Evenly spaced points on the axes, ``counts`` (C,) on each."""
+        capsules = np.repeat(np.arange(len(self)), counts)
+        along = np.concatenate([np.linspace(0.0, 1.0, count) for count in counts])
+        ends, radii = self.ends[capsules], self.radii[capsules]
+        return AxisPoints(
+            segments=self.segments[capsules],
+            points=ends[:, 0] + along[:, None] * (ends[:, 1] - ends[:, 0]),
+            radii=radii[:, 0] + along * (radii[:, 1] - radii[:, 0]),
+            capsules=capsules,
+            along=along,
+        )
 
     def _distances(self, points: Array) -> tuple[Array, Array]:
         """Signed distance to each capsule, (N, C) [m], and where on its axis the nearest sphere is.
@@ -109,11 +118,15 @@ class AxisPoints:
         segments: The segment that carries each, (M,).
         points: (M, 3) [m].
         radii: Radius of the capsule there, (M,) [m].
+        capsules: The capsule of each, (M,).
+        along: Position on the capsule's axis, from 0 to 1, (M,).
     """
 
     segments: Indices
     points: Array
     radii: Array
+    capsules: Indices
+    along: Array
 
     def place(self, transforms: Array) -> Array:
         """Positions in the world, (..., M, 3) [m], for T_world_segment (..., S, 4, 4)."""

@@ -1,4 +1,4 @@
-"""Gaps of points in the free space of a depth image, in compiled loops."""
+"""Distances of points in the free space of a depth image, in compiled loops."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from regkit.system.compiled import compiled
 
 
 @compiled
-def free_gaps(
+def free_space_distances(
     points: Array,
     margins: Array,
     nearest: Array,
@@ -20,7 +20,7 @@ def free_gaps(
     offset: Array,
     half: float,
 ) -> tuple[Array, Array]:
-    """The gaps (M,) and slopes (M, 3) of ``Silhouette.gaps``.
+    """The distances (M,) and gradients (M, 3) of ``Silhouette.distances``.
 
     Args:
         points: (M, 3) [m].
@@ -31,7 +31,7 @@ def free_gaps(
         offset: Block of the ray through the middle of the image, (2,).
         half: What is nearer than this to a ray that shows something is not beside it.
     """
-    gaps, slopes = np.zeros(len(points)), np.zeros((len(points), 3))
+    distances, gradients = np.zeros(len(points)), np.zeros((len(points), 3))
     columns, rows = nearest.shape
     for k in range(len(points)):
         z = max(points[k, 2], 1e-3)
@@ -41,8 +41,8 @@ def free_gaps(
         if 0 <= column < columns and 0 <= row < rows and np.isfinite(nearest[column, row]):
             before = nearest[column, row] - margins[k] - points[k, 2]
             if before > 0.0:
-                gaps[k] = before
-                slopes[k, 2] = -1.0
+                distances[k] = before
+                gradients[k, 2] = -1.0
             continue
         best, least = -1, np.inf
         for index in range(len(shown)):
@@ -53,7 +53,7 @@ def free_gaps(
         if best < 0 or distance <= half:
             continue
         away, down = (x - shown[best, 0]) / distance, (y - shown[best, 1]) / distance
-        gaps[k] = z * (distance - half)
-        slopes[k, 0], slopes[k, 1] = away, down
-        slopes[k, 2] = distance - half - away * x - down * y
-    return gaps, slopes
+        distances[k] = z * (distance - half)
+        gradients[k, 0], gradients[k, 1] = away, down
+        gradients[k, 2] = distance - half - away * x - down * y
+    return distances, gradients

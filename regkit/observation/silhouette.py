@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from regkit.geometry.camera import Camera
-from regkit.observation.free_space import free_gaps
+from regkit.observation.free_space import free_space_distances
 from regkit.system.arrays import Array
 
 COLUMNS = 88
@@ -35,7 +35,7 @@ class Silhouette:
         self._offset = (np.array([camera.cx, camera.cy]) - middle) / side
         self._shown = (np.argwhere(np.isfinite(self._nearest)) - self._offset) / self._scale
 
-    def gaps(self, points: Array, margins: Array) -> tuple[Array, Array]:
+    def distances(self, points: Array, margins: Array) -> tuple[Array, Array]:
         """How far points are in free space, (M,) [m], and the derivative of it, (M, 3).
 
         Beside the silhouette it is the way to the nearest block that shows something, across the
@@ -45,6 +45,6 @@ class Silhouette:
             points: In the camera's frame, (M, 3) [m].
             margins: How far before the measured depth each of them may be, (M,) [m].
         """
-        return free_gaps(
+        return free_space_distances(
             points, margins, self._nearest, self._shown, self._scale, self._offset, self._half
         )

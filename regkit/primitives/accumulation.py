@@ -1,4 +1,4 @@
-"""Forces on primitives accumulated on the segments that carry them, in compiled loops."""
+"""Accumulation of residuals on primitives, and of wrenches on segments, in compiled loops."""
 
 from __future__ import annotations
 
@@ -52,3 +52,34 @@ def accumulated_stiffness(blocks: Array, arms: Array, owners: Indices, segments:
             own[4, j] += half[4, j] + z * a - x * c
             own[5, j] += half[5, j] - y * a + x * b
     return accumulated
+
+
+@compiled
+def accumulated_residuals(
+    owners: Indices, values: Array, rows: Array, weights: Array, count: int
+) -> tuple[Array, Array]:
+    """Sums over the residuals of each primitive: w J^T r (K, 6), and w J^T J (K, 6, 6).
+
+    Args:
+        owners: The primitive of each residual, (R,).
+        values: Residuals r of D parts, (R, D).
+        rows: Their derivatives J to motions of the owners about their centres, (R, D, 6).
+        weights: w, (R,).
+        count: K.
+    """
+    wrenches, blocks = np.zeros((count, 6)), np.zeros((count, 6, 6))
+    for i in range(len(owners)):
+        if weights[i] == 0.0:
+            continue
+        wrench, block = wrenches[owners[i]], blocks[owners[i]]
+        for d in range(values.shape[1]):
+            for a in range(6):
+                scaled = weights[i] * rows[i, d, a]
+                wrench[a] += scaled * values[i, d]
+                for b in range(a + 1):
+                    block[a, b] += scaled * rows[i, d, b]
+    for k in range(count):
+        for a in range(6):
+            for b in range(a):
+                blocks[k, b, a] = blocks[k, a, b]
+    return wrenches, blocks

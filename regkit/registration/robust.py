@@ -62,7 +62,7 @@ class Loss(ABC):
         """Rho of residuals r (N,) [m], without a unit: r^2 / (2 s^2) near zero."""
         return self._values((residuals / self.scale) ** 2)
 
-    def slopes(self, residuals: Array) -> Array:
+    def gradient(self, residuals: Array) -> Array:
         """The derivative of rho, (N,) [1/m]."""
         return self.weights(residuals) * residuals
 
@@ -71,15 +71,15 @@ class Loss(ABC):
         return self.inlier_probability(residuals) / self.scale**2
 
     def inlier_probability(self, residuals: Array) -> Array:
-        """By how much residuals (N,) [m] are taken for the model's own, (N,), from 0 to 1."""
-        return self._shares((residuals / self.scale) ** 2)
+        """The weight of residuals (N,) [m] against that of a small one, (N,), from 0 to 1."""
+        return self._relative_weights((residuals / self.scale) ** 2)
 
     @abstractmethod
     def _values(self, squares: Array) -> Array:
         """Rho of u (N,), for u^2."""
 
     @abstractmethod
-    def _shares(self, squares: Array) -> Array:
+    def _relative_weights(self, squares: Array) -> Array:
         """Psi(u) / u, (N,), for u^2."""
 
 
@@ -91,7 +91,7 @@ class Squares(Loss):
     def _values(self, squares: Array) -> Array:
         return 0.5 * squares
 
-    def _shares(self, squares: Array) -> Array:
+    def _relative_weights(self, squares: Array) -> Array:
         return np.ones_like(squares)
 
 
@@ -105,7 +105,7 @@ class Huber(Loss):
         inner = np.minimum(size, self.tuning)
         return np.asarray(inner * (size - 0.5 * inner))
 
-    def _shares(self, squares: Array) -> Array:
+    def _relative_weights(self, squares: Array) -> Array:
         return np.asarray(self.tuning / np.sqrt(np.maximum(squares, self.tuning**2)))
 
 
@@ -118,7 +118,7 @@ class Tukey(Loss):
         rest = np.maximum(1.0 - squares / self.tuning**2, 0.0)
         return np.asarray(self.tuning**2 / 6.0 * (1.0 - rest**3))
 
-    def _shares(self, squares: Array) -> Array:
+    def _relative_weights(self, squares: Array) -> Array:
         return np.asarray(np.maximum(1.0 - squares / self.tuning**2, 0.0) ** 2)
 
 
@@ -130,8 +130,20 @@ class GemanMcClure(Loss):
     def _values(self, squares: Array) -> Array:
         return 0.5 * squares / (1.0 + squares / self.tuning**2)
 
-    def _shares(self, squares: Array) -> Array:
+    def _relative_weights(self, squares: Array) -> Array:
         return 1.0 / (1.0 + squares / self.tuning**2) ** 2
+
+
+class PseudoHuber(Loss):
+    """``sqrt(1 + u^2) - 1``: half the square near zero, a line far away."""
+
+    tuning = 1.0
+
+    def _values(self, squares: Array) -> Array:
+        return np.asarray(np.sqrt(1.0 + squares) - 1.0)
+
+    def _relative_weights(self, squares: Array) -> Array:
+        return np.asarray(1.0 / np.sqrt(1.0 + squares))
 
 
 _LOSSES: dict[str, type[Loss]] = {

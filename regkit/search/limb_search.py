@@ -81,10 +81,10 @@ class LimbSearch:
         if len(bare) < FEWEST_POINTS:
             return
         present = self.axes.place(placement.transforms)[None]
-        now = (self._uncovered(present, bare) + self._unseen(present, cloud))[0]
-        uncovered = self._uncovered(places, bare)
+        now = (self._data_to_model(present, bare) + self._model_to_data(present, cloud))[0]
+        uncovered = self._data_to_model(places, bare)
         likely = np.argsort(uncovered)[:LIKELY]
-        misfits = uncovered[likely] + self._unseen(places[likely], cloud)
+        misfits = uncovered[likely] + self._model_to_data(places[likely], cloud)
         for index in np.argsort(misfits)[:most]:
             if misfits[index] < BETTER * now:
                 chosen = likely[index]
@@ -99,16 +99,16 @@ class LimbSearch:
             near = near[rest.surface_distance(near) > float(self.axes.radii.max())]
         return np.asarray(near[:: max(1, len(near) // MOST_POINTS)])
 
-    def _uncovered(self, places: Array, bare: Array) -> Array:
+    def _data_to_model(self, places: Array, bare: Array) -> Array:
         """How far the bare points are from the limb's surface, in each of N places, (N,)."""
-        return mean_gaps(places, self.axes.radii, bare, self._reach)
+        return mean_gaps(places, self.axes.radii, bare, self._cutoff)
 
-    def _unseen(self, places: Array, cloud: KDTree) -> Array:
+    def _model_to_data(self, places: Array, cloud: KDTree) -> Array:
         """How far the limb's surface is from the points, in each of N places, (N,)."""
         gaps = np.maximum(cloud.query(places)[0] - self.axes.radii, 0.0)
-        return np.asarray(np.minimum(gaps, self._reach).mean(axis=1) / self._reach)
+        return np.asarray(np.minimum(gaps, self._cutoff).mean(axis=1) / self._cutoff)
 
     @property
-    def _reach(self) -> float:
+    def _cutoff(self) -> float:
         """No gap counts more than the limb's width [m]."""
         return 2.0 * float(self.axes.radii.max())

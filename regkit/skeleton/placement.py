@@ -7,10 +7,11 @@ from functools import cached_property
 
 import numpy as np
 
+from regkit.geometry.rotation import cross
 from regkit.skeleton.compiled_placement import joint_twists, place_links, segment_jacobian
 from regkit.skeleton.pose import Pose
 from regkit.skeleton.skeleton import Skeleton
-from regkit.system.arrays import Array
+from regkit.system.arrays import Array, Indices
 
 
 @dataclass(frozen=True)
@@ -85,6 +86,18 @@ class Placement:
         dofs = self.skeleton.dofs
         loaded = stiffness @ self.jacobian
         return np.asarray(self.jacobian.reshape(-1, dofs).T @ loaded.reshape(-1, dofs))
+
+    def rows(self, segments: Indices, points: Array, directions: Array) -> Array:
+        """How the degrees of freedom move points along directions, (R, n).
+
+        Args:
+            segments: The segment that carries each point, (R,).
+            points: In the world, (R, 3) [m].
+            directions: In the world, (R, 3).
+        """
+        arms = points - self.transforms[segments, :3, 3]
+        wrenches = np.concatenate([directions, cross(arms, directions)], axis=1)
+        return np.asarray((wrenches[:, None, :] @ self.jacobian[segments])[:, 0])
 
     @cached_property
     def jacobian(self) -> Array:

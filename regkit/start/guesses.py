@@ -33,19 +33,19 @@ class Candidate:
     misfit: float
 
 
-def guesses(scan: Scan, body: Body, reach: float) -> Iterator[Candidate]:
+def guesses(scan: Scan, body: Body, cutoff: float) -> Iterator[Candidate]:
     """The best place for every stance and turn.
 
     Args:
         scan: The cloud.
         body: What is seen.
-        reach: Gaps beyond this count no more [m]; guesses are rough, and want a far one.
+        cutoff: Gaps beyond this count no more [m]; guesses are rough, and want a far one.
     """
     places = scan.centres(body.size)
     for stance in body.stances:
         for turn in _turns(body):
             poses = [_placed(body, stance, FACING_CAMERA @ turn, place) for place in places]
-            misfits = [scan.misfit(body, body.place(pose), reach) for pose in poses]
+            misfits = [scan.misfit(body, body.place(pose), cutoff) for pose in poses]
             best = int(np.argmin(misfits))
             yield Candidate(body, poses[best], misfits[best])
 

@@ -17,12 +17,12 @@ from regkit.start.scan import Scan
 from regkit.system.errors import ConfigError
 from regkit.system.optional import one_blas_thread
 
-REACH = 0.06
+CUTOFF = 0.06
 """Gaps beyond this part of the body's size count no more: an arm's width on a person."""
 
 FAR, NEAR = 3.0, 0.4
-"""Parts of the reach: the far one sees limbs in the wrong place, the near one a wrong shape, unless
-noise hides it."""
+"""Parts of the cutoff: the far one shows limbs in the wrong place, the near one a wrong shape,
+unless noise hides it."""
 
 COARSE = ((FAR, 5.0), (1.0, 5.0), (1.0, 1.0), (1.0, 0.2), (1.0, STIFFNESS))
 """Reach and stiffness of the first fits: as a whole at first, then joint by joint, for parallel
@@ -117,7 +117,7 @@ def _found_start(template: Template, scans: list[Scan]) -> Start:
 def _fits(scan: Scan, bodies: list[Body]) -> list[Candidate]:
     """The best fit of each body to a cloud."""
     usual = bodies[len(bodies) // 2]
-    rough = sorted(guesses(scan, usual, FAR * REACH * usual.size), key=_misfit)[:LIKELY]
+    rough = sorted(guesses(scan, usual, FAR * CUTOFF * usual.size), key=_misfit)[:LIKELY]
     coarse = [_fit(scan, usual, guess.pose, usual.size, COARSE) for guess in rough]
     finalists = sorted(coarse, key=_misfit)[:FINALISTS]
     return [
@@ -143,13 +143,13 @@ def _fit(
 ) -> Candidate:
     """A body fitted from a pose; it is judged from far to near, by its joints and by its size.
 
-    All sizes are judged by the reach of the usual one, for a longer reach forgives more. A cloud
+    All sizes are judged by the cutoff of the usual one, for a longer cutoff forgives more. A cloud
     that does not tell the size, of a person who sits, say, is taken to be of the usual one.
     """
-    reach = REACH * usual
-    found = fitted(scan, body, pose, [Stage(part * reach, stiff) for part, stiff in annealing])
+    cutoff = CUTOFF * usual
+    found = fitted(scan, body, pose, [Stage(part * cutoff, stiff) for part, stiff in annealing])
     placement = body.place(found)
-    misfits = [scan.misfit(body, placement, part * reach) for part in (FAR, 1.0, NEAR)]
+    misfits = [scan.misfit(body, placement, part * cutoff) for part in (FAR, 1.0, NEAR)]
     # A body of the wrong size fits as well as the right one if its joints may bend as they cannot.
     strain = float(body.skeleton.limits.violation(found).max(initial=0.0))
     unusual = float(np.log(body.size / usual) ** 2)

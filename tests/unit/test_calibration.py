@@ -10,11 +10,11 @@ from regkit.body.groups import Groups
 from regkit.body.proportions import Proportions
 from regkit.body.writing import template_text
 from regkit.calibration import Calibration
+from regkit.calibration.cloud import Cloud
 from regkit.calibration.frames import spread
-from regkit.calibration.gaps import Cloud
+from regkit.calibration.jacobian import ProportionJacobian
 from regkit.calibration.problem import SubjectProblem
 from regkit.calibration.shape import Shape
-from regkit.calibration.slopes import Slopes
 from regkit.calibration.subject import check
 from regkit.config.document import Document
 from regkit.geometry.camera import Camera
@@ -184,7 +184,7 @@ def test_a_subject_is_written_and_read_again(tmp_path, random, linkage_descripti
 # The derivatives.
 
 
-def test_slopes_are_the_derivatives_of_the_gaps(linkage_description, random):
+def test_rows_are_the_derivatives_of_the_surface_distances(linkage_description, random):
     shape = Shape(linkage_description)
     x = unlike(shape, random)
     body = shape.body(x)
@@ -194,24 +194,23 @@ def test_slopes_are_the_derivatives_of_the_gaps(linkage_description, random):
 
     def lengths(body: Body, pose: Pose) -> np.ndarray:
         capsules = body.capsules.place(body.place(pose).transforms)
-        return np.concatenate(
-            [cloud.unexplained(capsules, 0.1).lengths, cloud.unseen(capsules).lengths]
-        )
+        sides = (cloud.data_to_model(capsules, 0.1), cloud.model_to_data(capsules)[0])
+        return np.concatenate([side.lengths for side in sides])
 
     placement = body.place(pose)
     capsules = body.capsules.place(placement.transforms)
-    sides = (cloud.unexplained(capsules, 0.1), cloud.unseen(capsules))
-    slopes = Slopes(body, placement, shape.groups)
+    sides = (cloud.data_to_model(capsules, 0.1), cloud.model_to_data(capsules)[0])
+    proportions = ProportionJacobian(body, placement, shape.groups)
     step = 1e-6
     for number in range(body.skeleton.dofs):
         way = step * np.eye(body.skeleton.dofs)[number]
         ends = [lengths(body, body.skeleton.retract(pose, sign * way)) for sign in (1.0, -1.0)]
-        found = np.concatenate([slopes.to_pose(side)[:, number] for side in sides])
+        found = np.concatenate([side.rows(placement)[:, number] for side in sides])
         np.testing.assert_allclose(found, (ends[0] - ends[1]) / (2.0 * step), atol=1e-5)
     for number in range(1, len(shape)):
         way = step * np.eye(len(shape))[number]
         ends = [lengths(shape.body(x + sign * way), pose) for sign in (1.0, -1.0)]
-        found = np.concatenate([slopes.to_proportions(side)[:, number - 1] for side in sides])
+        found = np.concatenate([proportions.rows(side)[:, number - 1] for side in sides])
         np.testing.assert_allclose(found, (ends[0] - ends[1]) / (2.0 * step), atol=1e-5)
 
 
@@ -246,8 +245,8 @@ def test_noise_along_the_rays_takes_no_side(random):
     pose = posed(body, STANCES[0])
     noise = 0.02 * random.normal(size=CAMERA.width * CAMERA.height)
     capsules = body.capsules.place(body.place(pose).transforms)
-    gaps = Cloud.of(seen(body, pose, noise)).unexplained(capsules, 0.1).lengths
-    assert abs(gaps.mean()) < 1.5e-3
+    distances = Cloud.of(seen(body, pose, noise)).data_to_model(capsules, 0.1).lengths
+    assert abs(distances.mean()) < 1.5e-3
 
 
 def test_hidden_parts_are_not_missed():
@@ -255,13 +254,12 @@ def test_hidden_parts_are_not_missed():
     pose = posed(body, {"left_upper_arm": [60, 0, 0], "left_forearm": 90})
     capsules = body.capsules.place(body.place(pose).transforms)
     cloud = Cloud.of(seen(body, pose))
-    gaps = cloud.unseen(capsules)
-    assert (gaps.weights == 0.0).any()
+    distances, weights = cloud.model_to_data(capsules)
+    assert (weights == 0.0).any()
     blind = Cloud.of(Observation(*[getattr(cloud.observation, n) for n in
                                    ("points", "weights", "variances")]))  # fmt: skip
-    assert (gaps.weights @ gaps.lengths) < 0.5 * (
-        blind.unseen(capsules).weights @ blind.unseen(capsules).lengths
-    )
+    everywhere, even = blind.model_to_data(capsules)
+    assert weights @ distances.lengths < 0.5 * even @ everywhere.lengths
 
 
 @pytest.mark.slow

@@ -20,8 +20,8 @@ def test_slope_is_the_derivative_and_weight_times_residual(loss, random):
     residuals = random.normal(scale=4.0 * SCALE, size=300)
     step = 1e-7
     numerical = (loss.values(residuals + step) - loss.values(residuals - step)) / (2.0 * step)
-    np.testing.assert_allclose(loss.slopes(residuals), numerical, atol=1e-5 / SCALE)
-    np.testing.assert_allclose(loss.weights(residuals) * residuals, loss.slopes(residuals))
+    np.testing.assert_allclose(loss.gradient(residuals), numerical, atol=1e-5 / SCALE)
+    np.testing.assert_allclose(loss.weights(residuals) * residuals, loss.gradient(residuals))
 
 
 @pytest.mark.parametrize("loss", LOSSES)
@@ -47,11 +47,11 @@ def test_loss_grows_with_the_residual_and_shares_fall(loss):
 def test_limits_far_away():
     far = np.array([1e4 * SCALE])
     assert bound("tukey").values(far)[0] == pytest.approx(4.685**2 / 6.0)
-    assert bound("tukey").slopes(far)[0] == 0.0
+    assert bound("tukey").gradient(far)[0] == 0.0
     assert bound("geman_mcclure").values(far)[0] == pytest.approx(3.787**2 / 2.0, rel=1e-6)
-    assert bound("geman_mcclure").slopes(far)[0] == pytest.approx(0.0, abs=1e-6)
-    assert bound("huber").slopes(far)[0] == pytest.approx(1.345 / SCALE)
-    assert bound("squares").slopes(far)[0] == pytest.approx(1e4 / SCALE)
+    assert bound("geman_mcclure").gradient(far)[0] == pytest.approx(0.0, abs=1e-6)
+    assert bound("huber").gradient(far)[0] == pytest.approx(1.345 / SCALE)
+    assert bound("squares").gradient(far)[0] == pytest.approx(1e4 / SCALE)
 
 
 @pytest.mark.parametrize("loss", LOSSES[1:])
@@ -59,7 +59,7 @@ def test_efficiency_on_normal_residuals_is_95_percent(loss):
     """Of the mean that each loss defines: (E psi')^2 / E psi^2, by the rule of Stein."""
     nodes, step = np.linspace(-9.0, 9.0, 200_001, retstep=True)
     density = step * np.exp(-0.5 * nodes**2) / np.sqrt(2.0 * np.pi)
-    psi = SCALE * bound(loss).slopes(SCALE * nodes)
+    psi = SCALE * bound(loss).gradient(SCALE * nodes)
     # The mean of the derivative of psi is that of u psi(u).
     efficiency = (density @ (nodes * psi)) ** 2 / (density @ psi**2)
     assert efficiency == pytest.approx(0.95, abs=1e-3)

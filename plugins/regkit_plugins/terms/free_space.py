@@ -8,8 +8,10 @@ import numpy as np
 from pydantic import Field
 
 from regkit.geometry.rotation import cross
-from regkit.interfaces import Response, Scene, Similarity, Term
+from regkit.interfaces import Scene, Term
 from regkit.primitives import Placed
+from regkit.registration import Loss, Residuals, ResidualSimilarity
+from regkit.registration.robust import PseudoHuber
 
 REACH = 1.0
 """Where a primitive is sampled besides its centre: so many scales along its longest axis."""
@@ -35,7 +37,7 @@ class FreeSpace(Term):
         return BoundFreeSpace(self, scene)
 
 
-class BoundFreeSpace(Similarity):
+class BoundFreeSpace(ResidualSimilarity):
     """``sum w (sqrt(1 + (d / s)^2) - 1)`` over points of the primitives.
 
     d is how far a point is in free space, beside the silhouette or before it; s is the primitive's
@@ -45,6 +47,8 @@ class BoundFreeSpace(Similarity):
         term: Its weight and margin.
         scene: The frame.
     """
+
+    loss: Loss = PseudoHuber(1.0)
 
     def __init__(self, term: FreeSpace, scene: Scene) -> None:
         scales = scene.placed.primitives.scales
@@ -56,36 +60,26 @@ class BoundFreeSpace(Similarity):
         self._weights = np.repeat(term.weight * sizes / sizes.sum() / self._each, self._each)
         self._widths = np.repeat(ordered[:, 0], self._each)
         self._margins = term.margin * self._widths
+        self._owners = np.repeat(np.arange(count), self._each)
         self._offsets = np.zeros((count, 3, self._each))
         along = np.arange(count), scales.argmax(axis=1)
         for column, sign in ((1, 1.0), (2, -1.0))[: self._each - 1]:
             self._offsets[*along, column] = sign * REACH * (ordered[:, 2] - ordered[:, 0])
         self._silhouette = scene.observation.silhouette
 
-    def __call__(self, placed: Placed[Any], *, curvature: bool = False) -> Response:
-        """The energy, the wrenches and the Gauss-Newton blocks."""
-        count = len(placed)
+    def residuals(self, placed: Placed[Any]) -> Residuals:
+        """How far each point is in free space, in scales of its primitive."""
         if self._silhouette is None:
-            return _nothing(count, curvature=curvature)
+            return _NONE
         arms = (placed.axes @ self._offsets).transpose(0, 2, 1)
         points = (placed.centres[:, None, :] + arms).reshape(-1, 3)
-        gaps, slopes = self._silhouette.gaps(points, self._margins)
-        if not gaps.any():
-            return _nothing(count, curvature=curvature)
-        ratio = gaps / self._widths
-        root = np.sqrt(1.0 + ratio**2)
-        energy = float(self._weights @ (root - 1.0))
-        tension = self._weights / (root * self._widths)
-        ways = np.concatenate([slopes, cross(arms.reshape(-1, 3), slopes)], axis=1)
-        wrenches = ((tension * ratio)[:, None] * ways).reshape(count, -1, 6).sum(axis=1)
-        stiffness = None
-        if curvature:
-            scaled = (tension / self._widths)[:, None] * ways
-            stiffness = scaled.reshape(count, -1, 6).swapaxes(1, 2) @ ways.reshape(count, -1, 6)
-        return Response(energy, wrenches, stiffness)
+        distances, gradients = self._silhouette.distances(points, self._margins)
+        if not distances.any():
+            return _NONE
+        rows = np.concatenate([gradients, cross(arms.reshape(-1, 3), gradients)], axis=1)
+        scales = self._widths
+        return Residuals(self._owners, distances / scales, rows / scales[:, None], self._weights)
 
 
-def _nothing(count: int, *, curvature: bool) -> Response:
-    """What so many primitives feel that are all where they may be."""
-    blocks = np.zeros((count, 6, 6)) if curvature else None
-    return Response(0.0, np.zeros((count, 6)), blocks)
+_NONE = Residuals(np.zeros(0, dtype=np.intp), np.zeros(0), np.zeros((0, 6)), np.zeros(0))
+"""No point is in free space."""

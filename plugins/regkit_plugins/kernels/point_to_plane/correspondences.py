@@ -7,13 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from regkit.interfaces import Response, Similarity
+from regkit.geometry.rotation import cross
 from regkit.observation import Observation
 from regkit.primitives import Placed
 from regkit.primitives.surfels import Surfels
-from regkit.registration.robust import Loss
+from regkit.registration import Loss, Residuals, ResidualSimilarity
 from regkit.system.arrays import Array, Indices
-from regkit_plugins.kernels.point_to_plane.compiled import pulled_surfels
 from regkit_plugins.kernels.point_to_plane.matching import MatchingKernel, given_normals
 from regkit_plugins.kernels.point_to_plane.visible import visible
 
@@ -35,7 +34,7 @@ class Matches:
     lost: float
 
 
-class BoundMatching(Similarity):
+class BoundMatching(ResidualSimilarity):
     """A matching kernel bound to a frame.
 
     The residual r of a pair, with the normal n and the way q from the surfel to the point, is
@@ -73,36 +72,26 @@ class BoundMatching(Similarity):
         self._point_share, self._normals = point_share, normals
         self._shown = visible(start) if self._oriented else np.arange(len(start))
         self._cloud = cKDTree(observation.points) if kernel.reverse_weight > 0.0 else None
-        self._loss = self._bound_loss(
-            float(np.sqrt(observation.variances.mean())), start, smoothing
-        )
-        self._max_distance = kernel.max_correspondence_distance * self._loss.scale
+        self.loss = self._bound_loss(float(np.sqrt(observation.variances.mean())), start, smoothing)
+        self._max_distance = kernel.max_correspondence_distance * self.loss.scale
         self._fixed = self._matched(start) if kernel.matches == "fixed" else None
 
-    def __call__(self, placed: Placed[Surfels], *, curvature: bool = False) -> Response:
-        """The energy, exact wrenches for the partners at hand, and the Gauss-Newton blocks."""
+    def residuals(self, placed: Placed[Surfels]) -> Residuals:
+        """``(sqrt(1 - t) n.q, sqrt(t) q)`` of each pair, with what a point without one costs."""
         matches = self._matched(placed) if self._fixed is None else self._fixed
         offsets, normals = self._offsets(placed, matches.points, matches.surfels)
-        sizes = self._sizes(offsets, normals)
-        limit = self._loss.values(np.array([self._max_distance]))[0]
-        energy = matches.weights @ self._loss.values(sizes) + matches.lost * limit
-        wrenches, blocks = pulled_surfels(
-            matches.surfels,
-            offsets,
-            normals,
-            matches.weights * self._loss.weights(sizes),
-            self._point_share,
-            self._normals is None,
-            len(placed),
+        values, rows = self._parts(offsets, normals)
+        limit = self.loss.values(np.array([self._max_distance]))[0]
+        return Residuals(
+            matches.surfels, values, rows, matches.weights, float(matches.lost * limit)
         )
-        return Response(float(energy), wrenches, blocks if curvature else None)
 
     def inlier_probability(self, placed: Placed[Surfels]) -> Array:
         """By how much each point counts for its partner's, (N,); nothing where it has none."""
         found = self._partners(placed)
         offsets, normals = self._offsets(placed, found.points, found.surfels)
         probability = np.zeros(len(self._points))
-        probability[found.points] = self._loss.inlier_probability(self._sizes(offsets, normals))
+        probability[found.points] = self.loss.inlier_probability(self._sizes(offsets, normals))
         return probability
 
     def _bound_loss(self, deviation: float, start: Placed[Surfels], smoothing: float) -> Loss:
@@ -170,3 +159,22 @@ class BoundMatching(Similarity):
         return np.asarray(
             np.sqrt((1.0 - self._point_share) * along**2 + self._point_share * squares)
         )
+
+    def _parts(self, offsets: Array, normals: Array) -> tuple[Array, Array]:
+        """The residuals' parts (M, D) and their derivatives to the surfels' motions, (M, D, 6).
+
+        The derivative of n.q is (-n, n x q), or (-n, 0) where the normal is the data's own.
+        """
+        plane, point = np.sqrt(1.0 - self._point_share), np.sqrt(self._point_share)
+        first = 1 if plane > 0.0 else 0
+        count = first + (3 if point > 0.0 else 0)
+        values, rows = np.empty((len(offsets), count)), np.zeros((len(offsets), count, 6))
+        if plane > 0.0:
+            values[:, 0] = plane * np.einsum("mi,mi->m", offsets, normals)
+            rows[:, 0, :3] = -plane * normals
+            if self._normals is None:
+                rows[:, 0, 3:] = plane * cross(normals, offsets)
+        if point > 0.0:
+            values[:, first:] = point * offsets
+            rows[:, [first, first + 1, first + 2], [0, 1, 2]] = -point
+        return values, rows

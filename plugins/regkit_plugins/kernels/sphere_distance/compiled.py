@@ -127,23 +127,3 @@ def residuals_and_rows(
             rows[i, 3 + j] = arm[b] * slope[a] - arm[a] * slope[b]
             rows[i, 3 + j] += turning * (ray[b] * gap[a] - ray[a] * gap[b])
     return residuals, rows
-
-
-@compiled
-def accumulated_rows(
-    owners: Indices, residuals: Array, weights: Array, rows: Array, count: int
-) -> tuple[Array, Array]:
-    """Over each capsule's points, sum w r J (K, 6), and sum w J J^T (K, 6, 6)."""
-    wrenches, blocks = np.zeros((count, 6)), np.zeros((count, 6, 6))
-    for i in range(len(owners)):
-        k = owners[i]
-        for a in range(6):
-            scaled = weights[i] * rows[i, a]
-            wrenches[k, a] += scaled * residuals[i]
-            for b in range(a + 1):
-                blocks[k, a, b] += scaled * rows[i, b]
-    for k in range(count):
-        for a in range(6):
-            for b in range(a):
-                blocks[k, b, a] = blocks[k, a, b]
-    return wrenches, blocks

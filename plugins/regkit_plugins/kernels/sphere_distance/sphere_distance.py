@@ -6,13 +6,12 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from regkit.interfaces import Kernel, Response, Similarity
+from regkit.interfaces import Kernel
 from regkit.observation import Observation
 from regkit.primitives import Placed, Primitives, TaperedCapsules
-from regkit.registration.robust import Robust
+from regkit.registration import Residuals, ResidualSimilarity, Robust
 from regkit.system.arrays import Array, Indices
 from regkit_plugins.kernels.sphere_distance.compiled import (
-    accumulated_rows,
     nearest_capsules,
     residuals_and_rows,
 )
@@ -47,7 +46,7 @@ class SphereDistance(Kernel):
         return BoundSphereDistance(self, observation, start, smoothing)
 
 
-class BoundSphereDistance(Similarity):
+class BoundSphereDistance(ResidualSimilarity):
     """The distances of one frame's points.
 
     For a point at the height y along a capsule's axis and at the distance x from it, the nearest
@@ -80,31 +79,28 @@ class BoundSphereDistance(Similarity):
         self._robust = kernel.robust
         self._deviation = float(np.sqrt(self._weights @ observation.variances))
         self._scale = self._deviation
-        _, residuals, _ = self._residuals(start)
-        self._loss = kernel.robust.bound(residuals, least=self._deviation, smoothing=smoothing)
-        self._scale = self._loss.scale
+        _, distances, _ = self._nearest(start)
+        self.loss = kernel.robust.bound(distances, least=self._deviation, smoothing=smoothing)
+        self._scale = self.loss.scale
         self._constant = float(np.log(self._scale / self._deviation))
 
     def inlier_probability(self, placed: Placed[TaperedCapsules]) -> Array | None:
-        """How far each point is taken for the body's own, (N,); None by squares, which cannot tell.
+        """The loss's weight of each point's distance, (N,); None by squares, which cannot tell.
 
-        It is the share that the robust loss leaves of the point's pull. An estimated scale is that
-        of the residuals in this very pose, for those at the start hold the body's motion too.
+        An estimated scale is that of the distances in this very pose, for those at the start
+        include the body's motion.
         """
-        _, residuals, _ = self._residuals(placed)
-        loss = self._robust.bound(residuals, least=self._deviation)
-        return loss.inlier_probability(residuals) if np.isfinite(loss.tuning) else None
+        _, distances, _ = self._nearest(placed)
+        loss = self._robust.bound(distances, least=self._deviation)
+        return loss.inlier_probability(distances) if np.isfinite(loss.tuning) else None
 
-    def __call__(self, placed: Placed[TaperedCapsules], *, curvature: bool = False) -> Response:
-        """The energy, the exact wrenches and the Gauss-Newton blocks, sum w J J^T."""
-        owners, residuals, rows = self._residuals(placed)
-        costs = self._loss.values(residuals) + self._surprise[owners]
-        weights = self._weights * self._loss.weights(residuals)
-        wrenches, blocks = accumulated_rows(owners, residuals, weights, rows, len(placed))
-        energy = float(self._weights @ costs) + self._constant
-        return Response(energy, wrenches, blocks if curvature else None)
+    def residuals(self, placed: Placed[TaperedCapsules]) -> Residuals:
+        """The distance of each point to the nearest capsule."""
+        owners, distances, rows = self._nearest(placed)
+        constant = self._constant + float(self._weights @ self._surprise[owners])
+        return Residuals(owners, distances, rows, self._weights, constant)
 
-    def _residuals(self, placed: Placed[TaperedCapsules]) -> tuple[Indices, Array, Array]:
+    def _nearest(self, placed: Placed[TaperedCapsules]) -> tuple[Indices, Array, Array]:
         """Each point's primitive (N,), residual (N,) [m], and its derivative (N, 6) to motions."""
         primitives = placed.primitives
         capsules = np.empty((len(placed), 9))

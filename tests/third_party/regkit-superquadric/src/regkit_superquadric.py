@@ -11,10 +11,11 @@ from scipy.special import gamma
 
 from regkit.body import Body
 from regkit.geometry.rotation import rotation_between
-from regkit.interfaces import Kernel, Response, ShapeModel, Similarity
+from regkit.interfaces import Kernel, ShapeModel
 from regkit.observation import Observation
 from regkit.primitives import SPHERE, Placed, Primitives, Volumes
-from regkit.system.arrays import Array, Indices
+from regkit.registration import Residuals, ResidualSimilarity, Robust
+from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError
 
 
@@ -45,9 +46,9 @@ def gauge(points: Array, scales: Array, exponents: Array) -> tuple[Array, Array]
     largest = np.maximum(across, along)
     powers = (across / largest) ** exponents + (along / largest) ** exponents
     value = largest * powers ** (1.0 / exponents)
-    slopes = ratios / across[..., None] * ((across / value) ** (exponents - 1.0))[..., None]
-    slopes[..., 1] = np.sign(ratios[..., 1]) * (along / value) ** (exponents - 1.0)
-    return value, slopes / (2.0 * scales)
+    gradients = ratios / across[..., None] * ((across / value) ** (exponents - 1.0))[..., None]
+    gradients[..., 1] = np.sign(ratios[..., 1]) * (along / value) ** (exponents - 1.0)
+    return value, gradients / (2.0 * scales)
 
 
 class Superquadric(ShapeModel):
@@ -87,63 +88,48 @@ def _turned_to(way: Array) -> Array:
 
 
 class RadialDistance(Kernel):
-    """Distance of each point to the nearest superellipsoid, along the ray from its centre.
-
-    The energy is the mean of ``log(1 + (r / s)^2) / 2`` with the distance r and the width s.
-    """
+    """Distance of each point to the nearest superellipsoid, along the ray from its centre."""
 
     kind: Literal["radial_distance"] = "radial_distance"
     accepts: ClassVar[type[Primitives]] = Superellipsoids
 
-    width: Annotated[float, Field(gt=0.0)] = 0.03
-    """Distance beyond which a point counts for less and less [m]."""
+    robust: Robust = Robust(scale=0.03)
+    """What a distance costs."""
 
     def bind(
         self, observation: Observation, start: Placed[Any], *, smoothing: float = 0.0
-    ) -> RadialDistances:
+    ) -> BoundRadialDistance:
         """Bind the kernel to a frame's data."""
-        return RadialDistances(observation, self.width**2 + smoothing**2)
+        bound = BoundRadialDistance(observation)
+        bound.loss = self.robust.bound(
+            bound.residuals(start).values, least=1e-3, smoothing=smoothing
+        )
+        return bound
 
 
-class RadialDistances(Similarity):
+class BoundRadialDistance(ResidualSimilarity):
     """``r = |x| (1 - 1 / g)`` for the gauge g of a point's place x in a solid's axes.
 
     Source: Gross, Boult, Error of fit measures for recovering parametric solids, ICCV 1988.
     """
 
-    def __init__(self, observation: Observation, square: float) -> None:
-        self._points, self._square = observation.points, square
-        self._weights = observation.weights / observation.weights.sum()
+    def __init__(self, data: Observation) -> None:
+        self._points, self._weights = data.points, data.weights / data.weights.sum()
 
-    def inlier_probability(self, placed: Placed[Superellipsoids]) -> Array:
-        """By how much the loss lets each point count, (N,)."""
-        return np.asarray(self._square / (self._square + self._residuals(placed)[1] ** 2))
-
-    def __call__(self, placed: Placed[Superellipsoids], *, curvature: bool = False) -> Response:
-        """The energy, the exact wrenches and the Gauss-Newton blocks, sum w J^T J."""
-        owners, residuals, rows = self._residuals(placed)
-        energy = 0.5 * float(self._weights @ np.log1p(residuals**2 / self._square))
-        pulls = self._weights / (self._square + residuals**2)
-        wrenches, blocks = np.zeros((len(placed), 6)), np.zeros((len(placed), 6, 6))
-        np.add.at(wrenches, owners, (pulls * residuals)[:, None] * rows)
-        if curvature:
-            np.add.at(blocks, owners, pulls[:, None, None] * rows[:, :, None] * rows[:, None, :])
-        return Response(energy, wrenches, blocks if curvature else None)
-
-    def _residuals(self, placed: Placed[Superellipsoids]) -> tuple[Indices, Array, Array]:
-        """Each point's solid (N,), distance (N,) [m], and its derivative (N, 6) to motions."""
+    def residuals(self, placed: Placed[Superellipsoids]) -> Residuals:
+        """The distance of each point to its nearest solid."""
         solids, each = placed.primitives, np.arange(len(self._points))
         offsets = self._points[:, None] - placed.centres
         local = np.einsum("kji,nkj->nki", placed.axes, offsets)
         # No ray leads from a centre to itself; there the one along the first axis is taken.
         local[~local.any(axis=2), 0] = 1e-9
-        gauges, slopes = gauge(local, solids.scales, solids.exponents)
+        gauges, gradients = gauge(local, solids.scales, solids.exponents)
         lengths = np.linalg.norm(local, axis=2)
         distances = lengths * (1.0 - 1.0 / gauges)
         owners = distances.argmin(axis=1)
         length, value = lengths[each, owners, None], gauges[each, owners, None]
         ways = local[each, owners] / length * (1.0 - 1.0 / value)
-        ways += length / value**2 * slopes[each, owners]
+        ways += length / value**2 * gradients[each, owners]
         normals = np.einsum("nij,nj->ni", placed.axes[owners], ways)
-        turns = np.cross(offsets[each, owners], normals)
-        return owners, distances[each, owners], -np.concatenate([normals, turns], axis=1)
+        rows = -np.hstack([normals, np.cross(offsets[each, owners], normals)])
+        return Residuals(owners, distances[each, owners], rows, self._weights)

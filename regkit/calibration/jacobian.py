@@ -1,4 +1,4 @@
-"""How gaps change with the pose and the proportions of a body: the chain rule, bone by bone."""
+"""How surface distances change with the proportions of a body, bone by bone."""
 
 from __future__ import annotations
 
@@ -8,15 +8,14 @@ from functools import cached_property
 import numpy as np
 
 from regkit.body import Body
+from regkit.body.distance import SurfaceDistances
 from regkit.body.groups import Groups
-from regkit.calibration.gaps import Gaps
-from regkit.geometry.rotation import cross
 from regkit.skeleton import Placement
 from regkit.system.arrays import Array, Indices
 
 
 @dataclass(frozen=True)
-class Slopes:
+class ProportionJacobian:
     """How the spheres on a posed body's axes move and grow.
 
     A length or girth of a segment stretches all that is in the segment's frame: the axes of its own
@@ -32,29 +31,21 @@ class Slopes:
     placement: Placement
     groups: Groups
 
-    def to_pose(self, gaps: Gaps) -> Array:
-        """The derivative (R, n) of gaps to the degrees of freedom."""
-        segments = self.body.capsules.segments[gaps.capsules]
-        arms = gaps.centres - self.placement.transforms[segments, :3, 3]
-        wrenches = -np.concatenate([gaps.directions, cross(arms, gaps.directions)], axis=1)
-        return np.asarray((wrenches[:, None, :] @ self.placement.jacobian[segments])[:, 0])
-
-    def to_proportions(self, gaps: Gaps) -> Array:
+    def rows(self, distances: SurfaceDistances) -> Array:
         """The derivative (R, 2 G) to the logarithms of the groups' lengths, then of their girths.
 
         At the logarithm of a factor a length changes by itself, so that the template's own lengths
         do not matter.
         """
-        capsules, along = self.body.capsules, gaps.along
-        segments = capsules.segments[gaps.capsules]
-        ends, radii = capsules.ends[gaps.capsules], capsules.radii[gaps.capsules]
+        along, segments, own = distances.along, distances.segments, distances.capsules
+        ends, radii = self.body.capsules.ends[own], self.body.capsules.radii[own]
         local = ends[:, 0] + along[:, None] * (ends[:, 1] - ends[:, 0])
         thick = radii[:, 0] + along * (radii[:, 1] - radii[:, 0])
         moved = self._origins[segments] + self._stretched(segments, local)
-        slopes = -(moved @ gaps.directions[:, :, None])[:, :, 0]
+        rows = -(moved @ distances.directions[:, :, None])[:, :, 0]
         girths = len(self.groups.names) + self.groups.of_segments[segments]
-        slopes[np.arange(len(slopes)), girths] -= thick * gaps.directions.any(axis=1)
-        return np.asarray(slopes)
+        rows[np.arange(len(rows)), girths] -= thick * distances.directions.any(axis=1)
+        return np.asarray(rows)
 
     @cached_property
     def _origins(self) -> Array:
@@ -74,9 +65,9 @@ class Slopes:
         bones, groups = self.groups.bones[segments], self.groups.of_segments[segments]
         lengthwise = (points * bones).sum(axis=1, keepdims=True) * bones
         turns = self.placement.transforms[segments, :3, :3]
-        slopes = np.zeros((len(points), 2 * len(self.groups.names), 3))
+        rows = np.zeros((len(points), 2 * len(self.groups.names), 3))
         each = np.arange(len(points))
-        slopes[each, groups] = (turns @ lengthwise[:, :, None])[:, :, 0]
+        rows[each, groups] = (turns @ lengthwise[:, :, None])[:, :, 0]
         across = turns @ (points - lengthwise)[:, :, None]
-        slopes[each, len(self.groups.names) + groups] = across[:, :, 0]
-        return slopes
+        rows[each, len(self.groups.names) + groups] = across[:, :, 0]
+        return rows

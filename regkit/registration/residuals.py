@@ -1,0 +1,82 @@
+"""Residuals: what a kernel or term that compares points with surfaces gives; all else follows."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from regkit.interfaces import Response, Similarity
+from regkit.primitives import Placed
+from regkit.primitives.accumulation import accumulated_residuals
+from regkit.registration.robust import Loss
+from regkit.system.arrays import Array, Indices
+
+
+@dataclass(frozen=True)
+class Residuals:
+    """R residuals between data and primitives, of D parts each.
+
+    Attributes:
+        owners: The primitive of each, (R,).
+        values: (R,), or (R, D) for residuals that are vectors.
+        rows: Their derivatives to the motion of the owner, (R, 6) or (R, D, 6): to its translation,
+            then to a rotation vector in the world about its own centre.
+        weights: (R,).
+        constant: An energy that no residual changes.
+    """
+
+    owners: Indices
+    values: Array
+    rows: Array
+    weights: Array
+    constant: float = 0.0
+
+    @property
+    def sizes(self) -> Array:
+        """The residuals (R,), or the norms of those that are vectors."""
+        if self.values.ndim == 1:
+            return self.values
+        return np.asarray(np.sqrt(np.einsum("rd,rd->r", self.values, self.values)))
+
+    def response(self, loss: Loss, count: int, *, curvature: bool) -> Response:
+        """The energy ``sum w rho(|r|)`` of ``count`` primitives, its wrenches and blocks.
+
+        The wrenches are exact; the blocks are those of Gauss-Newton with the loss's weights.
+        """
+        sizes, parts = self.sizes, 1 if self.values.ndim == 1 else self.values.shape[1]
+        wrenches, blocks = accumulated_residuals(
+            self.owners,
+            self.values.reshape(-1, parts),
+            self.rows.reshape(-1, parts, 6),
+            self.weights * loss.weights(sizes),
+            count,
+        )
+        energy = float(self.weights @ loss.values(sizes)) + self.constant
+        return Response(energy, wrenches, blocks if curvature else None)
+
+
+class ResidualSimilarity(Similarity):
+    """A robust loss of residuals: the author gives the residuals, the rest follows.
+
+    Attributes:
+        loss: What a residual costs.
+    """
+
+    loss: Loss
+
+    @abstractmethod
+    def residuals(self, placed: Placed[Any]) -> Residuals:
+        """The residuals of primitives in the world; a kernel has one for each point, in order."""
+
+    def __call__(self, placed: Placed[Any], *, curvature: bool = False) -> Response:
+        """The energy, its exact wrenches and, if asked for, the Gauss-Newton blocks."""
+        return self.residuals(placed).response(self.loss, len(placed), curvature=curvature)
+
+    def inlier_probability(self, placed: Placed[Any]) -> Array | None:
+        """The loss's weight of each point's residual, (N,); None by squares, which cannot tell."""
+        if not np.isfinite(self.loss.tuning):
+            return None
+        return self.loss.inlier_probability(self.residuals(placed).sizes)
