@@ -4,13 +4,12 @@ from itertools import product
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from places import DATA
 from public_layouts import SMALL, write_itop, write_pdt13, write_records
 
 from regkit.testing import conformance
 from regkit.testing.samples import LINKAGE
 from regkit_plugins.datasets.formats.record import Record
-
-DATA = Path(__file__).parents[2] / "docs" / "examples" / "data"
 
 RECORD = Record(width=SMALL.width, height=SMALL.height)
 HELD = TemporaryDirectory(prefix="regkit-layouts-")

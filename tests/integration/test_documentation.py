@@ -7,7 +7,8 @@ import warnings
 
 import pytest
 from examples import Runner
-from pages import ROOT, Page, pages
+from pages import Page, pages
+from places import ROOT
 
 from regkit.interfaces import SLOTS
 

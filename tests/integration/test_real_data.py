@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from places import EXAMPLES
 
 from regkit.body import Body
 from regkit.geometry.camera import Camera
@@ -23,8 +24,6 @@ from regkit_plugins.datasets.utd_mhad import UtdMhad
 from regkit_plugins.preprocessors.points import PointsPreprocessor
 from regkit_plugins.templates.hand import Hand
 from regkit_plugins.templates.human import Human
-
-EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
 
 
 def median_to_surface(body: Body, pose: Pose, observation: Observation) -> float:
