@@ -9,7 +9,7 @@ import pytest
 from small_experiment import Files, Started, small
 
 from regkit.cli import main
-from regkit.config import plugin
+from regkit.config import registry as registered
 
 
 class Ended(NamedTuple):
@@ -21,7 +21,7 @@ class Ended(NamedTuple):
 @pytest.fixture(autouse=True)
 def registry(monkeypatch):
     """Plug-ins that a test registers are gone after it."""
-    monkeypatch.setattr(plugin, "_REGISTERED", {})
+    monkeypatch.setattr(registered, "_REGISTERED", {})
 
 
 @pytest.fixture

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from small_experiment import EXAMPLES, QUICK, add_method
 
-from regkit.config.plugin import run_plugin_file
+from regkit.config.registry import run_plugin_file
 from regkit.interfaces import Scene, ShapeModel, Term
 
 SHAPE = '''
