@@ -15,7 +15,7 @@ from small_experiment import Files, Started, small
 
 from regkit.body import Body, BodyDescription
 from regkit.cli import main
-from regkit.config import plugin
+from regkit.config import registry as registered
 from regkit.config.document import Document
 from regkit.testing.samples import LINKAGE
 
@@ -74,7 +74,7 @@ class Ended(NamedTuple):
 @pytest.fixture(autouse=True)
 def registry(monkeypatch):
     """Plug-ins that a test registers are gone after it."""
-    monkeypatch.setattr(plugin, "_REGISTERED", {})
+    monkeypatch.setattr(registered, "_REGISTERED", {})
 
 
 @pytest.fixture

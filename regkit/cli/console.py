@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from regkit.config.plugin import run_plugin_file
+from regkit.config.registry import run_plugin_file
 from regkit.system.errors import RegkitError
 
 # What a user wrote between two colons is no emoji.

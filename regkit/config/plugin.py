@@ -8,21 +8,18 @@ until it is named, so a broken third-party plug-in can only harm those who name 
 
 from __future__ import annotations
 
-import hashlib
-import importlib.util
-import inspect
-import sys
-from pathlib import Path
 from typing import Any, ClassVar, Self, TypeVar, cast
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
-from pydantic.errors import PydanticUndefinedAnnotation
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
+from regkit.config.changes import with_changes
+from regkit.config.complete import check_complete
 from regkit.config.installed import Installed, installed
 from regkit.config.model import Model, did_you_mean
-from regkit.config.preset import changed, preset
+from regkit.config.preset import preset
+from regkit.config.registry import add, registered
 from regkit.config.slot_schema import slot_schema
 from regkit.system.errors import PluginError, RegkitError
 
@@ -46,7 +43,7 @@ class Plugin(Model):
     def available(cls) -> dict[str, Installed | type[Self]]:
         """All plug-ins of this group by name, none of them imported."""
         found: dict[str, Installed | type[Self]] = {**installed(cls.group)}
-        return dict(sorted((found | _REGISTERED.get(cls.group, {})).items()))
+        return dict(sorted((found | registered(cls.group)).items()))
 
     @classmethod
     def load(cls, kind: str) -> type[Self]:
@@ -68,7 +65,7 @@ class Plugin(Model):
             return found
         plugin = found.load("plug-in")
         try:
-            _check(plugin, cls, kind)
+            check_complete(plugin, cls, kind)
         except PluginError as error:
             raise PluginError(
                 f"plug-in '{kind}' of {found.distributions[0]} {error.message}"
@@ -134,7 +131,7 @@ class Plugin(Model):
                 f"the preset '{name}' is of the kind '{base['kind']}', which cannot be changed in "
                 "it; leave 'kind' out"
             )
-        return changed(base, changes)
+        return with_changes(base, {k: part for k, part in changes.items() if k != "preset"})
 
     @classmethod
     def _preset(cls, name: str) -> dict[str, Any]:
@@ -152,91 +149,18 @@ class Plugin(Model):
 
 
 P = TypeVar("P", bound=Plugin)
-_REGISTERED: dict[str, dict[str, type[Any]]] = {}
-_FROM_FILE = "regkit_plugin_file_"
-"""How the names of modules begin that ``run_plugin_file`` makes."""
 
 
 def register(plugin: type[P]) -> type[P]:
-    """Make a plug-in class available in this process: in notebooks, tests, ``--plugin`` files.
+    """Make a plug-in class available in this process: in a notebook, a test or a plug-in file.
 
     Raises:
         PluginError: If it does not declare what a plug-in must.
     """
     kind = plugin.model_fields["kind"].default
     try:
-        _check(plugin, Plugin, kind)
+        check_complete(plugin, Plugin, kind)
     except PluginError as error:
         raise PluginError(f"{plugin.__qualname__} {error.message}") from None
-    _REGISTERED.setdefault(plugin.group, {})[kind] = plugin
+    add(plugin.group, kind, plugin)
     return plugin
-
-
-def _check(plugin: object, slot: type[Plugin], kind: str) -> None:
-    """Refuse what is no complete plug-in of a slot; the message continues its name."""
-    if not (inspect.isclass(plugin) and issubclass(plugin, slot)):
-        raise PluginError(f"is not a concrete {slot.__name__}: {plugin!r}")
-    missing = ", ".join(sorted(getattr(plugin, "__abstractmethods__", ())))
-    if missing:
-        raise PluginError(
-            f"is not a concrete {slot.__name__}: {plugin.__qualname__} does not define {missing}"
-        )
-    for name in plugin.declared:
-        if not any(name in vars(base) for base in plugin.__mro__):
-            raise PluginError(f"must declare the class variable '{name}' in {plugin.__qualname__}")
-        value = getattr(plugin, name)
-        if not inspect.isclass(value):
-            raise PluginError(f"must set '{name}' to a class in {plugin.__qualname__}: {value!r}")
-    own = plugin.model_fields["kind"].default
-    if not isinstance(own, str):
-        raise PluginError(
-            f'must declare its name in {plugin.__qualname__}: kind: Literal["name"] = "name"'
-        )
-    if own != kind:
-        raise PluginError(
-            f"calls itself '{own}': {plugin.__qualname__}.kind must default to its entry-point name"
-        )
-    try:
-        plugin.model_rebuild()
-    except PydanticUndefinedAnnotation as error:
-        raise PluginError(
-            f"has a field of an unknown type in {plugin.__qualname__}: name '{error.name}' is not "
-            "defined"
-        ) from None
-
-
-def from_file(plugin: type[Plugin]) -> bool:
-    """Whether a plug-in was registered by a file that ``run_plugin_file`` ran."""
-    return plugin.__module__.startswith(_FROM_FILE)
-
-
-def plugin_files() -> tuple[Path, ...]:
-    """The files whose plug-ins are registered, for other processes to run them too."""
-    plugins = [plugin for by_kind in _REGISTERED.values() for plugin in by_kind.values()]
-    modules = sorted({plugin.__module__ for plugin in plugins if from_file(plugin)})
-    return tuple(Path(str(sys.modules[module].__file__)) for module in modules)
-
-
-def run_plugin_file(path: Path) -> None:
-    """Run a Python file that registers plug-ins with ``@register``.
-
-    Raises:
-        PluginError: If the file is missing, fails, or registers nothing.
-    """
-    before = {group: dict(plugins) for group, plugins in _REGISTERED.items()}
-    where = hashlib.sha256(str(path.absolute()).encode()).hexdigest()[:8]
-    name = f"{_FROM_FILE}{path.stem}_{where}"
-    spec = importlib.util.spec_from_file_location(name, path.absolute())
-    if spec is None or spec.loader is None or not path.is_file():
-        raise PluginError("there is no such Python file", place=str(path))
-    module = importlib.util.module_from_spec(spec)
-    # pydantic looks a class's module up here, to read the docstrings and types of its fields.
-    sys.modules[spec.name] = module
-    try:
-        spec.loader.exec_module(module)
-    except Exception as error:
-        raise PluginError(f"{type(error).__name__}: {error}", place=str(path)) from error
-    if before == _REGISTERED:
-        raise PluginError(
-            "the file registers no plug-in; decorate the class with @register", place=str(path)
-        )

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from regkit.config.document import Document
 from regkit.config.installed import Installed, installed
@@ -46,39 +44,3 @@ def preset(group: str, name: str) -> Document:
         RegkitError: If there is no such preset, or its file is no YAML mapping.
     """
     return Document.read(preset_file(group, name))
-
-
-def changed(base: Mapping[str, Any], value: Mapping[str, Any]) -> dict[str, Any]:
-    """A preset's configuration with all that stands beside the preset's name."""
-    return _merged(base, {key: part for key, part in value.items() if key != "preset"})
-
-
-def _merged(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """``base`` with ``changes`` in it."""
-    return dict(base) | {key: _changed(base.get(key), new, key) for key, new in changes.items()}
-
-
-def _changed(old: Any, new: Any, key: str) -> Any:
-    """A value after a change: mappings of one kind and items of lists change, the rest is new."""
-    if not isinstance(new, dict):
-        return new
-    if isinstance(old, str):
-        old = {"kind": old}
-    if isinstance(old, dict) and new.get("kind", old.get("kind")) == old.get("kind"):
-        return _merged(old, new)
-    if isinstance(old, list) and new and all(index.isdecimal() for index in new):
-        return _with_items(old, new, key)
-    return new
-
-
-def _with_items(old: list[Any], new: Mapping[str, Any], key: str) -> list[Any]:
-    """A list of which some items, named by their numbers, are changed."""
-    items = list(old)
-    for index, item in new.items():
-        if int(index) >= len(items):
-            raise PluginError(
-                f"{key} is a list of {len(items)} in the preset, whose items are named by numbers "
-                f"from 0; there is no item '{index}'"
-            )
-        items[int(index)] = _changed(items[int(index)], item, f"{key}.{index}")
-    return items

@@ -13,7 +13,8 @@ from zipfile import BadZipFile
 import numpy as np
 
 from regkit.body import Body
-from regkit.config.document import Document, yaml_data, yaml_text
+from regkit.config.document import Document
+from regkit.config.yaml import yaml_data, yaml_text
 from regkit.experiment.differences import differences
 from regkit.experiment.environment import environment
 from regkit.experiment.lock import MARK
@@ -59,7 +60,9 @@ class Results:
         if file.exists():
             before = file.read_text(encoding="utf-8")
             # A comment in the file, or another order of its fields, is no other configuration.
-            if before != text and (there := yaml_data(before)) != (here := yaml_data(text)):
+            if before != text and (there := yaml_data(before, str(file))) != (
+                here := yaml_data(text, str(file))
+            ):
                 raise ConfigError(
                     f"the folder holds the results of another configuration ({file}): "
                     f"{differences(there, here)}; choose another folder, or run what it was begun "

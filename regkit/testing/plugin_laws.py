@@ -9,8 +9,8 @@ import pytest
 from pydantic import ValidationError
 from pydantic_core import PydanticSerializationError
 
-from regkit.config.document import yaml_text
 from regkit.config.plugin import Plugin
+from regkit.config.yaml import yaml_data, yaml_text
 from regkit.testing.cases import Case
 from regkit.testing.laws import Laws
 from regkit.testing.verdict import require, same
@@ -68,17 +68,11 @@ class PluginLaws(Laws):
             )  # fmt: skip
             raise
         text = yaml_text(written)
-        again = type(made).model_validate(_read(text))
+        again = type(made).model_validate(yaml_data(text, type(made).__name__))
         require(
             same(again.model_dump(), made.model_dump()), made,
             f"is not read back as it is written; YAML: {text!r}", look_at=type(made),
         )  # fmt: skip
-
-
-def _read(text: str) -> Any:
-    from ruamel.yaml import YAML
-
-    return YAML(typ="safe", pure=True).load(text)
 
 
 def _loaded(case: Case) -> Any:

@@ -51,7 +51,7 @@ EXPECTED = {
     "no_makes": "must declare the class variable 'makes' in Odd",
     "makes_text": "must set 'makes' to a class in Odd: 'Gaussians'",
     "advised": "cannot be imported: TypeError: nothing",
-    "abstract": "is not a concrete ShapeModel: Odd does not define attach",
+    "abstract": "is not a concrete ShapeModel: Odd does not define bind",
     "syntax": "cannot be imported: SyntaxError",
     "other_slot": "is not a concrete ShapeModel: <class 'regkit_plugins.solvers.lbfgs.LBFGS'>",
     "absent": "cannot be imported: AttributeError",

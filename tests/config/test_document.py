@@ -107,9 +107,9 @@ def test_setting_changes_a_value_and_is_named_in_errors(file):
     changed = Experiment.read(file, ["methods.gsog.solver.max_iterations=7"])
     assert changed.methods["gsog"].solver.max_iterations == 7
     message = complaint(file, EXPERIMENT, Experiment, ("template.height=tall",))
-    assert message.startswith("--set template.height=tall: template.height: input should be")
+    assert message.startswith("setting template.height=tall: template.height: input should be")
     message = complaint(file, EXPERIMENT, Experiment, ("template.height",))
-    assert message == "--set template.height: a setting must read a.b.c=value"
+    assert message == "setting template.height: a setting must read a.b.c=value"
 
 
 def test_setting_reaches_into_a_short_form(file):
@@ -183,7 +183,7 @@ def test_unknown_joint_of_a_stance_is_refused(file, linkage_text):
 def test_setting_that_replaces_a_mapping_is_blamed_for_what_is_in_it(file):
     setting = "methods.gsog.solver={kind: lbfgs, memory: -1}"
     message = complaint(file, EXPERIMENT, Experiment, (setting,))
-    assert message.startswith(f"--set {setting}: methods.gsog.solver.memory: ")
+    assert message.startswith(f"setting {setting}: methods.gsog.solver.memory: ")
 
 
 def test_setting_reaches_into_a_list(file):
@@ -194,6 +194,22 @@ def test_setting_reaches_into_a_list(file):
     changed = Experiment.read(file, ["methods.gsog.terms.0.kind=visibility"])
     assert changed.methods["gsog"].terms[0].kind == "visibility"
     assert complaint(file, text, Experiment, ("methods.gsog.terms.2=clamp",)) == (
-        "--set methods.gsog.terms.2=clamp: methods.gsog.terms is a list of 2, whose items are "
+        "setting methods.gsog.terms.2=clamp: methods.gsog.terms is a list of 2, whose items are "
         "named by numbers from 0; there is no item '2'"
     )
+
+
+@pytest.mark.parametrize("places", [{}, {("methods",): "here"}])
+def test_document_without_places_names_the_fields(places):
+    document = Document({"name": "a/b", "methods": {}}, places)
+    with pytest.raises(ConfigError) as caught:
+        document.validated(Experiment)
+    lines = str(caught.value).splitlines()
+    assert lines[0].startswith("name: 'a/b'")
+    assert any(line.startswith("dataset: field required") for line in lines)
+    assert document.place(()) == ""
+
+
+def test_mapping_that_a_setting_adds_has_the_place_of_the_setting(file):
+    message = complaint(file, EXPERIMENT, Experiment, ("trackr.kind=constant_pose",))
+    assert message.startswith("setting trackr.kind=constant_pose: trackr: no such field")

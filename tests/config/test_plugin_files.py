@@ -7,7 +7,7 @@ import pytest
 from places import EXAMPLES
 from small_experiment import QUICK, add_method
 
-from regkit.config.plugin import run_plugin_file
+from regkit.config.registry import run_plugin_file
 from regkit.interfaces import Scene, ShapeModel, Term
 
 SHAPE = '''

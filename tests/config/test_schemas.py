@@ -16,7 +16,7 @@ from places import ROOT
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
 import regkit.config.installed
-import regkit.config.plugin
+import regkit.config.registry
 from regkit.body import BodyDescription
 from regkit.cli.schema import schemas
 from regkit.cli.template_file import write_template
@@ -320,7 +320,7 @@ def test_broken_plugins_and_presets_are_not_in_the_schema_and_harm_no_other(monk
 
 
 def test_plugin_that_holds_others_of_its_own_group_is_described(monkeypatch):
-    monkeypatch.setattr(regkit.config.plugin, "_REGISTERED", {})
+    monkeypatch.setattr(regkit.config.registry, "_REGISTERED", {})
     register(Twice)
     checked = Draft202012Validator(schemas()["experiment"])
     data = copy.deepcopy(data_of(ROOT / "docs" / "examples" / "demo.yaml"))

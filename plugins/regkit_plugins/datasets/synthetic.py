@@ -10,8 +10,8 @@ from typing import Annotated, Any, Literal, Self
 import numpy as np
 from pydantic import Field, model_validator
 
+from regkit.config.changes import with_changes
 from regkit.config.model import misplaced
-from regkit.config.preset import changed
 from regkit.interfaces import Dataset, Recording
 from regkit.observation import Frame, Truth
 from regkit.system.errors import DataError, RegkitError
@@ -163,9 +163,7 @@ def _over(defaults: Mapping[str, Any], take: Mapping[str, Any]) -> dict[str, Any
             if isinstance(own[field], dict) and not _SOURCES.isdisjoint(own[field]):
                 # Only one of them can say where it comes from.
                 common[field] = {k: v for k, v in common[field].items() if k not in _SOURCES}
-    # A preset's name has no place in a take, and is kept here only to be refused.
-    preset = {"preset": own["preset"]} if "preset" in own else {}
-    return {**changed(common, own), **preset}
+    return with_changes(common, own)
 
 
 def _seen(scene: Scene, seed: int) -> DepthRecording:

@@ -15,7 +15,8 @@ from pydantic import BaseModel
 
 from regkit import __version__
 from regkit.config.document import Document
-from regkit.config.plugin import Plugin, from_file, plugin_files, run_plugin_file
+from regkit.config.plugin import Plugin
+from regkit.config.registry import from_file, plugin_files, run_plugin_file
 from regkit.experiment.experiment import Experiment
 from regkit.experiment.lock import FolderLock
 from regkit.experiment.resolved import resolved

@@ -1,0 +1,64 @@
+"""Plug-ins that this process registered itself, rather than an installed distribution."""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.util
+import sys
+from pathlib import Path
+from typing import Any
+
+from regkit.system.errors import PluginError
+
+_REGISTERED: dict[str, dict[str, type[Any]]] = {}
+"""Classes by group and kind."""
+
+_FROM_FILE = "regkit_plugin_file_"
+"""How the names of modules begin that ``run_plugin_file`` makes."""
+
+
+def registered(group: str) -> dict[str, type[Any]]:
+    """The plug-ins of a group that were registered, by kind."""
+    return dict(_REGISTERED.get(group, {}))
+
+
+def add(group: str, kind: str, plugin: type[Any]) -> None:
+    """Register a plug-in that is known to be complete."""
+    _REGISTERED.setdefault(group, {})[kind] = plugin
+
+
+def run_plugin_file(path: Path) -> None:
+    """Run a Python file that registers plug-ins with ``@register``.
+
+    Raises:
+        PluginError: If the file is missing, fails, or registers nothing.
+    """
+    before = {group: dict(plugins) for group, plugins in _REGISTERED.items()}
+    where = hashlib.sha256(str(path.absolute()).encode()).hexdigest()[:8]
+    name = f"{_FROM_FILE}{path.stem}_{where}"
+    spec = importlib.util.spec_from_file_location(name, path.absolute())
+    if spec is None or spec.loader is None or not path.is_file():
+        raise PluginError("there is no such Python file", place=str(path))
+    module = importlib.util.module_from_spec(spec)
+    # pydantic looks a class's module up here, to read the docstrings and types of its fields.
+    sys.modules[spec.name] = module
+    try:
+        spec.loader.exec_module(module)
+    except Exception as error:
+        raise PluginError(f"{type(error).__name__}: {error}", place=str(path)) from error
+    if before == _REGISTERED:
+        raise PluginError(
+            "the file registers no plug-in; decorate the class with @register", place=str(path)
+        )
+
+
+def plugin_files() -> tuple[Path, ...]:
+    """The files whose plug-ins are registered, for other processes to run them too."""
+    plugins = [plugin for by_kind in _REGISTERED.values() for plugin in by_kind.values()]
+    modules = sorted({plugin.__module__ for plugin in plugins if from_file(plugin)})
+    return tuple(Path(str(sys.modules[module].__file__)) for module in modules)
+
+
+def from_file(plugin: type[Any]) -> bool:
+    """Whether a plug-in was registered by a file that ``run_plugin_file`` ran."""
+    return plugin.__module__.startswith(_FROM_FILE)
