@@ -11,6 +11,7 @@ from regkit.body import Body
 from regkit.interfaces import Kernel, Similarity
 from regkit.observation import Observation
 from regkit.primitives import Placed, Primitives
+from regkit.registration import ResidualSimilarity
 from regkit.registration.coordinates import TangentCoordinates
 from regkit.registration.problem import RegistrationProblem
 from regkit.skeleton import Pose
@@ -76,4 +77,8 @@ class Bound:
     @property
     def answer(self) -> object:
         """The method that answers, where the kernel's author should look."""
-        return type(self.similarity()).__call__
+        similarity = type(self.similarity())
+        if issubclass(similarity, ResidualSimilarity):
+            inherited = similarity.__call__ is ResidualSimilarity.__call__
+            return similarity.residuals if inherited else similarity.__call__
+        return similarity.__call__

@@ -152,53 +152,63 @@ KERNEL = (
     )
 )
 
+ANSWERS = """    def __call__(self, placed, *, curvature=False):
+        from dataclasses import replace
+
+        answer = super().__call__(placed, curvature=curvature)
+        blocks = answer.stiffness
+        return replace(answer, CHANGE)
+
+    def residuals("""
+"""A kernel whose answer is changed in one way."""
+
+
+def answering(change: str) -> tuple[str, str]:
+    return "    def residuals(", ANSWERS.replace("CHANGE", change)
+
+
 KERNEL_FAULTS = {
     "torque": (
-        "-np.concatenate([normals, turns]",
-        "-np.concatenate([normals, -turns]",
+        "np.cross(offsets[each, owners], normals)",
+        "-np.cross(offsets[each, owners], normals)",
         "test_kernel_gradient_is_the_derivative_of_its_energy",
         "(the forces are right, so it is the torques)",
     ),
     "sign": (
-        "-np.concatenate([normals, turns]",
-        "np.concatenate([normals, turns]",
+        "rows = -np.hstack",
+        "rows = np.hstack",
         "test_kernel_gradient_is_the_derivative_of_its_energy",
         "(all signs are wrong: it must point uphill)",
     ),
     "blocks": (
-        "pulls[:, None, None] * rows",
-        "1e-3 * pulls[:, None, None] * rows",
+        *answering("stiffness=None if blocks is None else 1e-3 * blocks"),
         "test_kernel_blocks_fit_its_forces",
         "has blocks that are too soft",
     ),
     "stiff": (
-        "pulls[:, None, None] * rows",
-        "1e3 * pulls[:, None, None] * rows",
+        *answering("stiffness=None if blocks is None else 1e3 * blocks"),
         "test_kernel_blocks_fit_its_forces",
         "has blocks that are too stiff",
     ),
     "negative": (
-        "pulls[:, None, None] * rows",
-        "-pulls[:, None, None] * rows",
+        *answering("stiffness=None if blocks is None else -blocks"),
         "test_kernel_blocks_are_symmetric_and_semidefinite",
         "clip the weights of residuals at zero",
     ),
     "where": (
-        "energy = 0.5 * float(",
-        "energy = placed.centres[0, 0] + 0.5 * float(",
+        *answering("energy=answer.energy + placed.centres[0, 0]"),
         "test_kernel_is_left_alone_by_a_common_motion",
         "when body and data are moved together",
     ),
     "unweighted": (
-        "observation.weights / observation.weights.sum()",
-        "np.full(len(self._points), 1.0 / len(self._points))",
+        "data.weights / data.weights.sum()",
+        "np.full(len(data.points), 1.0 / len(data.points))",
         "test_kernel_takes_a_point_of_twice_the_weight_for_two",
         "does not weigh the data: of what a second point in the same place does to its forces, "
         "twice the weight leaves 100 % undone",
     ),
     "maximum": (
-        "return Response(energy, wrenches,",
-        "return Response(-energy, -wrenches,",
+        *answering("energy=-answer.energy, wrenches=-answer.wrenches"),
         "test_kernel_prefers_the_body_where_the_data_are",
         "prefers a body 0.1 m beside its data",
     ),

@@ -117,7 +117,7 @@ def test_faulty_kernel_breaks_its_law(tmp_path, fault):
     with pytest.raises(pytest.fail.Exception, match=re.escape(expected)) as caught:
         kernel_laws(loaded(tmp_path, KERNEL, old, new))[law]()
     assert str(caught.value).startswith("kernel 'radial_faulty' ")
-    assert f"RadialDistances.__call__ ({tmp_path / 'faulty.py'}:" in str(caught.value)
+    assert f" ({tmp_path / 'faulty.py'}:" in str(caught.value)
 
 
 def test_broken_plugin_fails_the_law_of_loading():
@@ -169,9 +169,7 @@ def test_example_that_does_not_fit_is_told():
 def test_wrong_gradient_of_an_installed_package_is_named(tmp_path):
     """In a process of its own, as its author would run it."""
     text = SUPERQUADRIC.read_text().replace("superquadric", "oddquadric")
-    text = text.replace("radial_distance", "odd_distance").replace(
-        "-np.concatenate", "np.concatenate"
-    )
+    text = text.replace("radial_distance", "odd_distance").replace("-np.hstack", "np.hstack")
     (tmp_path / "oddquadric.py").write_text(text)
     info = tmp_path / "regkit_oddquadric-1.0.dist-info"
     info.mkdir()
