@@ -23,9 +23,9 @@ class SurfaceDistances:
 
     Attributes:
         lengths: Signed distances from the spheres' surfaces, (R,) [m].
-        directions: From the spheres' centres, the directions in which the distances are measured,
+        directions: From the body to the data, the directions in which the distances are measured,
             (R, 3): unit vectors, or zero where a distance is zero and stays so.
-        centres: Of the spheres, (R, 3) [m].
+        points: Points (R, 3) [m] on the lines through the spheres' centres along the directions.
         segments: The segment of each, (R,).
         capsules: The capsule of each, (R,).
         along: Position of the centre on the capsule's axis, from 0 to 1, (R,).
@@ -33,14 +33,14 @@ class SurfaceDistances:
 
     lengths: Array
     directions: Array
-    centres: Array
+    points: Array
     segments: Indices
     capsules: Indices
     along: Array
 
     def rows(self, placement: Placement) -> Array:
         """The derivative (R, n) of the distances to the degrees of freedom."""
-        return placement.rows(self.segments, self.centres, -self.directions)
+        return placement.rows(self.segments, self.points, -self.directions)
 
 
 def data_to_model(
@@ -70,7 +70,7 @@ def data_to_model(
     return SurfaceDistances(
         lengths=lengths,
         directions=directions,
-        centres=start + along[:, None] * axis,
+        points=feet,
         segments=capsules.segments[nearest],
         capsules=nearest,
         along=along,
@@ -84,8 +84,8 @@ def model_to_data(axes: AxisPoints, cloud: KDTree) -> SurfaceDistances:
     ways = np.asarray(cloud.data)[nearest] - axes.points
     return SurfaceDistances(
         lengths=lengths,
-        directions=ways * ((lengths > 0.0) / np.maximum(distances, 1e-9))[:, None],
-        centres=axes.points,
+        directions=ways / np.maximum(distances, 1e-9)[:, None] * (lengths > 0.0)[:, None],
+        points=axes.points,
         segments=axes.segments,
         capsules=axes.capsules,
         along=axes.along,
