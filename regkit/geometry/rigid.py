@@ -32,18 +32,18 @@ def transformed(transform: Array, points: Array) -> Array:
 
 
 def exp(twist: Array) -> Array:
-    """The motion (..., 4, 4) in unit time of a twist (..., 6): angular [rad], linear [m].
+    """The motion (..., 4, 4) in unit time of a twist (..., 6): linear [m], then angular [rad].
 
     Source: Murray, Li, Sastry, A Mathematical Introduction to Robotic Manipulation, eq. 2.36.
     """
-    angular, linear = twist[..., :3], twist[..., 3:]
+    linear, angular = twist[..., :3], twist[..., 3:]
     left_jacobian = right_jacobian(-angular)
     return rigid(vector_to_matrix(angular), (left_jacobian @ linear[..., None])[..., 0])
 
 
 def log(transform: Array) -> Array:
-    """The twist (..., 6), angular first, with ``exp(twist) = transform``; at most half a turn."""
+    """The twist (..., 6), linear first, with ``exp(twist) = transform``; at most half a turn."""
     angular = to_vector(from_matrix(transform[..., :3, :3]))
     left_jacobian = right_jacobian(-angular)
     linear = np.linalg.solve(left_jacobian, transform[..., :3, 3:])[..., 0]
-    return np.concatenate([angular, linear], axis=-1)
+    return np.concatenate([linear, angular], axis=-1)

@@ -8,6 +8,7 @@ from functools import cached_property
 from regkit.geometry.camera import Camera
 from regkit.observation.silhouette import Silhouette
 from regkit.system.arrays import Array
+from regkit.system.errors import DataError
 
 
 @dataclass(frozen=True)
@@ -24,6 +25,9 @@ class Observation:
             measured, if there is one.
         normals: Unit normals of the surface at the points, (N, 3), of either sign, if they are
             known.
+
+    Raises:
+        DataError: If there is no point, or the arrays differ in length.
     """
 
     points: Array
@@ -32,6 +36,22 @@ class Observation:
     camera: Camera | None = None
     depth: Array | None = None
     normals: Array | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse data from which no kernel can compute anything.
+
+        Raises:
+            DataError: If there is no point, or the arrays differ in length.
+        """
+        count = len(self.points)
+        if not count:
+            raise DataError("the observation has no points; a registration needs some")
+        for name in ("weights", "variances"):
+            if getattr(self, name).shape != (count,):
+                raise DataError(
+                    f"the observation has {count} points, but {name} of the shape "
+                    f"{getattr(self, name).shape}; it must be ({count},)"
+                )
 
     @cached_property
     def silhouette(self) -> Silhouette | None:

@@ -67,7 +67,7 @@ class _Fitting:
             nearest, seen, _ = self._pairs(transform)
             planes = self.directions[nearest]
             gaps = (planes * (seen - self.points[nearest])).sum(axis=1)
-            rows = np.concatenate([np.cross(seen, planes), planes], axis=1)
+            rows = np.concatenate([planes, np.cross(seen, planes)], axis=1)
             # The data move against the body; where nothing holds them they stay.
             matrix = rows.T @ rows
             matrix += 1e-9 * np.trace(matrix) * np.eye(6)

@@ -74,7 +74,7 @@ def test_jacobian_is_the_derivative_of_place(linkage, random):
         behind = linkage.place(bones.retract(pose, -step * direction)).transforms
         linear = (ahead - behind)[:, :3, 3] / (2 * step)
         turn = log(rigid(ahead[:, :3, :3] @ np.swapaxes(behind[:, :3, :3], 1, 2), np.zeros(3)))
-        angular = turn[:, :3] / (2 * step)
+        angular = turn[:, 3:] / (2 * step)
         expected = np.concatenate([linear, angular], axis=1)
         np.testing.assert_allclose(jacobian[:, :, column], expected, atol=1e-8)
 

@@ -13,6 +13,7 @@ from regkit.interfaces import Kernel
 from regkit.observation import Observation
 from regkit.primitives import Gaussians, Placed, Primitives
 from regkit.system.arrays import Array
+from regkit.system.errors import DataError
 
 
 class Likelihood(Kernel):
@@ -75,6 +76,15 @@ class BoundLikelihood(GaussianSimilarity):
 
 
 def box_volume(observation: Observation) -> float:
-    """Volume [m^3] of the data's box; a flat cloud is taken to be a tenth as deep as long."""
+    """Volume [m^3] of the data's box; a flat cloud counts as a tenth as deep as it is long.
+
+    Raises:
+        DataError: If all points coincide.
+    """
     sides = np.ptp(observation.points, axis=0)
+    if not sides.any():
+        raise DataError(
+            f"all {len(observation.points)} points of the frame coincide; a pose needs a cloud "
+            "that extends in space"
+        )
     return float(np.maximum(sides, 0.1 * sides.max()).prod())

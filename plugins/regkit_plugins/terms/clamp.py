@@ -7,10 +7,10 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 from pydantic import Field
 
+from regkit.gaussians.overlap import SELF_OVERLAP, Overlap
 from regkit.interfaces import Response, Scene, Term
 from regkit.primitives import Gaussians, Placed, Primitives
 from regkit.system.arrays import Array
-from regkit_plugins.kernels.correlation import SELF_SIMILARITY, BoundCorrelation, Correlation
 
 
 class Clamp(Term):
@@ -29,22 +29,22 @@ class Clamp(Term):
     covariance: Literal["exact", "frozen"] = "exact"
     """Whether covariances turn with their segments; the same as the kernel's."""
 
-    def bind(self, scene: Scene) -> Excess:
+    def bind(self, scene: Scene) -> BoundClamp:
         """Bind the term to a frame's data."""
-        return Excess(self, scene)
+        return BoundClamp(self, scene)
 
 
-class Excess(BoundCorrelation):
+class BoundClamp(Overlap):
     """``weight * sum max(0, overlap - self-similarity)`` over the data."""
 
     def __init__(self, term: Clamp, scene: Scene) -> None:
-        kernel = Correlation(covariance=term.covariance)
-        super().__init__(kernel, scene.observation, scene.placed, 0.0)
+        frozen = term.covariance == "frozen"
+        super().__init__(scene.observation, scene.placed, smoothing=0.0, frozen=frozen)
         self._weight = term.weight
 
     def weigh(self, densities: Array, data_weights: Array) -> float:
-        """Only points that are explained more than once put forces on primitives."""
-        excess = densities.sum(axis=0) - SELF_SIMILARITY * data_weights
+        """Only points beyond their own overlap put forces on primitives."""
+        excess = densities.sum(axis=0) - SELF_OVERLAP * data_weights
         # The derivative of the excess is against that of the energy of an overlap, which is minus.
         densities *= -self._weight * (excess > 0.0)
         return self._weight * float(np.maximum(excess, 0.0).sum())
