@@ -71,12 +71,14 @@ nitpick_ignore_regex = [
         r"py:class",
         r"TypeAliasForwardRef|ArrayLike|Choice|Cloud|Frames|Intrinsics|Measured|Reference",
     ),
-    (r"py:class", r"Figure|Field|(dict|tuple)\[str"),
-    # What a YAML file holds is told by tables of fields, not here.
+    (r"py:class", r"Figure|Field|0\.0|(dict|tuple)\[str"),
+    # Tables of fields describe the content of YAML files.
     (r"py:class", r"(regkit\.(body|skeleton)\..*\.)?\w+Description"),
-    # Parts that are no part of the public interface.
+    # Not part of the public interface.
     (r"py:class", r"regkit\.api\.tables\.Summary|regkit\.calibration\.\w+\.\w+"),
-    (r"py:class", r"regkit\.constraints\._Rows|regkit\.model\._from_its_folder"),
+    (r"py:class", r"regkit\.body\.proportions\.Proportions"),
+    (r"py:class", r"regkit\.registration\.constraints\._Rows"),
+    (r"py:class", r"regkit\.config\.model\._from_its_folder"),
     (r"py:class", r"regkit\.testing\.conformance\.Conformance"),
     (r"py:(class|obj)", r"(.*\.)?(P|S|M|P_co|S_co)"),
 ]
