@@ -10,14 +10,13 @@ from numpy.typing import ArrayLike
 
 from regkit.alignment import Alignment
 from regkit.alignment import align as align_clouds
-from regkit.api.choices import Choice, chosen_method, told
+from regkit.api.choices import Choice, told
 from regkit.api.numbers import checked_numbers
 from regkit.api.tables import Summary
 from regkit.clouds import check_writable, read_cloud, write_cloud
 from regkit.geometry.rigid import transformed
 from regkit.interfaces import Method
 from regkit.system.arrays import Array, checked_points
-from regkit.system.errors import RegkitError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -92,18 +91,19 @@ class CloudAlignment(Summary):
 def align(
     source: Cloud,
     target: Cloud,
-    method: Choice[Method] = "rigid",
+    method: Choice[Method] | None = None,
     *,
     voxel: float | None = None,
     start: str = "nearest",
 ) -> CloudAlignment:
-    """Lay a rigid cloud on another, as ``regkit register`` does.
+    """Lay a rigid cloud on another, as ``regkit align`` does.
 
     Args:
         source: Points (N, 3) [m] to be moved, or a file of a cloud or a mesh.
         target: Points (M, 3) [m] that rest, or a file.
-        method: The preset ``"rigid"``, a kind such as ``"open3d_icp"`` or ``"small_gicp"``, a
-            mapping such as ``{"kind": "open3d_icp", "estimation": "generalized"}``, or a method.
+        method: A preset such as ``"rigid"``, a kind such as ``"open3d_icp"`` or ``"small_gicp"``, a
+            mapping such as ``{"kind": "open3d_icp", "estimation": "generalized"}``, or a method;
+            without it regkit's own for rigid clouds.
         voxel: Side of the cubes to which both are downsampled [m]; 0 for not at all. Without it
             some 5000 points are left.
         start: Where to set out from: ``"nearest"`` of identity and centroids, ``"identity"``,
@@ -113,13 +113,10 @@ def align(
     Raises:
         RegkitError: If an argument cannot be, or the clouds cannot be aligned; it says which.
     """
-    chosen, _, _ = chosen_method(method, place="regkit.align")
+    method = Method.default("rigid") if method is None else method
+    chosen = Method.parse(method, place="regkit.align", field="method")
     clouds = [_cloud(source, "source"), _cloud(target, "target")]
-    try:
-        found = align_clouds(clouds[0], clouds[1], chosen, voxel=voxel, start=start)
-    except RegkitError as error:
-        # What is an option on the command line is an argument here.
-        raise type(error)(error.message, place=(error.place or "").removeprefix("--")) from None
+    found = align_clouds(clouds[0], clouds[1], chosen, voxel=voxel, start=start)
     return CloudAlignment(clouds[0], clouds[1], told(method), found)
 
 

@@ -11,8 +11,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from regkit.api.numbers import checked_numbers
-from regkit.config.document import Document
-from regkit.config.model import Model
 from regkit.geometry.camera import Camera
 from regkit.interfaces import Dataset, Recording
 from regkit.observation import Frame
@@ -47,10 +45,6 @@ class GivenFrames(Recording):
         """Arrays bring no reference joints."""
 
 
-class _OfDataset(Model):
-    dataset: Dataset
-
-
 def load_recording(folder: str | Path, *, frames: int | None = None) -> Recording:
     """A recorded recording: a folder with ``depth/`` or ``clouds/`` and a ``sequence.yaml``.
 
@@ -63,10 +57,8 @@ def load_recording(folder: str | Path, *, frames: int | None = None) -> Recordin
     Raises:
         RegkitError: If there is no recording, or there are several, or it is damaged.
     """
-    kind = "clouds" if (Path(folder) / "clouds").is_dir() else "depth"
-    data = {"dataset": {"kind": kind, "root": str(folder), "frames": frames}}
-    document = Document(data, {(): "load_recording"})
-    return _only(document.validated(_OfDataset).dataset)
+    data = Dataset.in_folder(folder, frames=frames)
+    return Dataset.parse(data, place="load_recording", field="dataset").only()
 
 
 def recording_of(frames: Frames, camera: Intrinsics | None, fps: float) -> Recording:
@@ -80,7 +72,7 @@ def recording_of(frames: Frames, camera: Intrinsics | None, fps: float) -> Recor
             raise ConfigError("frames that are read have a camera of their own", place="camera")
         if isinstance(frames, Recording):
             return frames
-        return _only(frames) if isinstance(frames, Dataset) else load_recording(frames)
+        return frames.only() if isinstance(frames, Dataset) else load_recording(frames)
     if isinstance(frames, np.ndarray) and frames.ndim < 3:
         raise DataError(
             f"one array of shape {frames.shape}; these must be many: depth images (T, H, W) or a "
@@ -143,18 +135,6 @@ def frame_of(measured: Measured, camera: Intrinsics | None, *, place: str) -> Fr
         return Frame(lens.back_projected(values), lens, values, place=place)
     except DataError as error:
         raise error.at(place) from None
-
-
-def _only(dataset: Dataset) -> Recording:
-    recordings = dataset.chosen()
-    if len(recordings) > 1:
-        names = ", ".join(recording.name for recording in recordings[:5])
-        raise ConfigError(
-            f"there are {len(recordings)} recordings ({names}{', ...' * (len(recordings) > 5)}); "
-            "name one (recordings), or take one of .chosen()",
-            place="dataset",
-        )
-    return recordings[0]
 
 
 def _camera(camera: Intrinsics, shape: tuple[int, ...]) -> Camera:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,19 +19,19 @@ Reference = Truth | Mapping[str, ArrayLike] | ArrayLike
 NaN where one was not seen."""
 
 
-def truth_of(reference: Reference, body: Body, frames: int) -> Truth:
+def truth_of(reference: Reference, body: Body, indices: range) -> Truth:
     """Reference joints as one type.
 
     Args:
         reference: As it was given.
         body: Whose markers are compared with them.
-        frames: Number T of frames.
+        indices: The numbers of the T frames in the recording that a ``Truth`` is of.
 
     Raises:
         ConfigError: If no name is that of a marker.
         DataError: If an array does not have the shape that it must have, or frames are missing.
     """
-    markers = body.markers.names
+    markers, frames = body.markers.names, len(indices)
     if not isinstance(reference, (Truth, Mapping)):
         values = _checked(reference, (frames, len(markers), 3), "truth")
         return Truth(markers, values)
@@ -42,10 +43,10 @@ def truth_of(reference: Reference, body: Body, frames: int) -> Truth:
             place="truth",
         )
     if isinstance(reference, Truth):
-        if len(reference.positions) < frames:
-            told = f"it has {len(reference.positions)} frames, but {frames} were tracked"
-            raise DataError(told, place="truth")
-        return reference
+        known, needed = len(reference.positions), max(indices) + 1
+        if known < needed:
+            raise DataError(f"it has {known} frames, but {needed} were tracked", place="truth")
+        return replace(reference, positions=reference.positions[list(indices)])
     columns = [_checked(at, (frames, 3), f"truth['{name}']") for name, at in reference.items()]
     return Truth(names, np.stack(columns, axis=1))
 

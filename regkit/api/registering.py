@@ -3,24 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from itertools import islice
 from typing import Any
 
-import numpy as np
-
-from regkit.api.choices import Choice, chosen_method, described_start, load_template, told
+from regkit.api.choices import Choice, load_template, told
 from regkit.api.frames import Frames, GivenFrames, Intrinsics, Measured, frame_of, recording_of
 from regkit.api.numbers import check_metres
 from regkit.api.results import Registration, Tracking
-from regkit.body import Body
 from regkit.clouds import spacing, voxel_for
+from regkit.config.document import Document
 from regkit.interfaces import Method, Preprocessor, Recording, Template, Tracker
-from regkit.observation import Frame, Observation
-from regkit.skeleton import Pose
-from regkit.start import Start, found_start, given_start
-from regkit.system.errors import ConfigError, DataError, RegkitError
+from regkit.observation import Frame
+from regkit.skeleton import Pose, PoseDescription
+from regkit.start import Start
+from regkit.system.errors import DataError, RegkitError
 from regkit.system.optional import one_thread
-from regkit.tracking import Track, TrackedFrame, tracked
+from regkit.tracking import Session, TrackedFrame, TrackRecorder
 
 POINTS = 900
 """Without a preprocessor, a frame is downsampled to about so many points."""
@@ -32,7 +29,7 @@ WIDTH = 0.5
 def register(
     cloud: Measured,
     template: Choice[Template],
-    method: Choice[Method] = "best",
+    method: Choice[Method] | None = None,
     *,
     camera: Intrinsics | None = None,
     preprocessor: Choice[Preprocessor] | None = None,
@@ -46,7 +43,7 @@ def register(
             ``preprocessor`` crops the rest away.
         template: What is seen: ``"human"``, ``"hand"``, a file, or what ``load_template`` made.
         method: A preset such as ``"best"``, ``"spheres"``, ``"icp"`` or ``"paper"``, a method's
-            mapping as in an experiment's YAML, or a method.
+            mapping as in an experiment's YAML, or a method; without it regkit's best.
         camera: Of a depth image: a ``Camera``, a ``camera.json``, or its matrix K (3, 3) [px]. With
             a ``Camera``, points are taken for what it sees of a body; without one, for all of it.
         preprocessor: How points become data; without it they are downsampled to some 900.
@@ -58,20 +55,18 @@ def register(
     """
     frame = frame_of(cloud, camera, place="cloud")
     recording = GivenFrames(name="cloud", fps=1.0, length=1, given=(frame,))
-    return _tracked(
-        recording, template, method, preprocessor, "constant_pose", start, "regkit.register"
-    )[0]
+    return _tracked(recording, template, method, preprocessor, None, start, "regkit.register")[0]
 
 
 def track(
     frames: Frames,
     template: Choice[Template],
-    method: Choice[Method] = "best",
+    method: Choice[Method] | None = None,
     *,
     camera: Intrinsics | None = None,
     fps: float = 30.0,
     preprocessor: Choice[Preprocessor] | None = None,
-    tracker: Choice[Tracker] = "constant_pose",
+    tracker: Choice[Tracker] | None = None,
     start: Pose | Mapping[str, Any] | None = None,
 ) -> Tracking:
     """Track a body through a recording.
@@ -98,97 +93,67 @@ def track(
 def _tracked(
     recording: Recording,
     template: Choice[Template],
-    method: Choice[Method],
+    method: Choice[Method] | None,
     preprocessor: Choice[Preprocessor] | None,
-    tracker: Choice[Tracker],
+    tracker: Choice[Tracker] | None,
     start: Pose | Mapping[str, Any] | None,
     place: str,
 ) -> Tracking:
     loaded = load_template(template)
-    chosen, its_preprocessor, its_tracker = chosen_method(
-        method, preprocessor, tracker, place=place
+    method = Method.default() if method is None else method
+    chosen = Method.parse(method, place=place, field="method")
+    follows = chosen.tracker or Tracker.parse(
+        Tracker.default() if tracker is None else tracker, place=place, field="tracker"
     )
+    if preprocessor is not None:
+        preprocessor = Preprocessor.parse(preprocessor, place=place, field="preprocessor")
     recording.prepare()
-    first = next(iter(recording.frames()), None)
-    if first is None:
-        raise DataError("the recording has no frame", place=recording.name)
-    where = first.place or recording.name
-    check_metres(first.points, loaded.candidate_sizes(), place=where)
-    observed = its_preprocessor or _preprocessor_for(first)
+    first = _first(recording)
+    check_metres(first.points, loaded.candidate_sizes(), place=first.place or recording.name)
+    observes = preprocessor or _preprocessor_for(first)
+    session = Session(recording, loaded, observes, _described(start, place))
     with one_thread():
-        begin = _start(recording, loaded, observed, start, place)
+        begin = _begin(session)
         registrar = chosen.bind(begin.body)
-        steps = tracked(recording, observed, registrar, its_tracker, begin.pose)
-        done = tuple(_shown(steps, recording.length))
+        recorder = TrackRecorder(session, registrar)
+        for frame in _shown(session.tracked(registrar, follows, begin.pose), recording.length):
+            recorder.add(frame)
     return Tracking(
         name=recording.name,
         method=told(method),
         fps=recording.fps,
         registrar=registrar,
-        frames=done,
-        track=Track.of(list(done), registrar),
+        recorder=recorder,
+        indices=range(len(recorder)),
+        track=recorder.track(),
     )
+
+
+def _first(recording: Recording) -> Frame:
+    for _, frame in recording.some([0]):
+        return frame
+    raise DataError("the recording has no frame", place=recording.name)
+
+
+def _described(start: Pose | Mapping[str, Any] | None, place: str) -> Pose | PoseDescription | None:
+    """A start, whose mapping is that of an experiment's YAML."""
+    if start is None or isinstance(start, Pose):
+        return start
+    return Document(dict(start), {(): f"{place}: start"}).validated(PoseDescription)
+
+
+def _begin(session: Session) -> Start:
+    try:
+        return session.begin()
+    except RegkitError as error:
+        raise error if session.start is None else error.at("start") from None
 
 
 def _preprocessor_for(frame: Frame) -> Preprocessor:
     """The preprocessor that thins a frame to some ``POINTS`` Gaussians, each half a voxel wide."""
     voxel = voxel_for(frame.points, POINTS)
-    side = voxel or spacing(frame.points)
-    data = {"kind": "points", "voxel": voxel, "sigma": WIDTH * side}
-    return Preprocessor.load("points").model_validate(data)
-
-
-def _start(
-    recording: Recording,
-    template: Template,
-    preprocessor: Preprocessor,
-    start: Pose | Mapping[str, Any] | None,
-    place: str,
-) -> Start:
-    """The start that was given, or the one found in the first frame, its size in a few."""
-    if isinstance(start, Pose):
-        size = template.given_size()
-        if size is None:
-            raise ConfigError("a given start needs the template's size too", place="start")
-        body = template.body(size)
-        _check_fits(start, body)
-        return Start(body, start)
-    if start is not None:
-        try:
-            return given_start(template, described_start(start, place=place))
-        except RegkitError as error:
-            raise error.at("start") from None
-    return found_start(template, *_looked_at(recording, template, preprocessor))
-
-
-def _check_fits(pose: Pose, body: Body) -> None:
-    """Refuse a pose of another skeleton.
-
-    Raises:
-        ConfigError: If it has another number of joints than the body.
-    """
-    rest = body.skeleton.rest()
-    for name in ("root", "balls", "hinges"):
-        given, wanted = np.shape(getattr(pose, name)), np.shape(getattr(rest, name))
-        if given != wanted:
-            raise ConfigError(
-                f"a pose of another body: its {name} are {given}, those of '{body.name}' {wanted}",
-                place="start",
-            )
-
-
-def _looked_at(
-    recording: Recording, template: Template, preprocessor: Preprocessor
-) -> Iterator[Observation]:
-    """The first frame, and two later ones where the size is to be found."""
-    last = recording.length - 1
-    wanted = {0} if template.given_size() is not None else {0, last // 2, last}
-    for index, frame in enumerate(islice(recording.frames(), 1 + max(wanted))):
-        if index in wanted:
-            try:
-                yield preprocessor.preprocess(frame)
-            except RegkitError as error:
-                raise error.at(frame.place or f"{recording.name}: frame {index}") from None
+    data = Preprocessor.default(voxel=voxel, sigma=WIDTH * (voxel or spacing(frame.points)))
+    return Preprocessor.parse(data, place=frame.place or "frame", field="preprocessor")
 
 
 def _shown(steps: Iterator[TrackedFrame], length: int) -> Iterator[TrackedFrame]:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,7 +20,7 @@ from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError, DataError
 from regkit.system.files import write_arrays
-from regkit.tracking import Track, TrackedFrame
+from regkit.tracking import Snapshot, Track, TrackRecorder
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -30,15 +30,16 @@ if TYPE_CHECKING:
 class Tracking(Summary):
     """A tracked recording of T frames.
 
-    ``len`` is T, and an index gives the ``Registration`` of a frame.
+    ``len`` is T; an index gives the ``Registration`` of a frame, a slice a ``Tracking``.
 
     Attributes:
         name: What the recording is called.
         method: What the method is called.
         fps: Frames per second at which it was recorded.
         registrar: What registered the frames.
-        frames: What was measured and found in each of them.
-        track: The same as arrays: root (T, 4, 4) [m], balls (T, n_ball, 4), hinges (T, n_hinge)
+        recorder: What was recorded while tracking.
+        indices: The frames' numbers in the recording.
+        track: The frames as arrays: root (T, 4, 4) [m], balls (T, n_ball, 4), hinges (T, n_hinge)
             [rad], markers, seconds and more.
     """
 
@@ -46,7 +47,8 @@ class Tracking(Summary):
     method: str
     fps: float
     registrar: Registrar
-    frames: tuple[TrackedFrame, ...]
+    recorder: TrackRecorder
+    indices: range
     track: Track
 
     @property
@@ -72,7 +74,7 @@ class Tracking(Summary):
     @property
     def poses(self) -> tuple[Pose, ...]:
         """The pose in each frame."""
-        return tuple(frame.registered.pose for frame in self.frames)
+        return tuple(map(self.track.pose, range(len(self))))
 
     @cached_property
     def segments(self) -> Array:
@@ -96,7 +98,7 @@ class Tracking(Summary):
         Raises:
             RegkitError: If they do not fit the frames or the markers, or none was seen.
         """
-        known = truth_of(truth, self.body, len(self))
+        known = truth_of(truth, self.body, self.indices)
         distances = joint_errors(self.track, self.body, known, {}).raw
         if not np.isfinite(distances).any():
             raise DataError("no joint was seen in any frame", place="truth")
@@ -112,9 +114,9 @@ class Tracking(Summary):
         from regkit.report.record import Record
         from regkit.report.style import PALETTE
 
-        known = None if truth is None else truth_of(truth, self.body, len(self))
+        known = None if truth is None else truth_of(truth, self.body, self.indices)
         errors = self._errors(truth)
-        record = Record.of(self.frames, self.track, self.registrar, errors, known, self.fps)
+        record = Record.of(self.track, self.snapshot, self.registrar, errors, known, self.fps)
         return overlay(f"{self.method} on {self.name}", record, PALETTE[0])
 
     def save(self, path: str | Path) -> None:
@@ -131,21 +133,53 @@ class Tracking(Summary):
     def _errors(self, truth: Reference | None) -> JointErrors | None:
         if truth is None:
             return None
-        return joint_errors(self.track, self.body, truth_of(truth, self.body, len(self)), {})
+        return joint_errors(self.track, self.body, truth_of(truth, self.body, self.indices), {})
 
     def __len__(self) -> int:
         """Number of frames."""
-        return len(self.frames)
+        return len(self.track)
 
-    def __getitem__(self, index: int) -> Registration:
-        """What was found in a frame."""
-        at = range(len(self))[index]
-        kept = {name: values[at : at + 1] for name, values in vars(self.track).items()}
-        name = f"{self.name}[{at}]" if len(self) > 1 else self.name
-        one = Tracking(
-            name, self.method, self.fps, self.registrar, (self.frames[at],), Track(**kept)
+    @overload
+    def __getitem__(self, index: int) -> Registration: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> Tracking: ...
+
+    def __getitem__(self, index: int | slice) -> Registration | Tracking:
+        """What was found in a frame, or in some of them.
+
+        Raises:
+            IndexError: If there is no such frame.
+        """
+        if not isinstance(index, slice):
+            at = range(len(self))[index]
+            return Registration(self._part(slice(at, at + 1), str(self.indices[at])))
+        start, stop, step = index.indices(len(self))
+        if not len(range(start, stop, step)):
+            raise IndexError(f"no frame of {len(self)} is in [{start}:{stop}:{step}]")
+        told = f"{start}:{stop}" + (f":{step}" if step != 1 else "")
+        return self._part(index, told)
+
+    def _part(self, part: slice, told: str) -> Tracking:
+        return replace(
+            self,
+            name=f"{self.name}[{told}]" if len(self) > 1 else self.name,
+            fps=self.fps / abs(part.step or 1),
+            indices=self.indices[part],
+            track=self.track[part],
         )
-        return Registration(one)
+
+    def snapshot(self, index: int) -> Snapshot:
+        """The points and the pose of a frame; points that were not kept are read again.
+
+        Raises:
+            RegkitError: If the frame cannot be read any more.
+        """
+        return replace(self.recorder.snapshot(self.indices[index]), frame=index)
+
+    def message(self, index: int) -> str:
+        """Why the registration of a frame ended."""
+        return self.recorder.message(self.indices[index])
 
     def rows(self) -> dict[str, str]:
         """What a table says of it."""
@@ -201,7 +235,7 @@ class Registration(Summary):
     @property
     def points(self) -> Array:
         """The points that the body was registered to, (N, 3) [m]."""
-        return self.tracking.frames[0].observation.points
+        return self.tracking.snapshot(0).points
 
     def error(self, truth: Mapping[str, ArrayLike] | ArrayLike) -> float:
         """The mean distance [m] of the markers to reference joints.
@@ -226,11 +260,11 @@ class Registration(Summary):
 
     def rows(self) -> dict[str, str]:
         """What a table says of it."""
-        registered = self.tracking.frames[0].registered
+        converged = "yes" if self.tracking.track.converged[0] else "no"
         return {
             "frame": self.tracking.name,
             **_rows(self.tracking, self.tracking.measure()),
-            "converged": f"{'yes' if registered.converged else 'no'}: {registered.message}",
+            "converged": f"{converged}: {self.tracking.message(0)}",
         }
 
 

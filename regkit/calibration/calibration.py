@@ -8,23 +8,21 @@ from itertools import islice
 from typing import Annotated, Protocol
 
 import numpy as np
-from pydantic import Field, TypeAdapter
+from pydantic import Field
 
 from regkit.calibration.frames import Looks, spread
 from regkit.calibration.problem import SubjectProblem
 from regkit.calibration.shape import Shape
 from regkit.calibration.subject import Subject
 from regkit.config.model import Model
+from regkit.config.plugin import slot_default
 from regkit.interfaces import Method, Preprocessor, Recording, Solver, Template, Tracker
 from regkit.skeleton import PoseDescription
-from regkit.start import Start, found_start, given_start
+from regkit.start import Start
 from regkit.system.arrays import Array
-from regkit.system.errors import ConfigError, RegkitError
+from regkit.system.errors import ConfigError
 from regkit.system.optional import one_blas_thread
-from regkit.tracking import TrackedFrame, tracked
-
-SOLVER = {"kind": "gauss_newton", "max_iterations": 30, "value_tolerance": 1e-4}
-"""What makes the gaps of all frames small."""
+from regkit.tracking import Session, TrackedFrame
 
 ROUNDS = 2
 """How often the body is tracked and its proportions are found: a body that is nearer to the subject
@@ -57,11 +55,11 @@ class Calibration(Model):
     """In how many frames the body is looked at, spread over those that are tracked."""
     longest: Annotated[int, Field(ge=1)] = 300
     """How many frames are tracked at most, from the start of the recording."""
-    method: Method = Field(default={"preset": "best"}, validate_default=True)
+    method: Method = slot_default(Method)
     """What registers the body to each frame of the recording."""
-    tracker: Tracker = Field(default="constant_pose", validate_default=True)
+    tracker: Tracker = slot_default(Tracker)
     """How one frame's pose leads to the next, if the method does not say."""
-    solver: Solver = Field(default=SOLVER, validate_default=True)
+    solver: Solver = slot_default(Solver, max_iterations=30, value_tolerance=1e-4)
     """What makes the gaps of all frames small."""
 
     def subject(self, recording: Recording, watcher: Watcher) -> Subject:
@@ -76,10 +74,17 @@ class Calibration(Model):
 
     def _subject(self, recording: Recording, watcher: Watcher) -> Subject:
         shape = Shape(self.template.description())
-        start = self._start(recording)
+        # The fit finds the size; a start needs only a rough one.
+        session = Session(recording, self.template, self._preprocessor(), self.start, sized_in=1)
+        start = session.begin()
+        if not len(start.body.capsules):
+            raise ConfigError(
+                f"the template '{start.body.name}' has no capsules, without which its proportions "
+                "cannot be found"
+            )
         x = shape.origin(start.body.size)
         for _ in range(ROUNDS):
-            looks = self._looks(recording, start, watcher)
+            looks = self._looks(session, start, watcher)
             x, looks = self._fitted(shape, x, looks, watcher)
             start = Start(shape.body(x), looks.first)
         return Subject.found(shape, x, looks, recording.name)
@@ -90,34 +95,15 @@ class Calibration(Model):
             return self.preprocessor
         size = float(np.median(self.template.candidate_sizes()))
         voxel = max(VOXEL * size, SMALLEST_VOXEL)
-        points = {"kind": "points", "voxel": voxel, "sigma": max(voxel / 3.0, SMALLEST_VOXEL / 2.0)}
-        return TypeAdapter[Preprocessor](Preprocessor).validate_python(points)
+        data = Preprocessor.default(voxel=voxel, sigma=max(voxel / 3.0, SMALLEST_VOXEL / 2.0))
+        return Preprocessor.parse(data, place="calibration", field="preprocessor")
 
-    def _start(self, recording: Recording) -> Start:
-        """The given start, or the one found in the first frame."""
-        if self.start is not None:
-            start = given_start(self.template, self.start)
-        else:
-            frame = next(recording.frames())
-            try:
-                observation = self._preprocessor().preprocess(frame)
-            except RegkitError as error:
-                raise error.at(frame.place or recording.name) from None
-            start = found_start(self.template, observation)
-        if not len(start.body.capsules):
-            raise ConfigError(
-                f"the template '{start.body.name}' has no capsules, without which its proportions "
-                "cannot be found"
-            )
-        return start
-
-    def _looks(self, recording: Recording, start: Start, watcher: Watcher) -> Looks:
+    def _looks(self, session: Session, start: Start, watcher: Watcher) -> Looks:
         """The body tracked, and the frames chosen in which it is looked at."""
-        length = min(recording.length, self.longest)
+        length = min(session.recording.length, self.longest)
         watcher.begin("tracking", length)
         registrar = self.method.bind(start.body)
-        tracker = self.method.tracker or self.tracker
-        track = tracked(recording, self._preprocessor(), registrar, tracker, start.pose)
+        track = session.tracked(registrar, self.method.tracker or self.tracker, start.pose)
         return spread(_watched(islice(track, length), watcher), length, self.frames)
 
     def _fitted(

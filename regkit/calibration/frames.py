@@ -11,6 +11,7 @@ from regkit.body import Body
 from regkit.calibration.cloud import Cloud
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
+from regkit.system.errors import DataError
 from regkit.tracking import TrackedFrame
 
 
@@ -29,31 +30,41 @@ class Looks:
     poses: tuple[Pose, ...]
 
 
+@dataclass(frozen=True)
+class _Look:
+    """The data of a frame, and what was found in it."""
+
+    cloud: Cloud
+    pose: Pose
+    inlier_share: float
+
+
 def spread(track: Iterable[TrackedFrame], length: int, count: int) -> Looks:
     """Of each of ``count`` equal parts of a track the frame with the most inliers.
 
-    Only these are kept, for a long track of depth images is large.
+    Of the others nothing is kept, and of these only what the fit takes.
 
     Args:
         track: The tracked frames.
         length: How many there are.
         count: How many are wanted; all of them if that is more.
+
+    Raises:
+        DataError: If there is no frame.
     """
     count = min(count, length)
-    best: dict[int, TrackedFrame] = {}
-    first: list[Pose] = []
+    best: dict[int, _Look] = {}
+    first: Pose | None = None
     for index, frame in enumerate(track):
-        if not first:
-            first.append(frame.registered.pose)
-        rival = best.setdefault(index * count // length, frame)
+        found, part = frame.registered, index * count // length
+        first = found.pose if first is None else first
         # A method that cannot tell says NaN, which is never more.
-        if frame.registered.inlier_share > rival.registered.inlier_share:
-            best[index * count // length] = frame
-    return Looks(
-        first[0],
-        tuple(Cloud.of(frame.observation) for frame in best.values()),
-        tuple(frame.registered.pose for frame in best.values()),
-    )
+        if part not in best or found.inlier_share > best[part].inlier_share:
+            best[part] = _Look(Cloud.of(frame.observation), found.pose, found.inlier_share)
+    if first is None:
+        raise DataError("the recording has no frame")
+    looks = best.values()
+    return Looks(first, tuple(look.cloud for look in looks), tuple(look.pose for look in looks))
 
 
 def distances(body: Body, looks: Looks) -> Array:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
@@ -15,6 +15,7 @@ from regkit.config.yaml import read_mapping, yaml_value
 from regkit.system.errors import ConfigError, DataError
 
 M = TypeVar("M", bound=BaseModel)
+T = TypeVar("T")
 
 _SPEAKING = ("unknown_field", "plugin_", "value_error")
 """Kinds of errors whose message already shows the value."""
@@ -113,14 +114,30 @@ class Document:
         Raises:
             ConfigError: One line for each mistake, with its file, line and field.
         """
+        return self._checked(model.model_validate, self.data, ())
+
+    def field(self, name: str, validate: Callable[[Any], T]) -> T:
+        """One of the uppermost fields, whatever the others hold.
+
+        Args:
+            name: The field.
+            validate: Pydantic's validation of the type that the field has.
+
+        Raises:
+            ConfigError: As ``validated``.
+        """
+        return self._checked(validate, self.data[name], (name,))
+
+    def _checked(self, validate: Callable[[Any], T], data: Any, at: Location) -> T:
         try:
-            return model.model_validate(self.data)
+            return validate(data)
         except ValidationError as error:
-            lines = [self._complaint(details) for details in error.errors(include_url=False)]
+            lines = [self._complaint(details, at) for details in error.errors(include_url=False)]
             raise ConfigError("\n".join(dict.fromkeys(lines))) from None
 
-    def _complaint(self, details: ErrorDetails) -> str:
-        location = self._written(details["loc"], absent=details["type"] == "missing")
+    def _complaint(self, details: ErrorDetails, at: Location) -> str:
+        absent = details["type"] == "missing"
+        location = self._written((*at, *details["loc"]), absent=absent)
         given = details["input"]
         shown = isinstance(given, (str, int, float, bool)) and not details["type"].startswith(
             _SPEAKING

@@ -8,17 +8,20 @@ until it is named, so a broken third-party plug-in can only harm those who name 
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any, ClassVar, Self, TypeVar, cast
 
-from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler, TypeAdapter
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from regkit.config.changes import with_changes
 from regkit.config.complete import check_complete
+from regkit.config.defaults import default_name
+from regkit.config.document import Document
 from regkit.config.installed import Installed, installed
 from regkit.config.model import Model, did_you_mean
-from regkit.config.preset import preset
+from regkit.config.preset import YAML, preset, presets_of
 from regkit.config.registry import add, registered
 from regkit.config.slot_schema import slot_schema
 from regkit.system.errors import PluginError, RegkitError
@@ -57,9 +60,11 @@ class Plugin(Model):
         found = available.get(kind)
         if found is None:
             cls._check_renamed(kind)
+            presets = list(presets_of(cls.group))
+            told = f"; presets: {', '.join(presets)}" if presets else ""
             raise PluginError(
-                f"no plug-in '{kind}' in {cls.group} (installed: {', '.join(available)})"
-                + did_you_mean(kind, list(available))
+                f"no plug-in '{kind}' in {cls.group} (installed: {', '.join(available)}{told})"
+                + did_you_mean(kind, [*presets, *available])
             )
         if not isinstance(found, Installed):
             return found
@@ -71,6 +76,52 @@ class Plugin(Model):
                 f"plug-in '{kind}' of {found.distributions[0]} {error.message}"
             ) from None
         return cast(type[Self], plugin)
+
+    @classmethod
+    def parse(cls, choice: Any, *, place: str, field: str) -> Self:
+        """The plug-in that an argument means.
+
+        Args:
+            choice: The name of a preset or kind, a file, a mapping with a ``kind`` or a ``preset``,
+                or the plug-in itself.
+            place: Where it was given: a function, or a command-line option.
+            field: The argument that it was given as.
+
+        Raises:
+            ConfigError: One line for each thing that is wrong.
+        """
+        data = cls.named(str(choice)) if isinstance(choice, (str, Path)) else choice
+        return cls.of(Document({field: data}, {(): place}), field)
+
+    @classmethod
+    def of(cls, document: Document, field: str) -> Self:
+        """The plug-in that a document's field describes, whatever the other fields hold.
+
+        Raises:
+            ConfigError: One line for each thing that is wrong.
+        """
+        return document.field(field, TypeAdapter[Self](cls).validate_python)
+
+    @classmethod
+    def named(cls, name: str) -> dict[str, Any]:
+        """Data for a name alone: that of a preset or its YAML file, or else a kind."""
+        of_preset = name in presets_of(cls.group) or Path(name).suffix.lower() in YAML
+        return {"preset" if of_preset else "kind": name}
+
+    @classmethod
+    def default(cls, purpose: str = "", **fields: Any) -> dict[str, Any]:
+        """Data for the plug-in of this group that is taken where none is named.
+
+        The distributions that are installed declare it, so that regkit names no plug-in.
+
+        Args:
+            purpose: What it is for, where a group has more than one default.
+            fields: Its fields, where they differ from its own defaults.
+
+        Raises:
+            PluginError: If no distribution declares one, or two do.
+        """
+        return {**cls.named(default_name(cls.group, purpose)), **fields}
 
     @classmethod
     def _check_renamed(cls, kind: str) -> None:
@@ -146,6 +197,20 @@ class Plugin(Model):
     @classmethod
     def _slot_json_schema(cls, _: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
         return slot_schema(cls, handler)
+
+
+def slot_default(slot: type[Plugin], purpose: str = "", **fields: Any) -> Any:
+    """The default of a model's field: what ``slot.default`` gives, looked up when needed."""
+
+    def data() -> Any:
+        found = slot.default(purpose, **fields)
+        return found["kind"] if list(found) == ["kind"] else found
+
+    return Field(
+        default_factory=data,
+        validate_default=True,
+        json_schema_extra=lambda schema: schema.update(default=data()),
+    )
 
 
 P = TypeVar("P", bound=Plugin)

@@ -9,6 +9,9 @@ from regkit.config.installed import Installed, installed
 from regkit.config.model import Text, did_you_mean
 from regkit.system.errors import PluginError
 
+YAML = (".yaml", ".yml")
+"""How the name of a file ends that holds a preset."""
+
 
 def presets_of(group: str) -> dict[str, Installed]:
     """The presets of a group of plug-ins by name: entry points to the paths of YAML files."""
@@ -25,7 +28,7 @@ def preset_file(group: str, name: str) -> Path:
     Raises:
         PluginError: If there is none of that name, or it is broken.
     """
-    if name.endswith((".yaml", ".yml")):
+    if Path(name).suffix.lower() in YAML:
         folder = name.folder if isinstance(name, Text) else Path.cwd()
         return folder / Path(name).expanduser()
     presets = presets_of(group)

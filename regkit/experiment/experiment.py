@@ -11,10 +11,12 @@ from pydantic import AfterValidator, Field, ValidationInfo, WithJsonSchema, fiel
 
 from regkit.config.document import Document
 from regkit.config.model import Model
+from regkit.config.plugin import slot_default
 from regkit.interfaces import Dataset, Method, Preprocessor, Recording, Template, Tracker
 from regkit.skeleton import PoseDescription
 from regkit.start import given_start
 from regkit.system.errors import ConfigError
+from regkit.tracking import Session
 
 _FOLDER = r"^[A-Za-z0-9][A-Za-z0-9_.,=-]*$"
 
@@ -59,9 +61,9 @@ class Experiment(Model):
     """What is seen in them."""
     subjects: dict[str, Template] = Field(default_factory=dict)
     """Templates of single people, by the dataset's names for them; all others get ``template``."""
-    preprocessor: Preprocessor = Field(default="points", validate_default=True)
+    preprocessor: Preprocessor = slot_default(Preprocessor)
     """How frames become data."""
-    tracker: Tracker = Field(default="constant_pose", validate_default=True)
+    tracker: Tracker = slot_default(Tracker)
     """How one frame's pose leads to the next."""
     start: PoseDescription | None = None
     """Pose in the first frame of every recording; found from the cloud without it. It needs the
@@ -100,10 +102,7 @@ class Experiment(Model):
             )
         return document.without("sweep").validated(cls)
 
-    def template_of(self, recording: Recording) -> Template:
-        """The template of who is seen in a recording."""
-        return (
-            self.template
-            if recording.subject is None
-            else self.subjects.get(recording.subject, self.template)
-        )
+    def session(self, recording: Recording) -> Session:
+        """A recording to be tracked, with the template of who is seen in it."""
+        template = self.subjects.get(recording.subject or "", self.template)
+        return Session(recording, template, self.preprocessor, self.start)

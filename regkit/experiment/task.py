@@ -9,15 +9,15 @@ from pathlib import Path
 
 from regkit.experiment.experiment import Experiment
 from regkit.experiment.results import Results
-from regkit.experiment.starts import start_file, start_of
-from regkit.interfaces import Recording, Registrar
+from regkit.experiment.starts import kept_start, start_file
+from regkit.interfaces import Registrar
 from regkit.metrics import Measure, joint_errors, matched, measured
 from regkit.observation import Truth
 from regkit.report import Record
 from regkit.system.errors import RegkitError
 from regkit.system.files import remove_unfinished
 from regkit.system.optional import one_thread
-from regkit.tracking import Track, TrackedFrame, tracked
+from regkit.tracking import Session, TrackRecorder
 
 Result = Measure | RegkitError | None
 """A track's figures, what went wrong, or nothing of a recording that is ready."""
@@ -80,55 +80,51 @@ class Task:
     def _made_ready(self) -> None:
         kept = start_file(self.folder, self.recording)
         remove_unfinished(kept.parent, escape(kept.name))
-        recording = self._recording()
-        start = start_of(self.experiment, recording, self.folder)
-        truth = self._truth(recording)
+        session = self._session()
+        start = kept_start(session, self.folder)
+        truth = self._truth(session)
         if truth is not None:
             # A misspelt joint is found before the hours of computing, not after them.
             matched(start.body, truth, self.experiment.dataset.joints)
 
     def _tracked(self, results: Results, name: str, each_frame: Callable[[], None]) -> Measure:
         remove_unfinished(results.recording_folder(name, self.recording))
-        recording = self._recording()
-        start = start_of(self.experiment, recording, self.folder)
+        session = self._session()
+        start = kept_start(session, self.folder)
         method = self.experiment.methods[name]
         registrar = method.bind(start.body)
-        frames = []
-        for frame in tracked(
-            recording,
-            self.experiment.preprocessor,
-            registrar,
-            method.tracker or self.experiment.tracker,
-            start.pose,
-        ):
-            frames.append(frame)
+        recorder = TrackRecorder(session, registrar)
+        tracker = method.tracker or self.experiment.tracker
+        for frame in session.tracked(registrar, tracker, start.pose):
+            recorder.add(frame)
             each_frame()
-        return self._recorded(results, name, frames, registrar, recording)
+        return self._recorded(results, name, session, registrar, recorder)
 
     def _recorded(
         self,
         results: Results,
         name: str,
-        frames: list[TrackedFrame],
+        session: Session,
         registrar: Registrar,
-        recording: Recording,
+        recorder: TrackRecorder,
     ) -> Measure:
         """All that is made of a track: its figures, its picture and its files."""
-        track, body, truth = Track.of(frames, registrar), registrar.body, self._truth(recording)
-        joints = self.experiment.dataset.joints
-        errors = None if truth is None else joint_errors(track, body, truth, joints)
-        measure = measured(track, body, errors, recording.fps)
-        record = Record.of(frames, track, registrar, errors, truth, recording.fps)
+        track, body, truth = recorder.track(), registrar.body, self._truth(session)
+        errors = None
+        if truth is not None:
+            errors = joint_errors(track, body, truth, self.experiment.dataset.joints)
+        fps = session.recording.fps
+        measure = measured(track, body, errors, fps)
+        record = Record.of(track, recorder.snapshot, registrar, errors, truth, fps)
         results.write(name, self.recording, track, body, measure, record)
         return measure
 
-    def _recording(self) -> Recording:
-        """The recording, with all that its frames are read from; no other one is looked at."""
-        dataset = self.experiment.dataset.model_copy(update={"recordings": (self.recording,)})
-        (recording,) = dataset.chosen()
+    def _session(self) -> Session:
+        """The recording with all that its frames are read from; no other one is looked at."""
+        recording = self.experiment.dataset.only(self.recording)
         recording.prepare()
-        return recording
+        return self.experiment.session(recording)
 
-    def _truth(self, recording: Recording) -> Truth | None:
+    def _truth(self, session: Session) -> Truth | None:
         """The reference joints, if there are any and they are to be compared."""
-        return recording.truth() if self.experiment.dataset.compared else None
+        return session.recording.truth() if self.experiment.dataset.compared else None

@@ -10,11 +10,10 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field
+from pydantic import TypeAdapter
 
 from regkit.body import Body
 from regkit.config.document import Document
-from regkit.config.model import Model
 from regkit.geometry.rigid import rigid
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.interchange.motion import TrackedMotion
@@ -28,13 +27,6 @@ NEEDED = ("root", "balls", "hinges", "markers", "size")
 
 SAME = 1e-6
 """A marker that is placed again lies so near to where it was [m]."""
-
-
-class _Configuration(Model):
-    """The part of an experiment's configuration that makes the bodies."""
-
-    template: Template
-    subjects: dict[str, Template] = Field(default_factory=dict)
 
 
 def read_tracked_motion(folder: Path, fps: float | None = None) -> TrackedMotion:
@@ -135,11 +127,10 @@ def _templates(config: Path) -> tuple[Template, ...]:
     document = Document.read(config)
     if "template" not in document.data:
         raise ConfigError("there is no template; this is no results folder", place=str(config))
-    fields = [field for field in _Configuration.model_fields if field in document.data]
-    places = {at: place for at, place in document.places.items() if not at or at[0] in fields}
-    own = Document({field: document.data[field] for field in fields}, places)
-    read = own.validated(_Configuration)
-    return (read.template, *read.subjects.values())
+    subjects: dict[str, Template] = {}
+    if "subjects" in document.data:
+        subjects = document.field("subjects", TypeAdapter(dict[str, Template]).validate_python)
+    return (Template.of(document, "template"), *subjects.values())
 
 
 def _skin(template: Template, body: Body) -> SkinnedMesh | None:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from typing import Annotated
+from itertools import islice
+from pathlib import Path
+from typing import Annotated, Any
 
 from pydantic import Field
 
@@ -48,6 +50,23 @@ class Recording(ABC):
             DataError: If a frame is missing or damaged.
         """
 
+    def some(self, indices: Iterable[int]) -> Iterator[tuple[int, Frame]]:
+        """Some of the frames, in the order of time, and their numbers.
+
+        A recording that can read any frame at once does so; others read past those between.
+
+        Args:
+            indices: The frames' numbers, from 0.
+
+        Raises:
+            DataError: If a frame is missing or damaged.
+        """
+        wanted = sorted(set(indices))
+        # Whoever waits for the last of them must not read on.
+        for index, frame in enumerate(islice(self.frames(), wanted[-1] + 1 if wanted else 0)):
+            if index in wanted:
+                yield index, frame
+
     @abstractmethod
     def truth(self) -> Truth | None:
         """The reference joints of the frames, or None.
@@ -55,6 +74,10 @@ class Recording(ABC):
         Raises:
             DataError: If they are there but damaged.
         """
+
+
+SHOWN = 5
+"""A message names no more recordings than this."""
 
 
 class Dataset(Plugin, ABC):
@@ -70,6 +93,12 @@ class Dataset(Plugin, ABC):
     """Whether poses are compared with the reference joints, where there are any."""
     joints: dict[str, str] = Field(default_factory=dict)
     """Names of the data's reference joints to the template's markers, where they differ."""
+
+    @classmethod
+    def in_folder(cls, folder: str | Path, **fields: Any) -> dict[str, Any]:
+        """Data for the dataset in a folder: clouds if it has ``clouds/``, else depth images."""
+        kind = "clouds" if (Path(folder) / "clouds").is_dir() else "depth"
+        return cls.default(kind, root=str(folder), **fields)
 
     @abstractmethod
     def found(self) -> list[Recording]:
@@ -105,3 +134,22 @@ class Dataset(Plugin, ABC):
                     place="dataset.recordings",
                 )
         return [found[name] for name in self.recordings]
+
+    def only(self, name: str | None = None) -> Recording:
+        """The recording of a name, or the only one that there is.
+
+        Raises:
+            DataError: If there is none, or it is damaged.
+            ConfigError: If there is none of that name, or there are several.
+        """
+        if name is not None:
+            return self.model_copy(update={"recordings": (name,)}).chosen()[0]
+        found = self.chosen()
+        if len(found) > 1:
+            names = ", ".join(recording.name for recording in found[:SHOWN])
+            more = ", ..." if len(found) > SHOWN else ""
+            raise ConfigError(
+                f"there are {len(found)} recordings ({names}{more}); name one",
+                place="dataset.recordings",
+            )
+        return found[0]

@@ -3,17 +3,29 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from regkit.body import Body, BodyDescription
+from regkit.clouds.reading import READABLE
 from regkit.config.plugin import Plugin
+from regkit.config.preset import YAML
 
 
 class Template(Plugin, ABC):
     """A body that can be had in any size."""
 
     group = "regkit.templates"
+
+    @classmethod
+    def named(cls, name: str) -> dict[str, Any]:
+        """Data for a name alone: a kind, the YAML file of a template, or a rigid cloud or mesh."""
+        suffix = Path(name).suffix.lower()
+        if suffix in YAML:
+            return cls.default("file", path=name)
+        return cls.default("cloud", path=name) if suffix in READABLE else super().named(name)
 
     @abstractmethod
     def description(self) -> BodyDescription:

@@ -13,7 +13,7 @@ from regkit.interfaces import Registrar
 from regkit.primitives import Gaussians, Primitives, TaperedCapsules, Volumes
 from regkit.skeleton import Placement
 from regkit.system.arrays import Array
-from regkit.tracking import TrackedFrame
+from regkit.tracking import Snapshot
 
 MOST_POINTS = 1500
 """More dots than this show no more in a picture."""
@@ -104,19 +104,18 @@ class Look:
     @classmethod
     def at(
         cls,
-        index: int,
         why: str,
-        frame: TrackedFrame,
+        snapshot: Snapshot,
         registrar: Registrar,
         reference: Array | None,
     ) -> Self:
         """A look at a tracked frame."""
         body = registrar.body
-        placement = body.place(frame.registered.pose)
-        points = frame.observation.points
+        placement = body.place(snapshot.pose)
+        points = snapshot.points
         bones = list(_bones(body, placement))
         return cls(
-            frame=index,
+            frame=snapshot.frame,
             why=why,
             points=points[:: -(-len(points) // MOST_POINTS)],
             form=Form.of(registrar.primitives, placement),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Self
 
@@ -13,7 +13,7 @@ from regkit.metrics import PCK_PART, JointErrors, Losses
 from regkit.observation import Truth
 from regkit.report.look import Look
 from regkit.system.arrays import Array
-from regkit.tracking import Track, TrackedFrame
+from regkit.tracking import Snapshot, Track
 
 Arrays = dict[str, np.ndarray[Any, Any]]
 
@@ -46,8 +46,8 @@ class Record:
     @classmethod
     def of(
         cls,
-        frames: Sequence[TrackedFrame],
         track: Track,
+        snapshot: Callable[[int], Snapshot],
         registrar: Registrar,
         errors: JointErrors | None,
         truth: Truth | None,
@@ -56,8 +56,8 @@ class Record:
         """The record of what was tracked.
 
         Args:
-            frames: The tracked frames.
-            track: The same as arrays.
+            track: What was tracked.
+            snapshot: Gives a frame of it by its number.
             registrar: What registered them.
             errors: Of the joints, if they have references.
             truth: The references themselves, which the pictures show.
@@ -66,9 +66,8 @@ class Record:
         positions = None if truth is None else truth.positions
         looks = [
             Look.at(
-                index,
                 name,
-                frames[index],
+                snapshot(index),
                 registrar,
                 None if positions is None or index >= len(positions) else positions[index],
             )

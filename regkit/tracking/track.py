@@ -9,23 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from regkit.body import Body
-from regkit.interfaces import Registrar
-from regkit.skeleton import Placement, Pose
+from regkit.skeleton import Pose
 from regkit.system.arrays import Array
-from regkit.tracking.loop import TrackedFrame
-
-
-def _surface_distance(body: Body, placement: Placement, points: Array) -> float:
-    """Median distance [m] of points to the body's capsules, or to the points of its surface."""
-    if len(body.capsules):
-        placed = body.capsules.place(placement.transforms)
-        return float(np.median(np.abs(placed.surface_distance(points))))
-    if body.surface is None:
-        return float("nan")
-    from scipy.spatial import KDTree
-
-    distances, _ = KDTree(body.surface.place(placement.transforms)).query(points)
-    return float(np.median(distances))
 
 
 @dataclass(frozen=True)
@@ -38,6 +23,7 @@ class Track:
         hinges: (T, n_hinge) [rad].
         markers: (T, M, 3) [m], in the camera's frame.
         surface_distances: Median distance of a frame's points to the body's surface, (T,) [m].
+        inlier_shares: Share of a frame's points that are inliers, (T,); NaN where unknown.
         energies: (T,) in the method's own units.
         evaluations: (T,).
         converged: Whether the solver met a tolerance, (T,).
@@ -50,6 +36,7 @@ class Track:
     hinges: Array
     markers: Array
     surface_distances: Array
+    inlier_shares: Array
     energies: Array
     evaluations: Array
     converged: Array
@@ -59,6 +46,14 @@ class Track:
     def pose(self, index: int) -> Pose:
         """The pose in a frame."""
         return Pose(self.root[index], self.balls[index], self.hinges[index])
+
+    def __len__(self) -> int:
+        """Number T of frames."""
+        return len(self.seconds)
+
+    def __getitem__(self, part: slice) -> Track:
+        """Some of the frames."""
+        return Track(**{field.name: getattr(self, field.name)[part] for field in fields(self)})
 
     def named_arrays(self, body: Body) -> dict[str, NDArray[Any]]:
         """What a file holds: these arrays, the names of markers and ball joints, and the size."""
@@ -70,26 +65,3 @@ class Track:
             "ball_names": np.array(balls, dtype=np.str_),
             "size": np.array(body.size),
         }
-
-    @classmethod
-    def of(cls, frames: list[TrackedFrame], registrar: Registrar) -> Track:
-        """The arrays of tracked frames; the surface is that of the registrar's body."""
-        body = registrar.body
-        poses = [frame.registered.pose for frame in frames]
-        placements = [body.place(pose) for pose in poses]
-        distances = [
-            _surface_distance(body, placement, frame.observation.points)
-            for placement, frame in zip(placements, frames, strict=True)
-        ]
-        return cls(
-            root=np.array([pose.root for pose in poses]),
-            balls=np.array([pose.balls for pose in poses]),
-            hinges=np.array([pose.hinges for pose in poses]),
-            markers=np.array([body.markers.place(p.transforms) for p in placements]),
-            surface_distances=np.array(distances),
-            energies=np.array([frame.registered.energy for frame in frames]),
-            evaluations=np.array([float(frame.registered.evaluations) for frame in frames]),
-            converged=np.array([float(frame.registered.converged) for frame in frames]),
-            seconds=np.array([frame.seconds for frame in frames]),
-            preprocessing=np.array([frame.preprocessing for frame in frames]),
-        )

@@ -205,7 +205,7 @@ def test_subject_has_a_template_of_its_own(files):
     experiment = Experiment.read(files.experiment)
     (recording, _) = experiment.dataset.chosen()
     heights = [
-        experiment.template_of(replace(recording, subject=subject)).given_size()
+        experiment.session(replace(recording, subject=subject)).template.given_size()
         for subject in ("anna", "bert", None)
     ]
     assert heights == [1.6, 1.7, 1.7]

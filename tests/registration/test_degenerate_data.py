@@ -28,5 +28,5 @@ def test_a_likelihood_of_coincident_points_is_refused():
         GeneralizedSumOfGaussians().bind(body).place(body.place(body.skeleton.rest()).transforms)
     )
     data = Observation(np.ones((20, 3)), np.ones(20), np.full(20, 1e-4))
-    with pytest.raises(DataError, match="20 points .* coincide"):
+    with pytest.raises(DataError, match=r"20 points .* coincide"):
         Likelihood().bind(data, placed)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -62,8 +62,14 @@ class CloudRecording(Recording):
 
     def frames(self) -> Iterator[Frame]:
         """The clouds, in the camera's frame (x right, y down, z forward)."""
-        for path in self.files:
-            yield Frame(read_cloud(path), place=str(path))
+        for _, frame in self.some(range(self.length)):
+            yield frame
+
+    def some(self, indices: Iterable[int]) -> Iterator[tuple[int, Frame]]:
+        """Only these clouds are read."""
+        for index in sorted(set(indices)):
+            path = self.files[index]
+            yield index, Frame(read_cloud(path), place=str(path))
 
     def truth(self) -> Truth | None:
         """The joints of ``truth.csv``."""

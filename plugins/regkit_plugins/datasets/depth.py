@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -64,14 +64,20 @@ class DepthRecording(Recording):
 
     def frames(self) -> Iterator[Frame]:
         """The images, back-projected."""
+        for _, frame in self.some(range(self.length)):
+            yield frame
+
+    def some(self, indices: Iterable[int]) -> Iterator[tuple[int, Frame]]:
+        """Only these images are read."""
         camera = Camera.read(self.folder / "camera.json")
-        for path in self.files:
+        for index in sorted(set(indices)):
+            path = self.files[index]
             depth = read_depth(path) / self.depth_scale
             try:
                 points = camera.back_projected(depth)
             except DataError as error:
                 raise error.at(str(path)) from None
-            yield Frame(points, camera, depth, place=str(path))
+            yield index, Frame(points, camera, depth, place=str(path))
 
     def truth(self) -> Truth | None:
         """The joints of ``truth.csv``."""

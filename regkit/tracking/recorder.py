@@ -1,0 +1,132 @@
+"""Recording a track frame by frame: what is kept of a frame does not grow with its image."""
+
+from __future__ import annotations
+
+from array import array
+from dataclasses import dataclass, fields
+from sys import intern
+
+import numpy as np
+
+from regkit.body import Body
+from regkit.interfaces import Registrar
+from regkit.skeleton import Placement, Pose
+from regkit.system.arrays import Array
+from regkit.tracking.loop import TrackedFrame
+from regkit.tracking.session import Session
+from regkit.tracking.track import Track
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """A frame as pictures show it.
+
+    Attributes:
+        frame: Its number in the recording.
+        points: What was measured, as data, (N, 3) [m].
+        pose: The pose found.
+    """
+
+    frame: int
+    points: Array
+    pose: Pose
+
+
+class TrackRecorder:
+    """Takes the tracked frames of a session one by one.
+
+    Of each frame it keeps the numbers that make a ``Track``; of the first frame, the last, and the
+    one whose points lie farthest from the surface also the points. Other frames are read again
+    when a picture asks for them.
+
+    Args:
+        session: What is tracked.
+        registrar: What registers its frames.
+    """
+
+    def __init__(self, session: Session, registrar: Registrar) -> None:
+        self._session = session
+        self._registrar = registrar
+        self._values = {field.name: array("d") for field in fields(Track)}
+        self._messages: list[str] = []
+        self._snapshots: dict[str, Snapshot] = {}
+        self._worst = -np.inf
+
+    def __len__(self) -> int:
+        """Number of frames so far."""
+        return len(self._messages)
+
+    def add(self, frame: TrackedFrame) -> None:
+        """Record the next frame."""
+        body, found, points = self._registrar.body, frame.registered, frame.observation.points
+        placement = body.place(found.pose)
+        distance = _surface_distance(body, placement, points)
+        values = {
+            "root": found.pose.root,
+            "balls": found.pose.balls,
+            "hinges": found.pose.hinges,
+            "markers": body.markers.place(placement.transforms),
+            "surface_distances": distance,
+            "inlier_shares": found.inlier_share,
+            "energies": found.energy,
+            "evaluations": found.evaluations,
+            "converged": found.converged,
+            "seconds": frame.seconds,
+            "preprocessing": frame.preprocessing,
+        }
+        for name, value in values.items():
+            self._values[name].frombytes(np.asarray(value, dtype=np.float64).tobytes())
+        self._keep(Snapshot(len(self), points, found.pose), distance)
+        self._messages.append(intern(found.message))
+
+    def _keep(self, snapshot: Snapshot, distance: float) -> None:
+        self._snapshots.setdefault("first", snapshot)
+        self._snapshots["last"] = snapshot
+        if distance > self._worst:
+            self._worst = distance
+            self._snapshots["worst"] = snapshot
+
+    def track(self) -> Track:
+        """All frames so far as arrays."""
+        rest, markers = self._registrar.body.skeleton.rest(), self._registrar.body.markers
+        shapes = {
+            "root": rest.root.shape,
+            "balls": rest.balls.shape,
+            "hinges": rest.hinges.shape,
+            "markers": (len(markers.names), 3),
+        }
+        return Track(
+            **{
+                name: np.array(values).reshape(len(self), *shapes.get(name, ()))
+                for name, values in self._values.items()
+            }
+        )
+
+    def message(self, index: int) -> str:
+        """Why the registration of a frame ended."""
+        return self._messages[index]
+
+    def snapshot(self, index: int) -> Snapshot:
+        """A frame as pictures show it; one that was not kept is read again.
+
+        Raises:
+            RegkitError: If it cannot be read any more.
+        """
+        for kept in self._snapshots.values():
+            if kept.frame == index:
+                return kept
+        points = self._session.observation(index).points
+        return Snapshot(index, points, self.track().pose(index))
+
+
+def _surface_distance(body: Body, placement: Placement, points: Array) -> float:
+    """Median distance [m] of points to the body's capsules, or to the points of its surface."""
+    if len(body.capsules):
+        placed = body.capsules.place(placement.transforms)
+        return float(np.median(np.abs(placed.surface_distance(points))))
+    if body.surface is None:
+        return float("nan")
+    from scipy.spatial import KDTree
+
+    distances, _ = KDTree(body.surface.place(placement.transforms)).query(points)
+    return float(np.median(distances))

@@ -1,0 +1,110 @@
+"""A session: who is seen in which recording, and where tracking begins."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from regkit.interfaces import Preprocessor, Recording, Registrar, Template, Tracker
+from regkit.observation import Frame, Observation
+from regkit.skeleton import Pose, PoseDescription
+from regkit.start import Start, found_start, given_start
+from regkit.system.errors import ConfigError, DataError, RegkitError
+from regkit.tracking.loop import TrackedFrame, tracked
+
+
+@dataclass(frozen=True)
+class Session:
+    """A recording to be tracked, the same for every method.
+
+    Attributes:
+        recording: Where the frames come from.
+        template: What is seen in them.
+        preprocessor: How frames become data.
+        start: The pose in the first frame, which needs the template's size; without it both are
+            found.
+        sized_in: In how many frames, spread over the recording, an unknown size is looked for.
+    """
+
+    recording: Recording
+    template: Template
+    preprocessor: Preprocessor
+    start: Pose | PoseDescription | None = None
+    sized_in: int = 3
+
+    def begin(self) -> Start:
+        """The body at its size, and its pose in the first frame.
+
+        Raises:
+            RegkitError: If the given start does not fit the body, the first frame cannot be read,
+                or no start can be found.
+        """
+        if isinstance(self.start, Pose):
+            return _posed(self.template, self.start)
+        if self.start is not None:
+            return given_start(self.template, self.start)
+        observations = list(self._looked_at())
+        if not observations:
+            raise DataError("the recording has no frame", place=self.recording.name)
+        return found_start(self.template, *observations)
+
+    def tracked(self, registrar: Registrar, tracker: Tracker, pose: Pose) -> Iterator[TrackedFrame]:
+        """Track the recording from a pose, frame by frame.
+
+        Raises:
+            RegkitError: If a frame cannot be read or registered; it says which.
+        """
+        return tracked(self.recording, self.preprocessor, registrar, tracker, pose)
+
+    def observation(self, index: int) -> Observation:
+        """The data of a frame.
+
+        Raises:
+            RegkitError: If it cannot be read.
+        """
+        ((_, frame),) = self.recording.some([index])
+        return self._observed(index, frame)
+
+    def _looked_at(self) -> Iterator[Observation]:
+        """The first frame, and later ones if the size is unknown and they are usable."""
+        count = 1 if self.template.given_size() is not None else self.sized_in
+        for index, frame in self.recording.some(_spread(self.recording.length, count)):
+            try:
+                yield self._observed(index, frame)
+            except RegkitError:
+                # What is wrong with a later frame is told when it is tracked.
+                if index == 0:
+                    raise
+
+    def _observed(self, index: int, frame: Frame) -> Observation:
+        try:
+            return self.preprocessor.preprocess(frame)
+        except RegkitError as error:
+            raise error.at(frame.place or f"{self.recording.name}: frame {index}") from None
+
+
+def _spread(length: int, count: int) -> Iterable[int]:
+    """The first frame, the last, and those that divide what lies between them equally."""
+    return sorted({(length - 1) * part // max(count - 1, 1) for part in range(count)})
+
+
+def _posed(template: Template, pose: Pose) -> Start:
+    """A start that is a pose already.
+
+    Raises:
+        ConfigError: If the size is unknown, or it is a pose of another skeleton.
+    """
+    size = template.given_size()
+    if size is None:
+        raise ConfigError("a given start needs the template's size too")
+    body = template.body(size)
+    rest = body.skeleton.rest()
+    for name in ("root", "balls", "hinges"):
+        given, wanted = np.shape(getattr(pose, name)), np.shape(getattr(rest, name))
+        if given != wanted:
+            raise ConfigError(
+                f"a pose of another body: its {name} are {given}, those of '{body.name}' {wanted}"
+            )
+    return Start(body, pose)
