@@ -1,6 +1,7 @@
 """Fixtures that many tests share: a linkage with every type of joint, and the reference data."""
 
 import os
+import signal
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -13,6 +14,11 @@ from regkit.testing.samples import LINKAGE
 
 ROOT = Path(__file__).parent.parent
 REFERENCE_DATA = ROOT.parent / "shared" / "data"
+
+# What runs in the background may be started with Ctrl-C ignored, and so would the processes be that
+# tests start; they press it as a terminal does.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # A console keeps the width that it is told when it is made; without it, it asks each time.
 os.environ.pop("COLUMNS", None)

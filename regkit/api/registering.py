@@ -20,6 +20,7 @@ from regkit.skeleton import Pose
 from regkit.start import Start, found_start, given_start
 from regkit.system.errors import ConfigError, DataError, RegkitError
 from regkit.system.optional import one_thread
+from regkit.system.renamed import renamed_arguments
 from regkit.tracking import Track, TrackedFrame, tracked
 
 POINTS = 900
@@ -29,6 +30,7 @@ WIDTH = 0.5
 """Their standard deviation, as a part of the voxel's side."""
 
 
+@renamed_arguments(observer="preprocessor")
 def register(
     cloud: Measured,
     template: Choice[Template],
@@ -63,6 +65,7 @@ def register(
     )[0]
 
 
+@renamed_arguments(observer="preprocessor")
 def track(
     frames: Frames,
     template: Choice[Template],

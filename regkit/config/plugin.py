@@ -8,6 +8,7 @@ until it is named, so a broken third-party plug-in can only harm those who name 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any, ClassVar, Self, TypeVar, cast
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
@@ -29,6 +30,9 @@ class Plugin(Model):
 
     group: ClassVar[str]
     """Entry-point group, set once by each slot."""
+
+    former_group: ClassVar[str | None] = None
+    """The name that the group had before."""
 
     declared: ClassVar[tuple[str, ...]] = ()
     """Class variables that each plug-in of a slot must declare; their values are classes."""
@@ -57,6 +61,8 @@ class Plugin(Model):
         found = available.get(kind)
         if found is None:
             cls._check_renamed(kind)
+            for message in cls.left_behind(kind):
+                raise PluginError(message)
             raise PluginError(
                 f"no plug-in '{kind}' in {cls.group} (installed: {', '.join(available)})"
                 + did_you_mean(kind, list(available))
@@ -71,6 +77,17 @@ class Plugin(Model):
                 f"plug-in '{kind}' of {found.distributions[0]} {error.message}"
             ) from None
         return cast(type[Self], plugin)
+
+    @classmethod
+    def left_behind(cls, kind: str | None = None) -> Iterator[str]:
+        """Messages about plug-ins, or the one of a kind, that stand in the group's former name."""
+        for name, found in installed(cls.former_group or "").items():
+            if kind in (None, name):
+                yield (
+                    f"plug-in '{name}' of {found.versions} is in the entry-point group "
+                    f"'{cls.former_group}', which is now called '{cls.group}'; install a version "
+                    "of it for this version of regkit"
+                )
 
     @classmethod
     def _check_renamed(cls, kind: str) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from pydantic import Field
 
@@ -61,6 +61,7 @@ class Dataset(Plugin, ABC):
     """A set of recordings."""
 
     group = "regkit.datasets"
+    renamed: ClassVar[dict[str, str]] = {"sequences": "recordings"}
 
     recordings: tuple[str, ...] | None = None
     """Names of the recordings to use; all that there are without it."""

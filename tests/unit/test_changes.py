@@ -93,7 +93,7 @@ def test_items_of_lists_are_named_by_numbers():
     for wrong in ("2", "-1", "one"):
         with pytest.raises(ConfigError, match=rf"terms is a list of 2.* no item '{wrong}'"):
             with_value(data, ("terms", wrong), 1)
-    with pytest.raises(ConfigError, match="terms is a list of 2.* no item '2'"):
+    with pytest.raises(ConfigError, match=r"terms is a list of 2.* no item '2'"):
         with_changes(data, {"terms": {"2": {"weight": 2}}})
 
 
