@@ -23,7 +23,7 @@ if TYPE_CHECKING:
         track,
     )
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 __all__ = [
     "Camera",
@@ -40,8 +40,14 @@ __all__ = [
 ]
 
 
+_RENAMED = {"load_sequence": "load_recording"}
+"""Names that the API had before, and the names that it has now."""
+
+
 def __getattr__(name: str) -> Any:
     """A name of the API, imported when it is first asked for."""
+    if name in _RENAMED:
+        raise AttributeError(f"'regkit.{name}' is now called 'regkit.{_RENAMED[name]}'")
     if name not in __all__:
         raise AttributeError(f"module 'regkit' has no attribute '{name}'")
     value = getattr(importlib.import_module("regkit.api"), name)

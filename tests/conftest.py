@@ -2,6 +2,7 @@
 
 import importlib
 import os
+import signal
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -18,6 +19,11 @@ from regkit.cli import main
 from regkit.config import registry as registered
 from regkit.config.document import Document
 from regkit.testing.samples import LINKAGE
+
+# What runs in the background may be started with Ctrl-C ignored, and so would the processes be that
+# tests start; they press it as a terminal does.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # A console keeps the width that it is told when it is made; without it, it asks each time.
 os.environ.pop("COLUMNS", None)

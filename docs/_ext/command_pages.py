@@ -10,6 +10,7 @@ from typing import Any
 import typer
 
 from regkit.cli.app import app as program
+from regkit.cli.app import loaded
 
 _BRACKETS = re.compile(r"\s*\[((?:default|required|x|[\d.]+<)[^\[\]]*)\]\s*")
 """What typer adds to a parameter's help: a default, bounds, that it is required."""
@@ -23,12 +24,10 @@ def commands_text() -> str:
 
 
 def _commands(group: Any, context: Any) -> Iterator[str]:
-    """The commands of a group, and of the groups in it."""
-    for name, command in group.commands.items():
+    """The commands of the group."""
+    for name in group.list_commands(context):
+        command = loaded(name)
         its = command.context_class(command, info_name=name, parent=context)
-        if getattr(command, "commands", None):
-            yield from _commands(command, its)
-            continue
         yield f"## {its.command_path}"
         yield inspect.cleandoc(command.help or "")
         records = [one.get_help_record(its) for one in command.get_params(its)]

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from regkit.geometry.camera import Camera
 from regkit.system.arrays import Array, Indices
-from regkit.system.optional import open3d
+from regkit.system.optional import load_library
 
 _LARGEST = np.iinfo(np.uint16).max
 
@@ -111,7 +111,7 @@ def stored(depth: Array, depth_scale: float) -> NDArray[np.uint16]:
 
 def _first_hits(corners: Array, faces: Indices, rays: Array) -> tuple[NDArray[np.uint32], int]:
     """The triangle (N,) that each ray (N, 3) from the origin meets first; what stands for none."""
-    library: Any = open3d()
+    library: Any = load_library("open3d")
     scene = library.t.geometry.RaycastingScene()
     scene.add_triangles(
         library.core.Tensor(corners.astype(np.float32)),

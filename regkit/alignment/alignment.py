@@ -90,7 +90,7 @@ def align(
             raise DataError(
                 f"{len(few)} points of the source and {len(seen)} of the target are left in "
                 f"voxels of {voxel:g} m; choose smaller ones",
-                place="--voxel",
+                place="voxel",
             )
         begin = beginning(start, few, seen, method)
         # About its own centre a body's rotation does not pull at its translation.

@@ -9,7 +9,7 @@ import numpy as np
 from regkit.clouds import spacing, voxel_downsampled, voxel_for
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
-from regkit.system.optional import open3d
+from regkit.system.optional import load_library
 
 SKETCH = 3000
 """So many points have features."""
@@ -24,7 +24,7 @@ def by_features(source: Array, target: Array) -> Array:
         DataError: If too few features match.
         DependencyError: If Open3D is missing.
     """
-    library = open3d()
+    library = load_library("open3d")
     voxels = [voxel_for(points, SKETCH) or _typical(points) for points in (source, target)]
     voxel = max(voxels)
     clouds, features = [], []
@@ -44,7 +44,7 @@ def by_features(source: Array, target: Array) -> Array:
     with library.utility.VerbosityContextManager(library.utility.VerbosityLevel.Error):
         transform = _matched(library, clouds, features, 1.5 * voxel)
     if np.array_equal(transform, np.eye(4)):
-        raise DataError("too few features of the clouds match; take another --start")
+        raise DataError("too few features of the clouds match; choose another start")
     return transform
 
 

@@ -91,9 +91,9 @@ def read_transform(name: str) -> Array:
     path = Path(name)
     if not path.is_file():
         raise ConfigError(
-            f"there is no such file; name one with a 4x4 matrix, or one of {', '.join(STARTS)}"
+            f"there is no file '{name}'; name one with a 4x4 matrix, or one of {', '.join(STARTS)}"
             + did_you_mean(name, list(STARTS)),
-            place=f"--start {name}",
+            place="start",
         )
     try:
         text = path.read_text(encoding="utf-8").replace(",", " ")

@@ -17,6 +17,7 @@ from regkit.skeleton import Pose, PoseDescription
 from regkit.start import Start
 from regkit.system.errors import DataError, RegkitError
 from regkit.system.optional import one_thread
+from regkit.system.renamed import renamed_arguments
 from regkit.tracking import Session, TrackedFrame, TrackRecorder
 
 POINTS = 900
@@ -26,6 +27,7 @@ WIDTH = 0.5
 """Their standard deviation, as a part of the voxel's side."""
 
 
+@renamed_arguments(observer="preprocessor")
 def register(
     cloud: Measured,
     template: Choice[Template],
@@ -58,6 +60,7 @@ def register(
     return _tracked(recording, template, method, preprocessor, None, start, "regkit.register")[0]
 
 
+@renamed_arguments(observer="preprocessor")
 def track(
     frames: Frames,
     template: Choice[Template],

@@ -14,7 +14,7 @@ from regkit.geometry.rotation import from_matrix, to_matrix
 from regkit.skeleton import Pose, Skeleton
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError
-from regkit.system.optional import casadi
+from regkit.system.optional import load_library
 
 
 def configuration(skeleton: Skeleton, pose: Pose) -> Array:
@@ -89,7 +89,7 @@ def retract(skeleton: Skeleton) -> Any:
     The same steps as ``Skeleton.retract`` takes: a translation in the world, rotation vectors in
     the frames that they turn, hinge angles. A step knows of no coupling; ``joint_limits`` does.
     """
-    ca = casadi()
+    ca = load_library("casadi")
     numbers = ca.SX.sym("configuration", length(skeleton))
     step = ca.SX.sym("step", skeleton.dofs)
     parts = split(skeleton, numbers)

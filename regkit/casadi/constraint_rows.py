@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from regkit.system.arrays import Array
-from regkit.system.optional import casadi
+from regkit.system.optional import load_library
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class Row:
 
 def accumulated(name: str, numbers: Any, rows: list[Row]) -> ConstraintRows:
     """Rows as one function, called ``name``, of the configuration ``numbers``."""
-    ca = casadi()
+    ca = load_library("casadi")
     function = ca.Function(
         name, [numbers], [ca.vertcat(ca.SX(0, 1), *(row.expression for row in rows))],
         ["configuration"], ["rows"],

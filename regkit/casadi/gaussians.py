@@ -11,7 +11,7 @@ from regkit.casadi.kinematics import forward_kinematics
 from regkit.primitives import Gaussians
 from regkit.skeleton import Skeleton
 from regkit.system.arrays import Array
-from regkit.system.optional import casadi
+from regkit.system.optional import load_library
 
 
 def correlation(skeleton: Skeleton, gaussians: Gaussians, count: int) -> Any:
@@ -29,7 +29,7 @@ def correlation(skeleton: Skeleton, gaussians: Gaussians, count: int) -> Any:
         gaussians: In the frames of its segments.
         count: The number N of points.
     """
-    ca = casadi()
+    ca = load_library("casadi")
     numbers = ca.MX.sym("configuration", length(skeleton))
     points = ca.MX.sym("points", 3, count)
     weights, variances = ca.MX.sym("weights", count), ca.MX.sym("variances", count)
@@ -47,7 +47,7 @@ def correlation(skeleton: Skeleton, gaussians: Gaussians, count: int) -> Any:
 
 def _density(skeleton: Skeleton, gaussians: Gaussians) -> Any:
     """The function (transforms (16 S,), point (3,), variance) -> density of all Gaussians there."""
-    ca = casadi()
+    ca = load_library("casadi")
     transforms = ca.SX.sym("transforms", 16 * len(skeleton.names))
     point, variance = ca.SX.sym("point", 3), ca.SX.sym("variance")
     by_segment = ca.reshape(transforms, 4, 4 * len(skeleton.names))
@@ -69,4 +69,4 @@ def _density(skeleton: Skeleton, gaussians: Gaussians) -> Any:
 
 
 def _squares(scales: Array) -> Any:
-    return casadi().DM(scales**2)
+    return load_library("casadi").DM(scales**2)

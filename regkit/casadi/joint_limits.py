@@ -24,7 +24,7 @@ from regkit.casadi.constraint_rows import ConstraintRows, Row, accumulated
 from regkit.geometry.rotation import conjugate, cross
 from regkit.skeleton import Skeleton
 from regkit.system.arrays import Array
-from regkit.system.optional import casadi
+from regkit.system.optional import load_library
 
 NOWHERE = 1e-30
 """Added to squares that vanish at a swing of half a turn, where the twist is not defined."""
@@ -33,14 +33,14 @@ NOWHERE = 1e-30
 @lru_cache(maxsize=16)
 def ball_limits(skeleton: Skeleton) -> ConstraintRows:
     """The rows of all ball joints that have a limit: swing, then twist, joint by joint."""
-    numbers = casadi().SX.sym("configuration", length(skeleton))
+    numbers = load_library("casadi").SX.sym("configuration", length(skeleton))
     return accumulated("ball_limits", numbers, list(_ball_rows(skeleton, numbers)))
 
 
 @lru_cache(maxsize=16)
 def joint_limits(skeleton: Skeleton) -> ConstraintRows:
     """All limits of a skeleton: those of its ball joints, of its hinges, and couplings."""
-    numbers = casadi().SX.sym("configuration", length(skeleton))
+    numbers = load_library("casadi").SX.sym("configuration", length(skeleton))
     rows = [*_ball_rows(skeleton, numbers), *_hinge_rows(skeleton, numbers)]
     return accumulated("joint_limits", numbers, rows)
 
@@ -50,7 +50,7 @@ def _ball_rows(skeleton: Skeleton, numbers: Any) -> Iterator[Row]:
     names = _names(skeleton, skeleton.ball_dofs, 3)
     for index, ball in enumerate(split(skeleton, numbers).balls):
         centre = conjugate(limits.centre[index])
-        relative = rotations.product(casadi().DM(centre), rotations.normalized(ball))
+        relative = rotations.product(load_library("casadi").DM(centre), rotations.normalized(ball))
         axis, half_angles = limits.twist_axis[index], limits.swing[index]
         if np.isfinite(half_angles).all():
             swing = _swing(relative, axis, limits.swing_axis[index])
@@ -88,7 +88,7 @@ def _names(skeleton: Skeleton, dofs: slice, each: int) -> list[str]:
 
 def _twist_from(quaternion: Any, axis: Array, middle: float) -> Any:
     """The twist's deviation from ``middle``, in (-pi, pi) [rad]."""
-    ca = casadi()
+    ca = load_library("casadi")
     along, scalar = ca.dot(quaternion[:3], axis), quaternion[3]
     # Half the deviation has this sine and cosine, but for a factor.
     sine = np.cos(0.5 * middle) * along - np.sin(0.5 * middle) * scalar
@@ -100,7 +100,7 @@ def _twist_from(quaternion: Any, axis: Array, middle: float) -> Any:
 
 def _swing(quaternion: Any, axis: Array, first_axis: Array) -> Any:
     """The two swing angles (2,) [rad]."""
-    ca = casadi()
+    ca = load_library("casadi")
     along, scalar = ca.dot(quaternion[:3], axis), quaternion[3]
     # The cosine of half the swing; the twist's half angle has these over it as sine and cosine.
     level = ca.sqrt(along**2 + scalar**2 + NOWHERE)

@@ -12,7 +12,7 @@ from regkit.casadi import rotations
 from regkit.casadi.configuration import length, split
 from regkit.skeleton import Skeleton
 from regkit.system.arrays import Array
-from regkit.system.optional import casadi
+from regkit.system.optional import load_library
 
 
 @lru_cache(maxsize=16)
@@ -22,7 +22,7 @@ def forward_kinematics(skeleton: Skeleton) -> Any:
     The matrices stand side by side, (4, 4 S), in the order of ``skeleton.names``. Where the root is
     fixed, the world is its frame.
     """
-    ca = casadi()
+    ca = load_library("casadi")
     numbers = ca.SX.sym("configuration", length(skeleton))
     links = _links(skeleton, numbers)
     segments = [links[link] for link in skeleton.segment_links]
@@ -34,7 +34,7 @@ def forward_kinematics(skeleton: Skeleton) -> Any:
 
 def marker_positions(skeleton: Skeleton, markers: Markers) -> Any:
     """The CasADi function configuration (Q,) -> positions of all M markers, (3, M) [m]."""
-    ca = casadi()
+    ca = load_library("casadi")
     numbers = ca.SX.sym("configuration", length(skeleton))
     transforms = forward_kinematics(skeleton)(numbers)
     places = [
@@ -48,7 +48,7 @@ def marker_positions(skeleton: Skeleton, markers: Markers) -> Any:
 
 def _links(skeleton: Skeleton, numbers: Any) -> list[Any]:
     """T_world_link of each link: that of its parent, its offset, and the turn of its joint."""
-    ca = casadi()
+    ca = load_library("casadi")
     parts = split(skeleton, numbers)
     turns = {
         link: rotations.matrix(rotations.normalized(ball))
@@ -73,10 +73,10 @@ def _links(skeleton: Skeleton, numbers: Any) -> list[Any]:
 
 
 def _rigid(rotation: Any, translation: Any) -> Any:
-    ca = casadi()
+    ca = load_library("casadi")
     return ca.vertcat(ca.horzcat(rotation, translation), ca.DM([[0.0, 0.0, 0.0, 1.0]]))
 
 
 def _constant(transform: Array) -> Any:
     """A matrix whose zeros CasADi knows of, so that it leaves them out."""
-    return casadi().sparsify(casadi().DM(np.asarray(transform)))
+    return load_library("casadi").sparsify(load_library("casadi").DM(np.asarray(transform)))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from regkit.system.optional import casadi
+from regkit.system.optional import load_library
 
 SMALL = 1e-4
 """Below this square of an angle, or of its sine, series take the place of quotients."""
@@ -12,14 +12,14 @@ SMALL = 1e-4
 
 def product(left: Any, right: Any) -> Any:
     """The Hamilton product of two quaternions (4,), x, y, z, w: first ``right`` is applied."""
-    ca = casadi()
+    ca = load_library("casadi")
     vector = left[3] * right[:3] + right[3] * left[:3] + ca.cross(left[:3], right[:3])
     return ca.vertcat(vector, left[3] * right[3] - ca.dot(left[:3], right[:3]))
 
 
 def exponential(vector: Any) -> Any:
     """The unit quaternion (4,) of a rotation vector (3,) [rad]."""
-    ca = casadi()
+    ca = load_library("casadi")
     square = ca.dot(vector, vector)
     small = square < SMALL
     half = 0.5 * ca.sqrt(ca.if_else(small, 1.0, square))
@@ -32,11 +32,11 @@ def exponential(vector: Any) -> Any:
 
 def matrix(quaternion: Any) -> Any:
     """The rotation matrix (3, 3) of a unit quaternion (4,)."""
-    ca = casadi()
+    ca = load_library("casadi")
     cross = ca.skew(quaternion[:3])
     return ca.DM.eye(3) + 2.0 * quaternion[3] * cross + 2.0 * cross @ cross
 
 
 def normalized(quaternion: Any) -> Any:
     """``p = r / |r|``, (4,)."""
-    return quaternion / casadi().norm_2(quaternion)
+    return quaternion / load_library("casadi").norm_2(quaternion)

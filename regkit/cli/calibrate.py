@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TaskID, TextColumn
 from rich.table import Table
 
-from regkit.cli.console import PluginFiles, errors, output, run_plugin_files
-
-if TYPE_CHECKING:
-    from regkit.calibration import Subject
+from regkit.calibration import Subject
+from regkit.cli.calibration_source import Source
+from regkit.cli.console import errors, output
+from regkit.cli.options import PluginFiles, run_plugin_files
+from regkit.cli.template_file import check_replaceable, write_template
 
 OPENING = """\
 What `regkit calibrate` found in {frames} frames of the recording {recording}. To use it:
@@ -60,9 +61,6 @@ def calibrate(
     plugin: PluginFiles = None,
 ) -> None:
     """Make a template with the proportions of the person or hand that a recording shows."""
-    from regkit.cli.calibration_source import Source
-    from regkit.cli.template_file import check_replaceable, write_template
-
     run_plugin_files(plugin)
     check_replaceable(out)
     found = Source.read(source, template, settings or ())

@@ -48,7 +48,7 @@ class Source(Model):
             RegkitError: If something of this cannot be.
         """
         if not path.is_dir():
-            experiment = Experiment.read(path, settings)
+            experiment = Experiment.read(path, settings, called="--set")
             return cls(
                 dataset=experiment.dataset,
                 template=experiment.template if template is None else template_named(template),

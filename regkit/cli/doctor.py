@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-import importlib
 import platform
 import sys
-from collections.abc import Callable
-from importlib.metadata import version
-from typing import Any
 
 import typer
 from rich.markup import escape
@@ -16,16 +12,22 @@ from rich.table import Table
 from regkit.cli.console import output
 from regkit.config.preset import preset, presets_of
 from regkit.interfaces import SLOTS
-from regkit.system import optional
 from regkit.system.cache import cache_folder
 from regkit.system.errors import RegkitError
+from regkit.system.optional import load_library
+
+LIBRARIES = {name: name for name in ("numpy", "scipy", "numba", "pydantic", "matplotlib")} | {
+    "PIL": "pillow",
+    "open3d": None,
+    "casadi": None,
+}
+"""Libraries by their names in Python, with the distribution where it has the name of one."""
 
 
 def doctor() -> None:
     """Say what is installed and what is missing, with the command that mends it."""
     table = Table("what", "state", "to mend it")
-    findings = [_python(), *map(_library, ("numpy", "scipy", "pydantic", "matplotlib", "PIL"))]
-    findings += [_optional("open3d", optional.open3d), _optional("casadi", optional.casadi)]
+    findings = [_python(), *(_library(*names) for names in LIBRARIES.items())]
     findings += [_plugins(), _cache()]
     for what, state, cure in findings:
         table.add_row(what, escape(state), escape(cure), style="red" if cure else None)
@@ -39,21 +41,14 @@ def _python() -> tuple[str, str, str]:
     return "Python", platform.python_version(), "" if enough else "install Python 3.11 or newer"
 
 
-def _library(module: str) -> tuple[str, str, str]:
-    distribution = {"PIL": "pillow"}.get(module, module)
+def _library(module: str, distribution: str | None) -> tuple[str, str, str]:
+    name = distribution or module
     try:
-        importlib.import_module(module)
-    except ImportError as error:
-        return distribution, f"cannot be loaded: {error}", f"pip install {distribution}"
-    return distribution, version(distribution), ""
-
-
-def _optional(name: str, load: Callable[[], Any]) -> tuple[str, str, str]:
-    try:
-        return name, str(load().__version__), ""
+        library = load_library(module, install=distribution and f"pip install {distribution}")
     except RegkitError as error:
         state, _, cure = str(error).rpartition("run: ")
         return name, state.rstrip("; "), cure
+    return name, str(library.__version__), ""
 
 
 def _cache() -> tuple[str, str, str]:
@@ -73,6 +68,7 @@ def _plugins() -> tuple[str, str, str]:
                 slot.load(kind)
             except RegkitError as error:
                 broken.append(str(error))
+        broken += slot.left_behind()
         for name in presets_of(slot.group):
             try:
                 preset(slot.group, name)

@@ -8,7 +8,10 @@ from typing import Annotated
 
 import typer
 
-from regkit.cli.console import PluginFiles, output, run_plugin_files
+from regkit.cli.console import output
+from regkit.cli.options import PluginFiles, options, run_plugin_files
+from regkit.experiment.tracked_motion import read_tracked_motion
+from regkit.interchange.motions import FORMATS, write_motion
 from regkit.system.errors import ConfigError
 
 
@@ -44,9 +47,6 @@ def export(
     plugin: PluginFiles = None,
 ) -> None:
     """Write a tracked motion for other programs: BVH, CSV or glTF."""
-    from regkit.experiment.tracked_motion import read_tracked_motion
-    from regkit.interchange.motions import FORMATS, write_motion
-
     run_plugin_files(plugin)
     if to.suffix.lower() not in FORMATS:
         raise ConfigError(
@@ -54,7 +54,8 @@ def export(
         )
     if fps is not None and not 0.0 < fps < float("inf"):
         raise ConfigError(f"{fps:g} is no number of frames per second", place="--fps")
-    motion = read_tracked_motion(results, fps)
+    with options(fps="--fps"):
+        motion = read_tracked_motion(results, fps)
     write_motion(motion, to, scale=0.01 if unit is Unit.CM else 1.0)
     output.print(
         f"written: {to} (frames: {len(motion.transforms)}, {motion.fps:g} a second; "

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 from rich.markup import escape
 from rich.table import Table
 
-from regkit.cli.console import PluginFiles, output, run_plugin_files
+from regkit.body import BodyDescription
+from regkit.cli.calibration_source import template_named
+from regkit.cli.console import output
+from regkit.cli.options import PluginFiles, options, run_plugin_files
+from regkit.cli.template_file import check_replaceable, write_template
+from regkit.fitting.bones import read_bone_map
+from regkit.fitting.template import FittedTemplate
+from regkit.interchange.meshes import read_mesh
 from regkit.system.errors import RegkitError
-
-if TYPE_CHECKING:
-    from regkit.body import BodyDescription
-    from regkit.fitting.template import FittedTemplate
 
 OPENING = """\
 What `regkit fit` made of the mesh {mesh}. To use it:
@@ -68,16 +71,11 @@ def fit(
     plugin: PluginFiles = None,
 ) -> None:
     """Make a template in the shape of a skinned mesh."""
-    from regkit.cli.calibration_source import template_named
-    from regkit.cli.template_file import check_replaceable, write_template
-    from regkit.fitting.bones import read_bone_map
-    from regkit.fitting.template import FittedTemplate
-    from regkit.interchange.meshes import read_mesh
-
     run_plugin_files(plugin)
     check_replaceable(out)
     description = template_named(template).description()
-    skinned = read_mesh(mesh, parents)
+    with options(parents="--parents"):
+        skinned = read_mesh(mesh, parents)
     mapped = {} if bones is None else read_bone_map(bones)
     try:
         fitted = FittedTemplate.to(skinned, description, mapped, vertices)

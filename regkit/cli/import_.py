@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from regkit.cli.console import output
+from regkit.cli.options import options
+from regkit.cli.template_file import check_replaceable, write_template
+from regkit.interchange.imported import THICKNESS, ImportedSkeleton
+from regkit.interchange.skeletons import read_skeleton
+from regkit.skeleton.joints import BallJoint
 from regkit.system.errors import ConfigError
-
-if TYPE_CHECKING:
-    from regkit.interchange.imported import ImportedSkeleton
 
 OPENING = """\
 What `regkit import {command}` made. To use it:
@@ -71,18 +73,14 @@ def import_(
     ] = None,
 ) -> None:
     """Make a template of another program's skeleton: BVH, or URDF with its limits."""
-    from regkit.cli.template_file import check_replaceable, write_template
-    from regkit.interchange.imported import THICKNESS
-    from regkit.interchange.skeletons import read_skeleton
-    from regkit.skeleton.joints import BallJoint
-
     if not 0.0 < scale < float("inf"):
         raise ConfigError(f"{scale:g} is no scale; it must be positive", place="--scale")
     check_replaceable(out)
-    imported = read_skeleton(file, scale=scale, title=title, up=up, front=front)
+    with options(up="--up", front="--front"):
+        imported = read_skeleton(file, scale=scale, title=title, up=up, front=front)
     given = {"--scale": f"{scale:g}" if scale != 1.0 else None, "--up": up, "--front": front}
-    options = [word for option, value in given.items() if value for word in (option, value)]
-    opening = OPENING.format(command=" ".join([file.name, *options]), file=out.name)
+    written = [word for option, value in given.items() if value for word in (option, value)]
+    opening = OPENING.format(command=" ".join([file.name, *written]), file=out.name)
     if imported.shaped:
         opening += "\n" + UNSHAPED.format(share=THICKNESS)
     if any(isinstance(one.joint, BallJoint) for one in imported.description.segments.values()):

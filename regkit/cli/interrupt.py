@@ -12,7 +12,8 @@ class Interrupt:
     """A context that notes Ctrl-C; ``check`` answers it, and a second Ctrl-C ends at once.
 
     An exception in the middle of compiled code would reach the program as another error, and look
-    like a fault of the recording.
+    like a fault of the recording. A process that was started with Ctrl-C ignored, as shells start
+    what runs in the background, goes on ignoring it.
     """
 
     def __init__(self, answer: str = "stopping after this frame") -> None:
@@ -20,10 +21,13 @@ class Interrupt:
         self._answer = answer
         self._asked = False
         self._former = signal.getsignal(signal.SIGINT)
+        # None is a handler that Python did not set, and cannot set again.
+        self._heard = self._former not in (signal.SIG_IGN, None)
 
     def __enter__(self) -> Interrupt:
         """Note Ctrl-C from now on."""
-        signal.signal(signal.SIGINT, self._note)
+        if self._heard:
+            signal.signal(signal.SIGINT, self._note)
         return self
 
     def __exit__(
@@ -33,7 +37,8 @@ class Interrupt:
         traceback: TracebackType | None,
     ) -> None:
         """Leave Ctrl-C to who had it before."""
-        signal.signal(signal.SIGINT, self._former)
+        if self._heard:
+            signal.signal(signal.SIGINT, self._former)
 
     def check(self) -> None:
         """Raise what Ctrl-C would have raised.

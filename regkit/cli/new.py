@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from regkit.cli.console import output
+from regkit.scaffold import Scaffold
 
 
 def new(
@@ -18,8 +19,6 @@ def new(
     out: Annotated[Path, typer.Option(help="Where the package's folder is written.")] = Path(),
 ) -> None:
     """Begin a package with a plug-in of your own, which passes conformance as it is written."""
-    from regkit.scaffold import Scaffold
-
     scaffold = Scaffold.checked(what, name)
     folder = scaffold.write(out)
     recorded = " --set dataset.root=FOLDER" if what == "template" else ""

@@ -9,7 +9,8 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
-from regkit.cli.console import PluginFiles, output, run_plugin_files
+from regkit.cli.console import output
+from regkit.cli.options import PluginFiles, run_plugin_files
 from regkit.config.installed import Installed
 from regkit.config.model import did_you_mean
 from regkit.config.plugin import Plugin

@@ -5,17 +5,22 @@ from __future__ import annotations
 import json
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 from rich.markup import escape
 from rich.table import Table
 
-from regkit.cli.console import PluginFiles, errors, output, run_plugin_files
-
-if TYPE_CHECKING:
-    from regkit.alignment import Alignment
-    from regkit.interfaces import Method
+from regkit.alignment import Alignment, align
+from regkit.cli.console import errors, output
+from regkit.cli.options import PluginFiles, options, run_plugin_files
+from regkit.clouds import check_writable, read_cloud, write_cloud
+from regkit.config.document import Document
+from regkit.config.model import Model
+from regkit.config.preset import presets_of
+from regkit.geometry.rigid import transformed
+from regkit.interfaces import Method
+from regkit.system.errors import ConfigError
 
 
 def register(
@@ -66,23 +71,16 @@ def register(
     plugin: PluginFiles = None,
 ) -> None:
     """Lay a rigid cloud or mesh on another: T_target_source, and how well they agree."""
-    from regkit.alignment import align
-    from regkit.clouds import check_writable, read_cloud, write_cloud
-    from regkit.geometry.rigid import transformed
-
     run_plugin_files(plugin)
     if out is not None:
         check_writable(out, place=f"--out {out}")
     chosen = named_method(method)
     points = read_cloud(source)
-    found = align(
-        points,
-        read_cloud(target),
-        chosen,
-        voxel=voxel,
-        start=start,
-        places=(str(source), str(target)),
-    )
+    resting = read_cloud(target)
+    with options(start="--start", voxel="--voxel"):
+        found = align(
+            points, resting, chosen, voxel=voxel, start=start, places=(str(source), str(target))
+        )
     aligned = found.agreement.fitness >= min_fitness
     if as_json:
         typer.echo(json.dumps(_figures(found, method, aligned), indent=2, allow_nan=False))
@@ -118,11 +116,6 @@ def named_method(text: str) -> Method:
     Raises:
         ConfigError: If there is none, or a field of it is wrong.
     """
-    from regkit.config.document import Document
-    from regkit.config.model import Model
-    from regkit.config.preset import presets_of
-    from regkit.interfaces import Method
-    from regkit.system.errors import ConfigError
 
     class Named(Model):
         """A method, as the command line names it."""

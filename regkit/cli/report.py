@@ -8,6 +8,10 @@ from typing import Annotated
 import typer
 
 from regkit.cli.console import output
+from regkit.config.model import did_you_mean
+from regkit.experiment import found
+from regkit.experiment import report as write_report
+from regkit.system.errors import ConfigError
 
 
 def report(
@@ -18,9 +22,6 @@ def report(
     ] = None,
 ) -> None:
     """Write the report of a results folder anew, also of a run that was interrupted."""
-    from regkit.experiment import found
-    from regkit.experiment import report as write_report
-
     measures, failures = found(folder)
     pairs = [_pair(text, list(measures)) for text in compare or ()]
     page = write_report(folder, measures, failures, pairs)
@@ -33,9 +34,6 @@ def _pair(text: str, methods: list[str]) -> tuple[str, str]:
     Raises:
         ConfigError: If they are not two that there are.
     """
-    from regkit.config.model import did_you_mean
-    from regkit.system.errors import ConfigError
-
     place = f"--compare {text}"
     parts = text.split(",")
     # The name of a sweep's variant has commas itself.

@@ -11,10 +11,16 @@ from rich.box import SIMPLE_HEAD
 from rich.markup import escape
 from rich.table import Table
 
-from regkit.cli.console import PluginFiles, errors, output, run_plugin_files
+from regkit.cli.console import errors, output
 from regkit.cli.interrupt import Interrupt
+from regkit.cli.options import PluginFiles, options, run_plugin_files
 from regkit.cli.run_progress import RunProgress
+from regkit.cli.workers import chosen_workers
+from regkit.experiment import Study
+from regkit.experiment import run as run_experiment
 from regkit.metrics import Measure
+from regkit.report.tables import TERMINAL, rows
+from regkit.report.words import broken
 
 
 def run(
@@ -58,17 +64,14 @@ def run(
 
     Lists below sweep: in the YAML make many of it.
     """
-    from regkit.experiment import Study
-    from regkit.experiment import run as run_experiment
-    from regkit.experiment.workers.choice import chosen_workers
-
     run_plugin_files(plugin)
     workers = chosen_workers(jobs, cluster)
-    study = Study.read(experiment, settings or ())
+    study = Study.read(experiment, settings or (), called="--set")
     folder = out or Path("results") / study.name / f"{datetime.now():%Y%m%d-%H%M%S}"
     stopping = "stopping" if workers.remote else "stopping after this frame"
     try:
         with (
+            options(only="--only"),
             Interrupt(stopping) as interrupt,
             RunProgress(interrupt, frames=not workers.remote) as progress,
         ):
@@ -91,9 +94,6 @@ def run(
 
 
 def _table(measures: dict[str, dict[str, Measure]]) -> Table:
-    from regkit.report.tables import TERMINAL, rows
-    from regkit.report.words import broken
-
     # A terminal of 80 characters holds all figures: titles may break there, names
     # only where a sweep joined them.
     table = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)

@@ -12,10 +12,14 @@ from pydantic.errors import PydanticInvalidForJsonSchema
 from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue
 from pydantic_core import core_schema
 
-from regkit.cli.console import PluginFiles, errors, output, run_plugin_files
+from regkit.body import BodyDescription
+from regkit.cli.console import errors, output
+from regkit.cli.options import PluginFiles, run_plugin_files
 from regkit.config.installed import OWN, Installed, only_from
 from regkit.config.schema_line import FOLDER, MARK
-from regkit.interfaces import SLOTS
+from regkit.experiment.sweeps.sweep import SweptExperiment
+from regkit.interfaces import SLOTS, Dataset, Method
+from regkit.skeleton import SkeletonDescription
 from regkit.system.errors import PluginError
 from regkit.system.files import write_text
 
@@ -101,11 +105,6 @@ def _tell_broken() -> None:
 
 def schemas() -> dict[str, dict[str, Any]]:
     """Each schema by the name of its file."""
-    from regkit.body import BodyDescription
-    from regkit.experiment.sweeps.sweep import SweptExperiment
-    from regkit.interfaces import Dataset, Method
-    from regkit.skeleton import SkeletonDescription
-
     return {
         "experiment": _schema_of(SweptExperiment),
         "template": _schema_of(BodyDescription),

@@ -7,8 +7,12 @@ from typing import Annotated
 
 import typer
 
-from regkit.cli.console import PluginFiles, output, print_error, run_plugin_files
+from regkit.body import BodyDescription
+from regkit.cli.console import output, print_error
+from regkit.cli.options import PluginFiles, run_plugin_files
 from regkit.config.document import Document
+from regkit.experiment import Study
+from regkit.skeleton import SkeletonDescription
 from regkit.system.errors import ConfigError, RegkitError
 
 
@@ -31,10 +35,6 @@ def validate(
 
 def _checked(file: Path) -> str:
     """What kind of file it is, once it is known to be valid."""
-    from regkit.body import BodyDescription
-    from regkit.experiment import Study
-    from regkit.skeleton import SkeletonDescription
-
     document = Document.read(file)
     if "methods" in document.data:
         study = Study.of(document)

@@ -15,7 +15,7 @@ import numpy as np
 
 from regkit.system.arrays import Array, checked_points
 from regkit.system.errors import DataError
-from regkit.system.optional import open3d
+from regkit.system.optional import load_library
 
 TEXT = (".txt", ".csv", ".xyz")
 """Files of numbers in rows, x y z first; what follows on a row is left out."""
@@ -97,7 +97,7 @@ def _written(path: Path) -> Array:
 
 
 def _with_open3d(path: Path, *, mesh: bool) -> Array:
-    library = open3d()
+    library = load_library("open3d")
     if not mesh and not (path.suffix.lower() == ".ply" and _has_faces(path)):
         cloud = _quietly(path, library.io.read_point_cloud)
         return np.asarray(cloud.points)
@@ -130,7 +130,7 @@ def _quietly(path: Path, read: Callable[[str], Any]) -> Any:
     Raises:
         DataError: If it printed anything.
     """
-    library = open3d()
+    library = load_library("open3d")
     level = library.utility.VerbosityLevel.Warning
     with library.utility.VerbosityContextManager(level), redirect_stdout(StringIO()) as told:
         result = read(str(path))

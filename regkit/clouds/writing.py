@@ -9,7 +9,7 @@ import numpy as np
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError, DataError
 from regkit.system.files import replacing, write_arrays
-from regkit.system.optional import open3d
+from regkit.system.optional import load_library
 
 TEXT = {".txt": " ", ".xyz": " ", ".csv": ","}
 """What parts the numbers of a row."""
@@ -43,7 +43,7 @@ def write_cloud(path: Path, points: Array) -> None:
         if suffix in TEXT:
             np.savetxt(temporary, points, fmt="%.17g", delimiter=TEXT[suffix])
             return
-        library = open3d()
+        library = load_library("open3d")
         cloud = library.geometry.PointCloud(library.utility.Vector3dVector(points))
         if not library.io.write_point_cloud(str(temporary), cloud):
             raise DataError("cannot be written", place=str(path))

@@ -8,6 +8,7 @@ until it is named, so a broken third-party plug-in can only harm those who name 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, ClassVar, Self, TypeVar, cast
 
@@ -32,6 +33,9 @@ class Plugin(Model):
 
     group: ClassVar[str]
     """Entry-point group, set once by each slot."""
+
+    former_group: ClassVar[str | None] = None
+    """The name that the group had before."""
 
     declared: ClassVar[tuple[str, ...]] = ()
     """Class variables that each plug-in of a slot must declare; their values are classes."""
@@ -60,6 +64,8 @@ class Plugin(Model):
         found = available.get(kind)
         if found is None:
             cls._check_renamed(kind)
+            for message in cls.left_behind(kind):
+                raise PluginError(message)
             presets = list(presets_of(cls.group))
             told = f"; presets: {', '.join(presets)}" if presets else ""
             raise PluginError(
@@ -122,6 +128,17 @@ class Plugin(Model):
             PluginError: If no distribution declares one, or two do.
         """
         return {**cls.named(default_name(cls.group, purpose)), **fields}
+
+    @classmethod
+    def left_behind(cls, kind: str | None = None) -> Iterator[str]:
+        """Messages about plug-ins, or the one of a kind, that stand in the group's former name."""
+        for name, found in installed(cls.former_group or "").items():
+            if kind in (None, name):
+                yield (
+                    f"plug-in '{name}' of {found.versions} is in the entry-point group "
+                    f"'{cls.former_group}', which is now called '{cls.group}'; install a version "
+                    "of it for this version of regkit"
+                )
 
     @classmethod
     def _check_renamed(cls, kind: str) -> None:

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from regkit import __version__
+from regkit.experiment.results_format import FORMAT
 
 LIBRARIES = (
     "numpy",
@@ -28,7 +29,7 @@ LIBRARIES = (
 
 
 def environment(earlier: Path, workers: str) -> dict[str, Any]:
-    """Versions, machine, workers, and when the run was begun, as JSON.
+    """Versions, machine, workers, the format of the results and when the run began, as JSON.
 
     Args:
         earlier: The file with what was written when the run was begun, if it is resumed.
@@ -41,6 +42,7 @@ def environment(earlier: Path, workers: str) -> dict[str, Any]:
     return {
         "date": begun,
         "regkit": __version__,
+        "format": FORMAT,
         "python": platform.python_version(),
         "libraries": {name: installed(name) for name in LIBRARIES if installed(name)},
         "system": platform.platform(),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from pydantic import AfterValidator, Field, ValidationInfo, WithJsonSchema, field_validator
 
@@ -53,6 +53,8 @@ def _not_reserved(name: str) -> str:
 class Experiment(Model):
     """Methods that register one template to the recordings of one dataset, on equal terms."""
 
+    renamed: ClassVar[dict[str, str]] = {"observer": "preprocessor"}
+
     name: Name
     """What the results folder is called."""
     dataset: Dataset
@@ -86,18 +88,20 @@ class Experiment(Model):
         return start
 
     @classmethod
-    def read(cls, path: Path, settings: Iterable[str] = ()) -> Experiment:
-        """An experiment's YAML, after ``a.b.c=value`` settings.
+    def read(
+        cls, path: Path, settings: Iterable[str] = (), *, called: str = "setting"
+    ) -> Experiment:
+        """An experiment's YAML, after ``a.b.c=value`` settings; messages call each one ``called``.
 
         Raises:
             ConfigError: One line for each thing that is wrong, with its file, line and field; or
                 the file holds a sweep, which is many experiments.
         """
-        document = Document.read(path).overridden(settings)
+        document = Document.read(path).overridden(settings, called=called)
         if document.data.get("sweep"):
             raise ConfigError(
-                "many experiments, and one is needed here; take the sweep out, with "
-                "--set sweep={}, say",
+                "a sweep makes many experiments, and one is needed here; remove it, as the setting "
+                "sweep={} does",
                 place=document.place(("sweep",)),
             )
         return document.without("sweep").validated(cls)

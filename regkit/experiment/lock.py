@@ -109,7 +109,7 @@ def _occupied(folder: Path) -> ConfigError:
         who += f" (process {claim['process']} on {claim['machine']})"
     return ConfigError(
         f"{who} is writing there; wait for its end, or choose another folder",
-        place=f"--out {folder}",
+        place=str(folder),
     )
 
 

@@ -10,6 +10,7 @@ from typing import Any
 
 from regkit.config.document import Document
 from regkit.experiment.results import Results
+from regkit.experiment.results_format import check_format
 from regkit.metrics import Measure
 from regkit.report import Run, write_report, write_summary
 from regkit.system.errors import DataError
@@ -70,7 +71,7 @@ def found(folder: Path) -> tuple[dict[str, dict[str, Measure]], dict[str, dict[s
     that neither names come last.
 
     Raises:
-        DataError: If it is no results folder, or a file is damaged.
+        DataError: If it is no results folder, one of another format, or a file is damaged.
     """
     if not (folder / "config.yaml").is_file() or not (folder / "environment.json").is_file():
         raise DataError(
@@ -78,6 +79,7 @@ def found(folder: Path) -> tuple[dict[str, dict[str, Measure]], dict[str, dict[s
             "environment.json",
             place=str(folder),
         )
+    check_format(folder)
     results, metrics = Results(folder), folder / "metrics.json"
     told = _json(metrics).get("methods", {}) if metrics.exists() else {}
     config = Document.read(folder / "config.yaml").data

@@ -18,6 +18,7 @@ from regkit.config.yaml import yaml_data, yaml_text
 from regkit.experiment.differences import differences
 from regkit.experiment.environment import environment
 from regkit.experiment.lock import MARK
+from regkit.experiment.results_format import check_format
 from regkit.metrics import Measure
 from regkit.report import Record, draw_overlay, method_styles
 from regkit.system.errors import ConfigError, DataError, PluginError, RegkitError
@@ -54,25 +55,17 @@ class Results:
 
         Raises:
             ConfigError: If it holds the results of another configuration.
+            DataError: If it holds results of another format.
         """
         text = yaml_text(config)
         file = folder / "config.yaml"
         if file.exists():
-            before = file.read_text(encoding="utf-8")
-            # A comment in the file, or another order of its fields, is no other configuration.
-            if before != text and (there := yaml_data(before, str(file))) != (
-                here := yaml_data(text, str(file))
-            ):
-                raise ConfigError(
-                    f"the folder holds the results of another configuration ({file}): "
-                    f"{differences(there, here)}; choose another folder, or run what it was begun "
-                    "with",
-                    place=f"--out {folder}",
-                )
+            check_format(folder)
+            _check_same(file, text)
         elif any(path.name != MARK for path in folder.iterdir()):
             raise ConfigError(
                 "the folder holds other files; choose a new or an empty one",
-                place=f"--out {folder}",
+                place=str(folder),
             )
         for place in (folder, folder / "figures", folder / "tables"):
             remove_unfinished(place)
@@ -160,4 +153,19 @@ class Results:
         return PluginError(
             f"{type(error).__name__}: {error}; this is a fault of the program or of a plug-in, and "
             f"{file} says where"
+        )
+
+
+def _check_same(file: Path, text: str) -> None:
+    """Refuse to complete results with another configuration than that in ``config.yaml``."""
+    before = file.read_text(encoding="utf-8")
+    if before == text:
+        return
+    there, here = yaml_data(before, str(file)), yaml_data(text, str(file))
+    # A comment in the file, or another order of its fields, is no other configuration.
+    if there != here:
+        raise ConfigError(
+            f"the folder holds the results of another configuration ({file.name}): "
+            f"{differences(there, here)}; choose another folder, or run what it was begun with",
+            place=str(file.parent),
         )

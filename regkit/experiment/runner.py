@@ -60,7 +60,7 @@ def run(
         for one in study.experiments.values():
             check_shared(one)
     if folder.exists() and not folder.is_dir():
-        raise ConfigError("this is a file, not a folder", place=f"--out {folder}")
+        raise ConfigError("this is a file, not a folder", place=str(folder))
     with workers.team() as team, locked(folder) as lock:
         team.serve(lock)
         Results.opened(folder, study.config(), workers.described)
@@ -125,7 +125,7 @@ def _chosen(known: list[str], only: tuple[str, ...]) -> list[str]:
         if name not in known and name not in heads:
             raise ConfigError(
                 f"no method '{name}' (there are: {', '.join(known)})" + did_you_mean(name, known),
-                place="--only",
+                place="only",
             )
     return [name for name, head in zip(known, heads, strict=True)
             if not only or name in only or head in only]  # fmt: skip

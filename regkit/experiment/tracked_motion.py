@@ -14,6 +14,7 @@ from pydantic import TypeAdapter
 
 from regkit.body import Body
 from regkit.config.document import Document
+from regkit.experiment.results_format import check_format
 from regkit.geometry.rigid import rigid
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.interchange.motion import TrackedMotion
@@ -39,10 +40,11 @@ def read_tracked_motion(folder: Path, fps: float | None = None) -> TrackedMotion
     Raises:
         RegkitError: If there is no finished recording, or the template is another one since.
     """
-    arrays = _arrays(folder)
+    arrays, results = _arrays(folder), folder.resolve().parents[1]
+    check_format(results)
     given = _fps(folder, arrays) if fps is None else fps
     name = f"{folder.resolve().parent.name} {folder.resolve().name}"
-    for template in _templates(folder.resolve().parents[1] / "config.yaml"):
+    for template in _templates(results / "config.yaml"):
         body = template.body(float(arrays["size"]))
         transforms = _placed(body, arrays)
         if transforms is not None:
@@ -104,8 +106,8 @@ def _fps(folder: Path, arrays: Mapping[str, NDArray[Any]]) -> float:
     told = _read(record) if "fps" not in arrays and record.is_file() else arrays
     if "fps" not in told:
         raise ConfigError(
-            "the results do not say how many frames there were in a second; give --fps",
-            place=str(folder),
+            f"the results in {folder} do not say how many frames there were in a second; give it",
+            place="fps",
         )
     return float(told["fps"])
 

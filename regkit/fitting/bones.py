@@ -82,7 +82,7 @@ def _check_all_mapped(
     if unmapped:
         raise ConfigError(
             f"no segment is named after the bones {', '.join(unmapped)}; say where each belongs in "
-            "a file for --map, as 'bone: segment', or null for the segment of its parent"
+            "the map of bones, as 'bone: segment', or null for the segment of its parent"
             + (f" (no bone yet: {', '.join(bare)})" if bare else "")
         )
     if bare:

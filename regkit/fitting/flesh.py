@@ -14,7 +14,7 @@ from regkit.fitting.layout import Layout, SegmentFrame
 from regkit.geometry.rigid import transformed
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.system.arrays import Array, Indices
-from regkit.system.optional import open3d
+from regkit.system.optional import load_library
 
 
 @dataclass(frozen=True)
@@ -91,7 +91,7 @@ def interior_points(vertices: Array, faces: Indices, spacing: float) -> Array:
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
     near = (grid > corners.min(axis=0)) & (grid < corners.max(axis=0))
     grid = grid[near.all(axis=1)]
-    library = open3d()
+    library = load_library("open3d")
     scene = library.t.geometry.RaycastingScene()
     scene.add_triangles(
         library.core.Tensor(corners.astype(np.float32)),

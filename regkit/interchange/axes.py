@@ -24,11 +24,11 @@ def body_axes(up: str, front: str) -> Array:
     Raises:
         ConfigError: If they are no axes, or along one line.
     """
-    for option, axis in (("--up", up), ("--front", front)):
+    for argument, axis in (("up", up), ("front", front)):
         if axis not in _DIRECTIONS:
             known = ", ".join(_DIRECTIONS)
-            raise ConfigError(f"'{axis}' is no axis (there are: {known})", place=option)
+            raise ConfigError(f"'{axis}' is no axis (there are: {known})", place=argument)
     y, z = _DIRECTIONS[up], _DIRECTIONS[front]
     if y @ z != 0.0:
-        raise ConfigError(f"up is {up}; the front cannot be {front}", place="--front")
+        raise ConfigError(f"up is {up}; the front cannot be {front}", place="front")
     return np.stack([np.cross(y, z), y, z])

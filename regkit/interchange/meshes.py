@@ -29,7 +29,9 @@ def read_mesh(path: Path, parents: Path | None = None) -> SkinnedMesh:
     """
     gltf = path.suffix.lower() in SUFFIXES
     if not gltf and parents is not None:
-        raise ConfigError(f"{path} names the bones' parents itself", place=f"--parents {parents}")
+        raise ConfigError(
+            f"{path} names the bones' parents itself; leave {parents} out", place="parents"
+        )
     if not gltf:
         return SkinnedMesh.read(path)
     named = None if parents is None else Document.read(parents).validated(BoneParents).root

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 from pydantic import Field
 
@@ -84,6 +84,7 @@ class Dataset(Plugin, ABC):
     """A set of recordings."""
 
     group = "regkit.datasets"
+    renamed: ClassVar[dict[str, str]] = {"sequences": "recordings"}
 
     recordings: tuple[str, ...] | None = None
     """Names of the recordings to use; all that there are without it."""

@@ -12,6 +12,7 @@ class Preprocessor(Plugin, ABC):
     """Makes a sum of Gaussians of a frame's points."""
 
     group = "regkit.preprocessors"
+    former_group = "regkit.observers"
 
     @abstractmethod
     def preprocess(self, frame: Frame) -> Observation:

@@ -15,7 +15,7 @@ from regkit.casadi.rotations import exponential, product
 from regkit.interfaces import Constraints
 from regkit.skeleton import Skeleton
 from regkit.system.arrays import Array
-from regkit.system.optional import casadi
+from regkit.system.optional import load_library
 
 
 @dataclass(frozen=True)
@@ -97,7 +97,7 @@ def quaternion_constraints(skeleton: Skeleton, count: int) -> Constraints | None
 
 @lru_cache(maxsize=16)
 def _tangent_rows(skeleton: Skeleton) -> _Rows:
-    ca = casadi()
+    ca = load_library("casadi")
     balls = len(skeleton.ball_links)
     steps, starts = ca.SX.sym("steps", 3 * balls), ca.SX.sym("starts", 4 * balls)
     turned = [
@@ -111,7 +111,7 @@ def _tangent_rows(skeleton: Skeleton) -> _Rows:
 
 @lru_cache(maxsize=16)
 def _quaternion_rows(skeleton: Skeleton) -> _Rows:
-    ca = casadi()
+    ca = load_library("casadi")
     balls, free = len(skeleton.ball_links), int(skeleton.free)
     quaternions = ca.SX.sym("quaternions", 4 * (balls + free))
     limits = ball_limits(skeleton)
@@ -134,7 +134,7 @@ def _quaternion_rows(skeleton: Skeleton) -> _Rows:
 
 def _turned_only(skeleton: Skeleton, balls: Any) -> Any:
     """A configuration of these balls (4 n_ball,), and of zeros where no limit of a ball looks."""
-    ca = casadi()
+    ca = load_library("casadi")
     first = 7 if skeleton.free else 0
     rest = length(skeleton) - first - 4 * len(skeleton.ball_links)
     return ca.vertcat(ca.SX.zeros(first), balls, ca.SX.zeros(rest))
@@ -144,7 +144,7 @@ def _derived(
     names: tuple[str, ...], rows: Any, lower: Array, upper: Array, moved: Any, parameters: Any
 ) -> _Rows:
     """Rows with their first and second derivatives to what is moved."""
-    ca = casadi()
+    ca = load_library("casadi")
     multipliers = ca.SX.sym("multipliers", len(names))
     curvature = ca.hessian(ca.dot(multipliers, rows), moved)[0]
     both = [moved, parameters]

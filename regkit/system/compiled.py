@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import update_wrapper
 from typing import Any, Generic, ParamSpec, TypeVar, cast
 
-from regkit.system.optional import numba
+from regkit.system.optional import load_library
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -35,7 +35,9 @@ class Compiled(Generic[P, R]):
             for name in self.function.__code__.co_names:
                 if isinstance(names.get(name), Compiled):
                     names[name] = names[name].dispatcher()
-            self._dispatcher = cast(Callable[P, R], numba().njit(cache=True)(self.function))
+            self._dispatcher = cast(
+                Callable[P, R], load_library("numba").njit(cache=True)(self.function)
+            )
         return self._dispatcher
 
 

@@ -1,4 +1,4 @@
-"""Heavy or untyped libraries, imported when first used; errors hold the mending command."""
+"""Libraries that are heavy or that not everyone has, imported when they are first used."""
 
 from __future__ import annotations
 
@@ -9,70 +9,40 @@ from typing import Any
 
 from regkit.system.errors import DependencyError
 
-DEBIAN_PACKAGES = "libusb-1.0-0 libgl1 libegl1 libx11-6 libgomp1"
-"""System libraries without which Open3D's wheel cannot be imported on Debian and Ubuntu."""
+INSTALL = {
+    "distributed": 'pip install "regkit[cluster]"',
+    "open3d": "pip install open3d-cpu" if sys.platform == "linux" else "pip install open3d",
+    "pytest": 'pip install "regkit[testing]"',
+}
+"""Commands that install a library, where its own name is not enough."""
+
+SYSTEM_PACKAGES = {"open3d": "libusb-1.0-0 libgl1 libegl1 libx11-6 libgomp1"}
+"""Packages of Debian and Ubuntu without which a library's wheel cannot be imported."""
 
 
-def open3d() -> Any:
-    """The module ``open3d``.
-
-    Raises:
-        DependencyError: If it, or a system library that it needs, is missing.
-    """
-    try:
-        return importlib.import_module("open3d")
-    except ModuleNotFoundError:
-        package = "open3d-cpu" if sys.platform == "linux" else "open3d"
-        raise DependencyError(f"Open3D is not installed; run: pip install {package}") from None
-    except (ImportError, OSError) as error:
-        raise DependencyError(
-            f"Open3D cannot be loaded ({error}); on Debian or Ubuntu run: "
-            f"sudo apt-get install -y {DEBIAN_PACKAGES}"
-        ) from None
-
-
-def numba() -> Any:
-    """The module ``numba``.
-
-    Raises:
-        DependencyError: If it is missing.
-    """
-    try:
-        return importlib.import_module("numba")
-    except ImportError as error:
-        raise DependencyError(f"Numba cannot be loaded ({error}); run: pip install numba") from None
-
-
-def casadi() -> Any:
-    """The module ``casadi``.
-
-    Raises:
-        DependencyError: If it is missing.
-    """
-    try:
-        return importlib.import_module("casadi")
-    except ImportError as error:
-        raise DependencyError(
-            f"CasADi cannot be loaded ({error}); run: pip install casadi"
-        ) from None
-
-
-def library(module: str, *, install: str) -> Any:
-    """A library that only some plug-ins need.
+def load_library(module: str, *, install: str | None = None) -> Any:
+    """Import a library.
 
     Args:
         module: Its name in Python.
-        install: The command that installs it.
+        install: The command that installs it, if regkit does not know.
 
     Raises:
-        DependencyError: If it is missing or cannot be loaded.
+        DependencyError: If it, or a system library that it needs, is missing; the message holds
+            the command that installs it.
     """
+    name = module.partition(".")[0]
+    command = install or INSTALL.get(name, f"pip install {name}")
     try:
         return importlib.import_module(module)
     except ModuleNotFoundError as error:
-        raise DependencyError(f"{error.name} is not installed; run: {install}") from None
+        raise DependencyError(f"{error.name} is not installed; run: {command}") from None
     except (ImportError, OSError) as error:
-        raise DependencyError(f"{module} cannot be loaded ({error}); run: {install}") from None
+        packages = SYSTEM_PACKAGES.get(name)
+        if packages is not None:
+            command = f"sudo apt-get install -y {packages}"
+        where = "on Debian or Ubuntu run" if packages is not None else "run"
+        raise DependencyError(f"{module} cannot be loaded ({error}); {where}: {command}") from None
 
 
 def one_blas_thread() -> AbstractContextManager[object]:
@@ -80,10 +50,7 @@ def one_blas_thread() -> AbstractContextManager[object]:
 
     The products here are small; a second thread costs several times more than it brings.
     """
-    limits: AbstractContextManager[object] = importlib.import_module(
-        "threadpoolctl"
-    ).threadpool_limits(1, user_api="blas")
-    return limits
+    return _limited(user_api="blas")
 
 
 def one_thread() -> AbstractContextManager[object]:
@@ -92,7 +59,11 @@ def one_thread() -> AbstractContextManager[object]:
     The order in which threads add up changes the last bits of a sum, and with one thread there is
     one order.
     """
-    limits: AbstractContextManager[object] = importlib.import_module(
-        "threadpoolctl"
-    ).threadpool_limits(1)
+    return _limited()
+
+
+def _limited(**which: str) -> AbstractContextManager[object]:
+    limits: AbstractContextManager[object] = load_library("threadpoolctl").threadpool_limits(
+        1, **which
+    )
     return limits

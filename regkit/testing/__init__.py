@@ -9,9 +9,9 @@ pytest then collects one test for each law and plug-in, such as
 :func:`regkit.testing.conformance.conformance` for plug-ins that need an example of their options.
 """
 
-from regkit.system.optional import library
+from regkit.system.optional import load_library
 
-library("pytest", install="pip install 'regkit[testing]'")
+load_library("pytest")
 
 from regkit.testing.conformance import Conformance, conformance  # noqa: E402
 

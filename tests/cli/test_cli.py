@@ -1,5 +1,6 @@
 """The commands beside ``run``: what they print, and how they end."""
 
+import inspect
 import json
 import shutil
 import subprocess
@@ -8,6 +9,7 @@ import sys
 import pytest
 from places import ROOT
 
+from regkit.cli.app import COMMANDS, loaded
 from regkit.interfaces import SLOTS, Solver
 
 EXAMPLES = sorted((ROOT / "docs" / "examples").glob("*.yaml"))
@@ -26,6 +28,25 @@ def test_help_names_every_command(regkit):
     for command in ("run", "validate", "plugins", "schema", "doctor"):
         assert command in ended.out
         assert regkit(command, "--help").code == 0
+
+
+def test_list_of_commands_says_what_each_command_says_of_itself():
+    for name, summary in COMMANDS.items():
+        told = inspect.cleandoc(loaded(name).help).partition("\n\n")[0]
+        assert summary == " ".join(told.split()), name
+
+
+def test_list_of_commands_imports_none_of_them():
+    program = (
+        "import sys; sys.argv = ['regkit', '--help']\n"
+        "from regkit.cli import app\n"
+        "try: app.main()\n"
+        "except SystemExit: pass\n"
+        "names = {'regkit.cli.' + name for name in app.COMMANDS} | {'pydantic', 'numpy'}\n"
+        "print('imported:', sorted(names & set(sys.modules)))"
+    )
+    ended = python("-c", program)
+    assert ended.stdout.endswith("imported: []\n"), ended.stdout + ended.stderr
 
 
 def test_unknown_command_and_option_are_refused(regkit):

@@ -78,7 +78,8 @@ def test_results_without_a_rate_need_one(regkit, tmp_path, tracked):
     (tracked / "record.npz").unlink(missing_ok=True)
     ended = regkit("export", tracked, "--to", tmp_path / "motion.bvh")
     assert ended.code == 1
-    assert "how many frames there were in a second; give --fps" in ended.err
+    assert ended.err.startswith("error: --fps: ")
+    assert "frames" in ended.err
     assert regkit("export", tracked, "--to", tmp_path / "motion.bvh", "--fps", 5).code == 0
     np.savez(tracked / "record.npz", fps=20.0)
     assert regkit("export", tracked, "--to", tmp_path / "motion.bvh").code == 0

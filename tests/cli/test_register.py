@@ -119,7 +119,7 @@ def test_surface_that_slides_along_itself_is_warned_of(regkit, tmp_path, random)
         ("plane.txt", [], "plane.txt: all points lie in a plane"),
         ("nan.txt", [], "nan.txt: 1 of 1500 points have a NaN or infinite coordinate"),
         ("mm.txt", [], "the source is 435.9 large and the target 0.4359, a factor of 1e+03"),
-        ("good.txt", ["--start", "centroid"], "--start centroid: there is no such file; name one "
+        ("good.txt", ["--start", "centroid"], "--start: there is no file 'centroid'; name one "
          "with a 4x4 matrix, or one of nearest, identity, centroids, rotations, features; did you "
          "mean 'centroids'?"),
         ("good.txt", ["--start", "two.txt"], "two.txt: 6 numbers; a 4x4 matrix has 16"),

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from faults import KERNEL, KERNEL_FAULTS, SHAPE, SHAPE_FAULTS, SUPERQUADRIC
 
-from regkit.config import registry
+from regkit.config import registry as registered
 from regkit.config.registry import run_plugin_file
 from regkit.interfaces import ShapeModel
 from regkit.system.errors import PluginError
@@ -31,7 +31,7 @@ from regkit.testing.shape_laws import ShapeLaws
 @pytest.fixture(autouse=True)
 def nothing_registered(monkeypatch):
     """What a test registers is gone after it."""
-    monkeypatch.setattr(registry, "_REGISTERED", {})
+    monkeypatch.setattr(registered, "_REGISTERED", {})
 
 
 def loaded(folder: Path, text: str, old: str = "", new: str = "") -> ModuleType:
@@ -39,10 +39,10 @@ def loaded(folder: Path, text: str, old: str = "", new: str = "") -> ModuleType:
     assert old in text
     file = folder / "faulty.py"
     file.write_text(text.replace(old, new))
-    registry._REGISTERED.clear()
+    registered._REGISTERED.clear()
     run_plugin_file(file)
-    (registered,) = (one for plugins in registry._REGISTERED.values() for one in plugins.values())
-    return sys.modules[registered.__module__]
+    (plugin,) = (one for plugins in registered._REGISTERED.values() for one in plugins.values())
+    return sys.modules[plugin.__module__]
 
 
 def random() -> np.random.Generator:
@@ -155,7 +155,7 @@ def test_partner_whose_defaults_do_not_fit_does_not_end_the_tests_of_others(tmp_
     loaded(tmp_path, SHAPE, "width: float = 0.5", 'width: float = "wide"')
     suite = conformance("regkit-superquadric")
     assert [case.name for case in suite.parameters["shape"]] == ["superquadric"]
-    (case,) = conformance(registry._REGISTERED["regkit.shapes"]["faulty"]).parameters["plugin"]
+    (case,) = conformance(registered._REGISTERED["regkit.shapes"]["faulty"]).parameters["plugin"]
     with pytest.raises(pytest.fail.Exception, match=r"do not fit \(width: Input should"):
         PluginLaws().test_plugin_can_be_loaded(case)
 

@@ -13,7 +13,7 @@ from regkit.geometry.rotation import vector_to_matrix
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.geometry.surface import SkinnedSurface, surface_in, vertex_normals
 from regkit.system.errors import DataError
-from regkit.system.optional import open3d
+from regkit.system.optional import load_library
 from regkit_plugins.templates.hand import Hand
 from regkit_plugins.templates.human import Human
 from regkit_synthesis.assets import average_hand, average_human
@@ -135,7 +135,7 @@ def test_decimated_mesh_is_near_the_full_one(make, layout, template, count, mean
 
 def distance_to(mesh, other):
     """How far each vertex of a mesh at rest is from the surface of another, (V,) [m]."""
-    library = open3d()
+    library = load_library("open3d")
     scene = library.t.geometry.RaycastingScene()
     scene.add_triangles(
         library.core.Tensor(other.vertices.astype(np.float32)),

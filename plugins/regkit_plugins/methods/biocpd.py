@@ -10,7 +10,7 @@ from pydantic import Field
 from regkit.alignment.rigid_method import Aligned, Frame, RigidMethod
 from regkit.geometry.rigid import transformed
 from regkit.system.arrays import Array
-from regkit.system.optional import library as loaded
+from regkit.system.optional import load_library
 
 
 class BioCPD(RigidMethod):
@@ -25,7 +25,7 @@ class BioCPD(RigidMethod):
 
     def library(self) -> Any:
         """The module ``biocpd``."""
-        return loaded("biocpd", install="pip install 'regkit[baselines]'")
+        return load_library("biocpd", install="pip install 'regkit[baselines]'")
 
     def aligned(self, source: Array, target: Array, start: Array, size: float) -> Aligned:
         """Align by ``RigidRegistration``, whose rotations stand to the right of points in rows."""

@@ -9,7 +9,7 @@ from pydantic import Field
 
 from regkit.alignment.rigid_method import Aligned, RigidMethod
 from regkit.system.arrays import Array
-from regkit.system.optional import open3d
+from regkit.system.optional import load_library
 
 
 class Open3DICP(RigidMethod):
@@ -28,7 +28,7 @@ class Open3DICP(RigidMethod):
 
     def library(self) -> Any:
         """The module ``open3d``."""
-        return open3d()
+        return load_library("open3d")
 
     def aligned(self, source: Array, target: Array, start: Array, size: float) -> Aligned:
         """Align by ``open3d.pipelines.registration``."""

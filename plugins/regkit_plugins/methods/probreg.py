@@ -10,7 +10,7 @@ from pydantic import Field
 from regkit.alignment.rigid_method import Aligned, Frame, RigidMethod
 from regkit.geometry.rigid import transformed
 from regkit.system.arrays import Array
-from regkit.system.optional import library as loaded
+from regkit.system.optional import load_library
 
 INSTALL = "pip install --no-deps probreg && pip install six transforms3d scikit-learn pyyaml addict"
 """probreg asks for one old version of Open3D, but works with newer ones."""
@@ -28,7 +28,7 @@ class ProbregCPD(RigidMethod):
 
     def library(self) -> Any:
         """The module ``probreg.cpd``."""
-        return loaded("probreg.cpd", install=INSTALL)
+        return load_library("probreg.cpd", install=INSTALL)
 
     def aligned(self, source: Array, target: Array, start: Array, size: float) -> Aligned:
         """Align by ``registration_cpd``."""
@@ -58,7 +58,7 @@ class ProbregFilterReg(RigidMethod):
 
     def library(self) -> Any:
         """The module ``probreg.filterreg``."""
-        return loaded("probreg.filterreg", install=INSTALL)
+        return load_library("probreg.filterreg", install=INSTALL)
 
     def aligned(self, source: Array, target: Array, start: Array, size: float) -> Aligned:
         """Align by ``registration_filterreg``."""

@@ -9,7 +9,7 @@ from pydantic import Field
 
 from regkit.alignment.rigid_method import Aligned, RigidMethod
 from regkit.system.arrays import Array
-from regkit.system.optional import library as loaded
+from regkit.system.optional import load_library
 
 
 class SmallGICP(RigidMethod):
@@ -31,7 +31,7 @@ class SmallGICP(RigidMethod):
 
     def library(self) -> Any:
         """The module ``small_gicp``."""
-        return loaded("small_gicp", install="pip install 'regkit[baselines]'")
+        return load_library("small_gicp", install="pip install 'regkit[baselines]'")
 
     def aligned(self, source: Array, target: Array, start: Array, size: float) -> Aligned:
         """Align by ``small_gicp.align``."""

@@ -50,13 +50,13 @@ class Study:
         return cls({"": experiment}, {})
 
     @classmethod
-    def read(cls, path: Path, settings: Iterable[str] = ()) -> Study:
-        """An experiment's YAML, after ``a.b.c=value`` settings.
+    def read(cls, path: Path, settings: Iterable[str] = (), *, called: str = "setting") -> Study:
+        """An experiment's YAML, after ``a.b.c=value`` settings; messages call each one ``called``.
 
         Raises:
             ConfigError: One line for each thing that is wrong, with its file, line and field.
         """
-        return cls.of(Document.read(path).overridden(settings))
+        return cls.of(Document.read(path).overridden(settings, called=called))
 
     @classmethod
     def of(cls, document: Document) -> Study:

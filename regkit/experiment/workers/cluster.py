@@ -18,9 +18,7 @@ from regkit.experiment.workers.packed import Packed, check_worker, performed
 from regkit.experiment.workers.processes import PATIENCE
 from regkit.experiment.workers.team import TRIES, Team, Workers
 from regkit.system.errors import ConfigError, DataError, RegkitError
-from regkit.system.optional import library
-
-INSTALL = 'pip install "regkit[cluster]"'
+from regkit.system.optional import load_library
 
 REACHED_WITHIN = 10.0
 """So long [s] a scheduler and its first worker may take to answer."""
@@ -51,8 +49,8 @@ class DaskCluster(Workers):
 
     @property
     def place(self) -> str:
-        """The command-line option."""
-        return f"--cluster dask:{self.address}"
+        """Scheme and address, for messages."""
+        return f"dask:{self.address}"
 
     @contextmanager
     def team(self) -> Iterator[Team]:
@@ -62,7 +60,7 @@ class DaskCluster(Workers):
             DependencyError: If Dask is not installed.
             ConfigError: If there is no scheduler, or it has no workers.
         """
-        distributed = library("distributed", install=INSTALL)
+        distributed = load_library("distributed")
         with _quiet():
             try:
                 # A client that is given a wrong address prints a traceback when it is collected.
@@ -166,7 +164,7 @@ class _DaskTeam(Team):
         if future.status != "error":
             raise DataError("the scheduler is lost", place=self._place)
         error = future.exception()
-        killed = library("distributed", install=INSTALL).KilledWorker
+        killed = load_library("distributed").KilledWorker
         if isinstance(error, killed):
             return RegkitError(f"its worker died {TRIES} times, as if killed; it may lack memory")
         return RegkitError(f"a worker failed: {type(error).__name__}: {error}")

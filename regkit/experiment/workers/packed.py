@@ -123,8 +123,7 @@ def check_shared(experiment: Experiment) -> None:
         if not installed and not from_file(type(plugin)):
             raise ConfigError(
                 f"the plug-in '{plugin.kind}' was registered in this process, and workers do not "
-                "know it; put it into a file that is run by run_plugin_file() or --plugin, or into "
-                "an installed package, or use no workers"
+                "know it; put it into a plug-in file or an installed package, or use no workers"
             )
 
 

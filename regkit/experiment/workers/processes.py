@@ -20,7 +20,7 @@ from regkit.experiment.task import Result, Task
 from regkit.experiment.workers.packed import Packed, performed
 from regkit.experiment.workers.team import TRIES, Team, Workers
 from regkit.system.errors import RegkitError
-from regkit.system.optional import library
+from regkit.system.optional import load_library
 
 PATIENCE = 0.2
 """So long [s] is waited for a task to end before who watches is asked."""
@@ -107,7 +107,7 @@ class _ProcessTeam(Team):
             if self._deaths[task] == TRIES:
                 return task, RegkitError(
                     f"its process died {TRIES} times, as if killed; if it lacked memory, take "
-                    "fewer --jobs"
+                    "fewer processes"
                 )
             self.begin(task)
 
@@ -118,7 +118,7 @@ class _ProcessTeam(Team):
 
 
 def _loky() -> Any:
-    return library("joblib.externals.loky", install="pip install joblib")
+    return load_library("joblib.externals.loky")
 
 
 def _pool() -> Any:

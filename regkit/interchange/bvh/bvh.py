@@ -19,12 +19,12 @@ from regkit.geometry.rotation import IDENTITY, from_vector, product, to_matrix
 from regkit.interchange.bvh.hierarchy import (
     CHANNELS,
     BvhJoint,
-    Lines,
     hierarchy_text,
     in_file_order,
     read_hierarchy,
     row,
 )
+from regkit.interchange.bvh.lines import Lines
 from regkit.interchange.gltf.slerp import slerp
 from regkit.system.arrays import Array, read_only
 from regkit.system.errors import DataError
@@ -76,10 +76,10 @@ class Bvh:
             raise DataError("is not UTF-8 text; a BVH file is text", place=str(path)) from None
         lines = Lines(path, text)
         joints = read_hierarchy(lines, scale)
-        count = _field(lines, "Frames")
+        count = lines.field("Frames")
         if count < 0 or count != int(count):
             raise lines.wrong(f"Frames is {count:g}; it must be a whole number")
-        frame_time = _field(lines, "Frame Time")
+        frame_time = lines.field("Frame Time")
         if frame_time <= 0.0:
             raise lines.wrong(f"Frame Time is {frame_time:g}; it must be positive")
         names = [channel for joint in joints for channel in joint.channels]
@@ -190,15 +190,6 @@ class Bvh:
                     placed.positions[joint.parent] + parent @ translations[index]
                 )
         return placed
-
-
-def _field(lines: Lines, name: str) -> float:
-    """The number after ``name:``."""
-    line = lines.take(f"{name}:")
-    word, colon, number = line.partition(":")
-    if not colon or word.strip().lower() != name.lower():
-        raise lines.wrong(f"'{line[:40]}' where {name}: should stand")
-    return lines.numbers(number, 1, name)[0]
 
 
 def _frames(lines: Lines, count: int, channels: int) -> Array:

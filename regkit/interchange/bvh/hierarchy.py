@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 
+from regkit.interchange.bvh.lines import Lines
 from regkit.system.arrays import Array, read_only
-from regkit.system.errors import DataError
 
 CHANNELS = (
     *("Xposition", "Yposition", "Zposition"),
@@ -36,67 +34,6 @@ class BvhJoint:
     offset: Array
     channels: tuple[str, ...]
     ends: tuple[Array, ...] = ()
-
-
-class Lines:
-    """The lines of a text that say something, read one after the other, each with its place."""
-
-    def __init__(self, path: Path, text: str) -> None:
-        self.path = path
-        self._statements = list(_statements(text))
-        self._next = 0
-
-    def take(self, wanted: str) -> str:
-        """The next line.
-
-        Raises:
-            DataError: If the file ends here; ``wanted`` should have followed.
-        """
-        if self._next == len(self._statements):
-            raise DataError(f"the file ends where {wanted} should follow", place=self.place)
-        self._next += 1
-        return self._statements[self._next - 1][1]
-
-    def rest(self) -> Iterator[str]:
-        """All lines that are left."""
-        while self._next < len(self._statements):
-            yield self.take("another line")
-
-    @property
-    def place(self) -> str:
-        """Where the line taken last stands."""
-        return f"{self.path}:{self._statements[self._next - 1][0] if self._next else 1}"
-
-    def wrong(self, message: str) -> DataError:
-        """An error at the line taken last."""
-        return DataError(message, place=self.place)
-
-    def numbers(self, text: str, count: int, what: str) -> list[float]:
-        """The ``count`` numbers of a text.
-
-        Raises:
-            DataError: If there are fewer or more, or one is no finite number.
-        """
-        words = text.split()
-        if len(words) != count:
-            raise self.wrong(f"{what} has {len(words)} numbers; it needs {count}")
-        try:
-            values = list(map(float, words))
-        except ValueError as error:
-            raise self.wrong(f"{what} has a word that is no number ({error})") from None
-        if not np.isfinite(values).all():
-            bad = next(word for word, value in zip(words, values, strict=True) if value - value)
-            raise self.wrong(f"{what} holds {bad}; all numbers must be finite")
-        return values
-
-
-def _statements(text: str) -> Iterator[tuple[int, str]]:
-    """Lines with their numbers; a brace is a line of its own, wherever it stands."""
-    for number, line in enumerate(text.splitlines(), start=1):
-        pieces = re.split(r"([{}])", line) if "{" in line or "}" in line else [line]
-        for piece in pieces:
-            if piece.strip():
-                yield number, piece.strip()
 
 
 def read_hierarchy(lines: Lines, scale: float) -> tuple[BvhJoint, ...]:

@@ -15,7 +15,7 @@ import numpy as np
 
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
-from regkit.system.optional import library
+from regkit.system.optional import load_library
 
 SUFFIXES = (".glb", ".gltf")
 
@@ -138,4 +138,4 @@ def pygltflib() -> Any:
     Raises:
         DependencyError: If it is missing.
     """
-    return library("pygltflib", install="pip install pygltflib")
+    return load_library("pygltflib")

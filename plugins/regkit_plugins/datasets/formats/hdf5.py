@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from regkit.system.errors import DataError
-from regkit.system.optional import library
+from regkit.system.optional import load_library
 
 
 @contextmanager
@@ -19,7 +19,7 @@ def opened(path: Path) -> Iterator[Any]:
         DataError: If it is missing, damaged, or something else.
         DependencyError: If h5py is not installed.
     """
-    h5py = library("h5py", install="pip install 'regkit[hdf5]'")
+    h5py = load_library("h5py", install="pip install 'regkit[hdf5]'")
     if not path.is_file():
         raise DataError("there is no such file", place=str(path))
     try:

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from regkit.system.arrays import Array
-from regkit.system.optional import casadi
+from regkit.system.optional import load_library
 from regkit_plugins.solvers.ipopt.program import Program
 from regkit_plugins.solvers.ipopt.watch import Watch
 
@@ -37,7 +37,7 @@ class Callbacks:
     """
 
     def __init__(self, program: Program, watch: Watch) -> None:
-        ca = casadi()
+        ca = load_library("casadi")
         self.failure: BaseException | None = None
         dense, m, c = ca.Sparsity.dense, len(program.start), program.rows
         # CasADi stores the upper triangle by columns: of a symmetric matrix, the lower one by rows.
@@ -103,7 +103,7 @@ def _callback_class() -> type[Any]:
     """A class of CasADi's, which is imported when it is first needed."""
 
     # CasADi has no types, so that its class is of any type to the checker.
-    class Callback(casadi().Callback):  # type: ignore[misc]
+    class Callback(load_library("casadi").Callback):  # type: ignore[misc]
         """A CasADi function that asks Python for its results, without copies."""
 
         def __init__(

@@ -10,7 +10,7 @@ from pydantic import Field, field_validator
 from regkit.interfaces import LimitKeeping, Multipliers, Problem, Solution, Solver
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
-from regkit.system.optional import casadi
+from regkit.system.optional import load_library
 from regkit_plugins.solvers.ipopt.callbacks import Callbacks
 from regkit_plugins.solvers.ipopt.options import ALWAYS, ENDS, QUASI_NEWTON, QUIET, WARM, check
 from regkit_plugins.solvers.ipopt.program import Program
@@ -71,7 +71,7 @@ class Ipopt(Solver):
         watch = Watch(program, self.value_tolerance, self.max_seconds)
         callbacks = Callbacks(program, watch)
         options = {**callbacks.derivatives, **QUIET, "ipopt": self._options(program)}
-        solver = casadi().nlpsol("registration", "ipopt", callbacks.nlp, options)
+        solver = load_library("casadi").nlpsol("registration", "ipopt", callbacks.nlp, options)
         with callbacks.interruptible():
             result = solver(x0=program.start, **_bounds(program))
         if callbacks.failure is not None:

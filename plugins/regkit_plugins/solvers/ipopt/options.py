@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from contextlib import redirect_stdout
 from io import StringIO
 
-from regkit.system.optional import casadi
+from regkit.system.optional import load_library
 from regkit_plugins.solvers.ipopt.watch import LATE, SETTLED
 
 Options = Mapping[str, bool | int | float | str]
@@ -69,7 +69,7 @@ def check(options: Options) -> None:
     for name in options:
         if name in FIELDS:
             raise ValueError(f"'{name}' is the field {FIELDS[name]} here")
-    ca = casadi()
+    ca = load_library("casadi")
     x = ca.MX.sym("x")
     for name, value in options.items():
         printed = StringIO()

@@ -1,13 +1,15 @@
-"""Who does the work, as the command line names it."""
+"""Who does the work of a run, as its options name it."""
 
 from __future__ import annotations
 
+from regkit.experiment.workers.cluster import DaskCluster
+from regkit.experiment.workers.processes import Processes
 from regkit.experiment.workers.team import ThisProcess, Workers
 from regkit.system.errors import ConfigError
 
 
 def chosen_workers(jobs: int, cluster: str | None) -> Workers:
-    """This process, so many others, or those of a cluster.
+    """This process, several others, or the workers of a cluster.
 
     Args:
         jobs: How many processes of this machine.
@@ -16,13 +18,8 @@ def chosen_workers(jobs: int, cluster: str | None) -> Workers:
     Raises:
         ConfigError: If both are asked for, or there is no such scheme.
     """
-    # Workers are imported where they are wanted: most runs need none.
     if cluster is None:
-        if jobs == 1:
-            return ThisProcess()
-        from regkit.experiment.workers.processes import Processes
-
-        return Processes(jobs)
+        return ThisProcess() if jobs == 1 else Processes(jobs)
     place = f"--cluster {cluster}"
     if jobs != 1:
         raise ConfigError("a cluster has its own workers; leave --jobs out", place=place)
@@ -33,6 +30,4 @@ def chosen_workers(jobs: int, cluster: str | None) -> Workers:
             "dask:tcp://10.0.0.1:8786",
             place=place,
         )
-    from regkit.experiment.workers.cluster import DaskCluster
-
     return DaskCluster(address)
