@@ -36,7 +36,7 @@ pictures: $(ready) ## Make the documentation's pictures again
 
 samples: $(ready) ## Make the sample sequences again
 	@$(bin)/python -m regkit_synthesis docs/examples/data
-	@$(bin)/python -m regkit_synthesis.mannequin docs/examples/data/mannequin
+	@$(bin)/python -m regkit_synthesis.samples.mannequin docs/examples/data/mannequin
 
 templates: $(ready) ## Fit the templates to the meshes again
 	@$(bin)/python -m regkit_synthesis.templates plugins/regkit_plugins/templates

@@ -7,9 +7,9 @@ import sys
 from pathlib import Path
 
 from regkit.system.errors import RegkitError
-from regkit_synthesis.recording import DepthRecording
-from regkit_synthesis.samples import hand_gestures, human_walk
-from regkit_synthesis.suite import SUITE, rendered
+from regkit_synthesis.recordings.recording import DepthRecording
+from regkit_synthesis.recordings.suite import SUITE, rendered
+from regkit_synthesis.samples.depth import hand_gestures, human_walk
 
 
 def main() -> int:

@@ -7,8 +7,9 @@ from functools import cache
 import numpy as np
 from places import REFERENCE
 
-from regkit_synthesis.landmarks import placed
-from regkit_synthesis.motion.bodies import BodyFile, HumanBody, ShippedBody
+from regkit_synthesis.bodies.bodies import BodyFile, HumanBody, ShippedBody
+from regkit_synthesis.bodies.landmarks import placed
+from regkit_synthesis.bodies.retarget import Retarget
 from regkit_synthesis.motion.config import (
     BvhConfig,
     ClipConfig,
@@ -16,7 +17,6 @@ from regkit_synthesis.motion.config import (
     KeyframesConfig,
 )
 from regkit_synthesis.motion.motion import Motion
-from regkit_synthesis.motion.retarget import Retarget
 
 BODIES = {
     "average": ShippedBody(),

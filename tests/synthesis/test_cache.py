@@ -15,12 +15,12 @@ from regkit.geometry.camera import Camera
 from regkit.system.cache import cache_folder
 from regkit.system.errors import DataError
 from regkit_plugins.datasets.depth import DepthFolders
-from regkit_synthesis import digest as digest_module
-from regkit_synthesis.cache import RecordingCache
-from regkit_synthesis.digest import digest
-from regkit_synthesis.recording import DepthRecording
-from regkit_synthesis.scene import SR4000
-from regkit_synthesis.take import Take
+from regkit_synthesis.recordings import digest as digest_module
+from regkit_synthesis.recordings.cache import RecordingCache
+from regkit_synthesis.recordings.digest import digest
+from regkit_synthesis.recordings.recording import DepthRecording
+from regkit_synthesis.recordings.scene import SR4000
+from regkit_synthesis.recordings.take import Take
 
 KEY = "0123"
 

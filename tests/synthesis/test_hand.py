@@ -8,14 +8,15 @@ import numpy as np
 import pytest
 
 from regkit.system.errors import DataError
-from regkit_synthesis import hand_moves
-from regkit_synthesis.assets import average_hand, handywork, iwer, slim_hand
-from regkit_synthesis.gestures import Gestures
-from regkit_synthesis.hand_poses import CHAINS, PARENTS, WRIST
-from regkit_synthesis.handywork import read_handywork
-from regkit_synthesis.iwer import read_iwer
-from regkit_synthesis.landmarks import hand_landmarks, placed
-from regkit_synthesis.retarget_hand import HandMotion
+from regkit_synthesis.assets import average_hand, slim_hand
+from regkit_synthesis.bodies.landmarks import hand_landmarks, placed
+from regkit_synthesis.hands import hand_moves
+from regkit_synthesis.hands.gestures import Gestures
+from regkit_synthesis.hands.handywork import read_handywork
+from regkit_synthesis.hands.iwer import read_iwer
+from regkit_synthesis.hands.pose import CHAINS, PARENTS, WRIST
+from regkit_synthesis.hands.retarget import HandMotion
+from regkit_synthesis.hands.shipped import handywork, iwer
 
 POSES = ("relaxed", "point", "pinch")
 HANDYWORK = ("fist", "flat", "horns", "point", "relax", "shaka", "vulcan")

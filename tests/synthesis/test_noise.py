@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from regkit_synthesis.cameras import CAMERAS
+from regkit_synthesis.cameras.cameras import CAMERAS
+from regkit_synthesis.cameras.raycast import RayCaster, View, stored
 from regkit_synthesis.noise import NOISES, DepthNoise, noise_of
 from regkit_synthesis.noise.edges import step_across
 from regkit_synthesis.noise.model import quantised
@@ -15,7 +16,6 @@ from regkit_synthesis.noise.parts import (
     LateralNoise,
     MissingPixels,
 )
-from regkit_synthesis.raycast import RayCaster, View, stored
 
 SHAPE = (240, 320)
 

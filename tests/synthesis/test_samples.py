@@ -17,10 +17,10 @@ from regkit.geometry.camera import Camera
 from regkit.system.errors import DataError, DependencyError
 from regkit_synthesis.__main__ import main
 from regkit_synthesis.assets import ASSETS
-from regkit_synthesis.raycast import ray_cast
-from regkit_synthesis.recording import DepthRecording
-from regkit_synthesis.samples import hand_gestures, human_walk
-from regkit_synthesis.scene import SR4000
+from regkit_synthesis.cameras.raycast import ray_cast
+from regkit_synthesis.recordings.recording import DepthRecording
+from regkit_synthesis.recordings.scene import SR4000
+from regkit_synthesis.samples.depth import hand_gestures, human_walk
 
 SHIPPED = DATA
 SAMPLES = {"human_walk": human_walk, "hand_gestures": hand_gestures}

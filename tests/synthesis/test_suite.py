@@ -12,8 +12,8 @@ from regkit.body import BodyDescription
 from regkit.config.document import Document
 from regkit.geometry.rotation import vector_to_matrix
 from regkit_plugins.templates.reading import FOLDER
-from regkit_synthesis.scene import FPS, SR305, SR4000
-from regkit_synthesis.suite import SUITE
+from regkit_synthesis.recordings.scene import FPS, SR305, SR4000
+from regkit_synthesis.recordings.suite import SUITE
 
 RECORDINGS = [(name, take) for name, body in SUITE.items() for take in body.takes]
 PEOPLE = [pair for pair in RECORDINGS if pair[0].startswith("human")]

@@ -10,10 +10,10 @@ import pytest
 
 from regkit_plugins.datasets.depth import DepthFolders
 from regkit_plugins.templates.reading import FOLDER, description_in
-from regkit_synthesis import suite
 from regkit_synthesis.__main__ import main
-from regkit_synthesis.scene import FPS, SR305
-from regkit_synthesis.suite import SUITE, rendered
+from regkit_synthesis.recordings import suite
+from regkit_synthesis.recordings.scene import FPS, SR305
+from regkit_synthesis.recordings.suite import SUITE, rendered
 from regkit_synthesis.templates.templates import FittedTemplate
 
 
@@ -67,7 +67,7 @@ def test_command_writes_templates_and_recordings_that_can_be_read(tmp_path, monk
         name: replace(SUITE[name], template=_untouched, takes={"some": _Fixed(scene)})
         for name, scene in scenes.items()
     }
-    for module in ("suite", "__main__"):
+    for module in ("recordings.suite", "__main__"):
         monkeypatch.setattr(f"regkit_synthesis.{module}.SUITE", small)
     monkeypatch.setattr(sys, "argv", ["synthesis", str(tmp_path), "--suite"])
     assert main() == 0

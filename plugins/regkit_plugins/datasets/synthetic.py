@@ -16,13 +16,13 @@ from regkit.interfaces import Dataset, Recording
 from regkit.observation import Frame, Truth
 from regkit.system.errors import DataError, RegkitError
 from regkit_plugins.datasets.depth import DepthFolders
-from regkit_synthesis.cache import RecordingCache
-from regkit_synthesis.cameras import CameraChoice, camera_of
-from regkit_synthesis.digest import digest
+from regkit_synthesis.cameras.cameras import CameraChoice, camera_of
 from regkit_synthesis.noise import NOISES, DepthNoise, NoiseChoice, noise_of
-from regkit_synthesis.recording import DepthRecording
-from regkit_synthesis.scene import Scene, Sensor
-from regkit_synthesis.take import Take
+from regkit_synthesis.recordings.cache import RecordingCache
+from regkit_synthesis.recordings.digest import digest
+from regkit_synthesis.recordings.recording import DepthRecording
+from regkit_synthesis.recordings.scene import Scene, Sensor
+from regkit_synthesis.recordings.take import Take
 
 Name = Annotated[str, Field(pattern=r"^\w[\w. -]*$")]
 

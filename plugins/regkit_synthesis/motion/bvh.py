@@ -9,8 +9,8 @@ import numpy as np
 from regkit.interchange.bvh.bvh import Bvh
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
-from regkit_synthesis.motion.figure import figure_axes
-from regkit_synthesis.motion.joint_map import parts_of
+from regkit_synthesis.figure.figure import figure_axes
+from regkit_synthesis.figure.joint_map import parts_of
 from regkit_synthesis.motion.motion import Rig
 from regkit_synthesis.motion.sampled import SampledMotion, recorded
 

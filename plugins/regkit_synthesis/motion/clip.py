@@ -11,9 +11,9 @@ import numpy as np
 from regkit.geometry.rotation import IDENTITY, from_vector, normalized, product
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
+from regkit_synthesis.figure.standing import STANDING
 from regkit_synthesis.motion.motion import Rig
 from regkit_synthesis.motion.sampled import SampledMotion
-from regkit_synthesis.motion.standing import STANDING
 
 _R_GROUND_CLIP = np.array([[0.0, 0.0, -1.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
 """From the clip's axes (x forward, y up, z right) to the ground's (x left, y backward, z up)."""

@@ -10,11 +10,11 @@ from pydantic import Field, model_validator
 from regkit.config.document import Document
 from regkit.config.model import InputPath, Model
 from regkit.system.errors import ConfigError
+from regkit_synthesis.figure.map_files import MapName
 from regkit_synthesis.motion.bvh import read_bvh
 from regkit_synthesis.motion.clip import read_clip
 from regkit_synthesis.motion.gltf import read_gltf
 from regkit_synthesis.motion.keyframes import Keyframe, KeyframedMotion, Keyframes
-from regkit_synthesis.motion.map_files import MapName
 from regkit_synthesis.motion.motion import Motion
 from regkit_synthesis.motion.played import Placed, Played
 from regkit_synthesis.motion.sampled import SampledMotion

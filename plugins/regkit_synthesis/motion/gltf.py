@@ -11,8 +11,8 @@ from regkit.interchange.bone_frames import nearest_rotations
 from regkit.interchange.gltf.clip import GltfClip
 from regkit.interchange.gltf.gltf import RiggedBody
 from regkit.system.errors import ConfigError, DataError, RegkitError
-from regkit_synthesis.motion.figure import figure_axes
-from regkit_synthesis.motion.joint_map import parts_of
+from regkit_synthesis.figure.figure import figure_axes
+from regkit_synthesis.figure.joint_map import parts_of
 from regkit_synthesis.motion.motion import Rig
 from regkit_synthesis.motion.sampled import SampledMotion, recorded
 

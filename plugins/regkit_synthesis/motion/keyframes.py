@@ -13,9 +13,9 @@ from scipy.interpolate import PchipInterpolator
 from regkit.config.model import Model
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.system.arrays import Array
-from regkit_synthesis.motion.figure import FIGURE, check_joints
+from regkit_synthesis.figure.figure import FIGURE, check_joints
+from regkit_synthesis.figure.standing import STANDING
 from regkit_synthesis.motion.motion import Motion, Rig, SourcePose
-from regkit_synthesis.motion.standing import STANDING
 
 _ANKLE = 0.09
 """Height of the ankles of a figure that stands [m]."""

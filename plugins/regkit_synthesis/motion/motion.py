@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from regkit.system.arrays import Array
-from regkit_synthesis.motion.figure import FIGURE
+from regkit_synthesis.figure.figure import FIGURE
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,8 @@ import numpy as np
 
 from regkit.geometry.rotation import from_matrix, to_matrix
 from regkit.system.arrays import Array
-from regkit_synthesis import mending
-from regkit_synthesis.mending import interpolated
+from regkit_synthesis.motion import mending
+from regkit_synthesis.motion.mending import interpolated
 from regkit_synthesis.motion.motion import Motion, Rig, SourcePose
 
 

@@ -9,13 +9,13 @@ from pydantic import Field
 
 from regkit.config.model import Model
 from regkit.system.arrays import Array
+from regkit_synthesis.cameras.raycast import View
 from regkit_synthesis.noise.parts import (
     AxialNoise,
     FlyingPixels,
     LateralNoise,
     MissingPixels,
 )
-from regkit_synthesis.raycast import View
 
 
 class DepthNoise(Model):

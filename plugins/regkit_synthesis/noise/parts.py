@@ -9,8 +9,8 @@ from pydantic import Field
 
 from regkit.config.model import Model
 from regkit.system.arrays import Array
+from regkit_synthesis.cameras.raycast import View
 from regkit_synthesis.noise.edges import displaced, step_across
-from regkit_synthesis.raycast import View
 
 NotNegative = Annotated[float, Field(ge=0.0)]
 Share = Annotated[float, Field(ge=0.0, le=1.0)]

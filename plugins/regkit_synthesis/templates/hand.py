@@ -12,7 +12,7 @@ from regkit.geometry.rigid import transformed
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.skeleton import PoseDescription, SegmentDescription
 from regkit.system.arrays import Array
-from regkit_synthesis.landmarks import hand_landmarks
+from regkit_synthesis.bodies.landmarks import hand_landmarks
 from regkit_synthesis.templates import mirror
 from regkit_synthesis.templates.capsules import Piece, fitted
 from regkit_synthesis.templates.hand_layout import FINGERS, PALM, HandLayout, hand_layout

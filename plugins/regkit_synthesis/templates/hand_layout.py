@@ -12,7 +12,7 @@ from regkit.geometry.rigid import transformed
 from regkit.geometry.rotation import rotation_between, vector_to_matrix
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.system.arrays import Array
-from regkit_synthesis.landmarks import hand_landmarks
+from regkit_synthesis.bodies.landmarks import hand_landmarks
 from regkit_synthesis.templates.straight import FORWARD, mesh_axes, unit
 
 PALM = "palm"

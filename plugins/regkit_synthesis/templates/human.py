@@ -14,7 +14,7 @@ from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.skeleton import PoseDescription, SegmentDescription
 from regkit.skeleton.joints import FixedJoint
 from regkit.system.arrays import Array
-from regkit_synthesis.motion.bodies import human_landmarks
+from regkit_synthesis.bodies.bodies import human_landmarks
 from regkit_synthesis.templates import mirror
 from regkit_synthesis.templates.capsules import fitted
 from regkit_synthesis.templates.human_layout import (

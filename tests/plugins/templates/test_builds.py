@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from regkit_plugins.templates.human import FILES, Human
-from regkit_synthesis.motion.bodies import ShippedBody
+from regkit_synthesis.bodies.bodies import ShippedBody
 from regkit_synthesis.templates.human_layout import human_layout
 
 BONES = [

@@ -12,7 +12,7 @@ from regkit.start import found_start
 from regkit.system.errors import DataError
 from regkit_plugins.methods.coarse_to_fine.resolutions import voxel_downsampled_surface
 from regkit_plugins.templates.cloud import CloudTemplate
-from regkit_synthesis.mannequin import main
+from regkit_synthesis.samples.mannequin import main
 
 SAMPLE = DATA / "mannequin"
 

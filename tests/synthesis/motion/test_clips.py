@@ -19,13 +19,13 @@ from regkit.geometry.rotation import (
 )
 from regkit.system.errors import DataError
 from regkit_synthesis import assets
-from regkit_synthesis.landmarks import placed
-from regkit_synthesis.mending import interpolated
-from regkit_synthesis.motion.bodies import human_landmarks
-from regkit_synthesis.motion.body_map import body_map
+from regkit_synthesis.bodies.bodies import human_landmarks
+from regkit_synthesis.bodies.body_map import body_map
+from regkit_synthesis.bodies.landmarks import placed
+from regkit_synthesis.bodies.retarget import Retarget
 from regkit_synthesis.motion.clip import RIG, read_clip, with_arms_turned_out
+from regkit_synthesis.motion.mending import interpolated
 from regkit_synthesis.motion.motion import SourcePose
-from regkit_synthesis.motion.retarget import Retarget
 from regkit_synthesis.motion.shipped import shipped_clip
 
 CLIPS = ("walk", "run", "jump", "punch", "kick", "dance_a", "dance_b")

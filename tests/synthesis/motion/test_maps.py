@@ -16,16 +16,16 @@ from regkit.geometry.rigid import rigid
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.system.errors import ConfigError, DataError
 from regkit_synthesis.assets import average_hand, average_human
-from regkit_synthesis.motion.bodies import AnyBody, BodyFile, HumanBody, ShippedBody
-from regkit_synthesis.motion.body_map import BodyMap, body_map, fitting_body_map
+from regkit_synthesis.bodies.bodies import AnyBody, BodyFile, HumanBody, ShippedBody
+from regkit_synthesis.bodies.body_map import BodyMap, body_map, fitting_body_map
+from regkit_synthesis.bodies.retarget import Retarget
+from regkit_synthesis.figure.figure import FIGURE
+from regkit_synthesis.figure.joint_map import JointMap
+from regkit_synthesis.figure.map_files import shipped
 from regkit_synthesis.motion.bvh import read_bvh
 from regkit_synthesis.motion.clip import RIG
 from regkit_synthesis.motion.config import AnyMotion
-from regkit_synthesis.motion.figure import FIGURE
-from regkit_synthesis.motion.joint_map import JointMap
 from regkit_synthesis.motion.keyframes import Keyframes
-from regkit_synthesis.motion.map_files import shipped
-from regkit_synthesis.motion.retarget import Retarget
 from regkit_synthesis.motion.shipped import BVH
 
 R_GROUND_FILE = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])

@@ -11,9 +11,9 @@ from places import ASSETS, REFERENCE
 
 from regkit.geometry.rotation import vector_to_matrix
 from regkit_synthesis.assets import average_human
-from regkit_synthesis.motion.body_map import Between, body_map
+from regkit_synthesis.bodies.body_map import Between, body_map
+from regkit_synthesis.bodies.retarget import Retarget, retargeted
 from regkit_synthesis.motion.motion import SourcePose
-from regkit_synthesis.motion.retarget import Retarget, retargeted
 from regkit_synthesis.motion.shipped import shipped_clip
 
 PAIRS = [(name, source) for name in BODIES for source in SOURCES]

@@ -13,9 +13,9 @@ from regkit.geometry.rotation import vector_to_matrix
 from regkit.interchange.bvh.bvh import Bvh
 from regkit.interchange.gltf.gltf import RiggedBody
 from regkit.system.errors import ConfigError, DataError
+from regkit_synthesis.figure.figure import figure_axes
 from regkit_synthesis.motion.bvh import read_bvh
 from regkit_synthesis.motion.config import BvhConfig, ClipConfig, KeyframesConfig
-from regkit_synthesis.motion.figure import figure_axes
 from regkit_synthesis.motion.gltf import read_gltf
 from regkit_synthesis.motion.played import Placed, Played
 from regkit_synthesis.motion.shipped import BVH, CLIPS, KEYFRAMES

@@ -9,12 +9,12 @@ from pydantic import AfterValidator, Discriminator, Field, Tag
 
 from regkit.config.model import Model
 from regkit.system.errors import ConfigError
-from regkit_synthesis.landmarks import Landmark, some_vertices
-from regkit_synthesis.motion.bodies import AnyBody, BodyConfig, BodyName, ShippedBody
+from regkit_synthesis.bodies.bodies import AnyBody, BodyConfig, BodyName, ShippedBody
+from regkit_synthesis.bodies.landmarks import Landmark, some_vertices
+from regkit_synthesis.cameras.viewpoint import Viewpoint
 from regkit_synthesis.motion.config import AnyMotion, ClipConfig, MotionConfig
 from regkit_synthesis.motion.shipped import CLIPS
-from regkit_synthesis.scene import Scene, Sensor
-from regkit_synthesis.viewpoint import Viewpoint
+from regkit_synthesis.recordings.scene import Scene, Sensor
 
 _SPARSE = 8
 """Every so manieth vertex tells where the body is; they are some centimetres apart."""

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from regkit.system.errors import DataError
-from regkit_synthesis.hand_poses import PARENTS, WRIST, HandPose
+from regkit_synthesis.hands.pose import PARENTS, WRIST, HandPose
 
 JOINTS = (WRIST, *PARENTS)
 """The 25 joints of WebXR in its order, which is that of the files."""

@@ -9,7 +9,7 @@ import numpy as np
 
 from regkit.geometry.rotation import from_matrix, swing_twist, to_matrix, vector_to_matrix
 from regkit.system.arrays import Array
-from regkit_synthesis.mending import interpolated
+from regkit_synthesis.motion.mending import interpolated
 from regkit_synthesis.motion.motion import SourcePose
 
 

@@ -11,10 +11,10 @@ from regkit.config.model import Model
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError
-from regkit_synthesis.landmarks import Landmark
-from regkit_synthesis.motion.figure import check_joints
-from regkit_synthesis.motion.map_files import read_map, shipped
-from regkit_synthesis.motion.names import instead_of, meant
+from regkit_synthesis.bodies.landmarks import Landmark
+from regkit_synthesis.figure.figure import check_joints
+from regkit_synthesis.figure.map_files import read_map, shipped
+from regkit_synthesis.figure.names import instead_of, meant
 
 
 class Between(Model):

@@ -16,13 +16,13 @@ from regkit.interchange.gltf.gltf import RiggedBody
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError, DataError, RegkitError
 from regkit_synthesis import assets
-from regkit_synthesis.landmarks import Landmark
-from regkit_synthesis.motion.body_files import read_npz_body, turned_mesh
-from regkit_synthesis.motion.body_map import BodyMap, body_map, bone_of, fitting_body_map
-from regkit_synthesis.motion.figure import figure_axes
-from regkit_synthesis.motion.map_files import MapName
+from regkit_synthesis.bodies.body_files import read_npz_body, turned_mesh
+from regkit_synthesis.bodies.body_map import BodyMap, body_map, bone_of, fitting_body_map
+from regkit_synthesis.bodies.landmarks import Landmark
+from regkit_synthesis.bodies.retarget import retargeted
+from regkit_synthesis.figure.figure import figure_axes
+from regkit_synthesis.figure.map_files import MapName
 from regkit_synthesis.motion.motion import Motion
-from regkit_synthesis.motion.retarget import retargeted
 
 
 @dataclass(frozen=True)

@@ -11,10 +11,10 @@ from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.system.arrays import Array
-from regkit_synthesis.gestures import Gestures
-from regkit_synthesis.landmarks import hand_landmarks
-from regkit_synthesis.retarget_hand import HandMotion
-from regkit_synthesis.scene import SR305, Scene, Sensor
+from regkit_synthesis.bodies.landmarks import hand_landmarks
+from regkit_synthesis.hands.gestures import Gestures
+from regkit_synthesis.hands.retarget import HandMotion
+from regkit_synthesis.recordings.scene import SR305, Scene, Sensor
 
 _R_CAMERA_PALM = np.array([[-1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]])
 """The fingers point up in the image, and the palm looks into the camera."""

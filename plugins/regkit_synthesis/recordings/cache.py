@@ -13,7 +13,7 @@ from pathlib import Path
 
 from regkit.system.cache import VARIABLE, cache_folder
 from regkit.system.errors import DataError
-from regkit_synthesis.recording import DepthRecording
+from regkit_synthesis.recordings.recording import DepthRecording
 
 _CHECKSUMS = "checksums.json"
 """The file of an entry that tells the SHA-256 of all others."""

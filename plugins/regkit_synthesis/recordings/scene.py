@@ -10,11 +10,11 @@ import numpy as np
 from regkit.geometry.camera import Camera
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.system.arrays import Array
-from regkit_synthesis.cameras import CAMERAS
-from regkit_synthesis.landmarks import Landmark, placed, some_vertices
+from regkit_synthesis.bodies.landmarks import Landmark, placed, some_vertices
+from regkit_synthesis.cameras.cameras import CAMERAS
+from regkit_synthesis.cameras.raycast import RayCaster, View, stored
 from regkit_synthesis.noise import DepthNoise, noise_of
-from regkit_synthesis.raycast import RayCaster, View, stored
-from regkit_synthesis.recording import DepthRecording
+from regkit_synthesis.recordings.recording import DepthRecording
 
 FPS = 30.0
 

@@ -11,11 +11,11 @@ from regkit.geometry.rotation import rotation_between
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError
-from regkit_synthesis.motion.body_map import Between, BodyMap, bone_of
-from regkit_synthesis.motion.figure import AIMS, FIGURE, leg_length
-from regkit_synthesis.motion.followers import Blended, Follower, Segment, Twisted
+from regkit_synthesis.bodies.body_map import Between, BodyMap, bone_of
+from regkit_synthesis.bodies.followers import Blended, Follower, Segment, Twisted
+from regkit_synthesis.figure.figure import AIMS, FIGURE, leg_length
+from regkit_synthesis.figure.names import instead_of
 from regkit_synthesis.motion.motion import Motion, Rig, SourcePose
-from regkit_synthesis.motion.names import instead_of
 
 _LOOKS = 40
 """How often in a motion the lowest point of the skin is looked for."""

@@ -5,11 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from regkit_synthesis import assets
-from regkit_synthesis.gestures import Gestures
-from regkit_synthesis.hand import HandTake
-from regkit_synthesis.person import PersonTake
-from regkit_synthesis.recording import DepthRecording
-from regkit_synthesis.scene import SR4000
+from regkit_synthesis.hands.gestures import Gestures
+from regkit_synthesis.hands.shipped import iwer
+from regkit_synthesis.recordings.hand_take import HandTake
+from regkit_synthesis.recordings.person_take import PersonTake
+from regkit_synthesis.recordings.recording import DepthRecording
+from regkit_synthesis.recordings.scene import SR4000
 
 _WALK = PersonTake("walk", heading=20.0, place=(-0.05, 0.76, 3.25))
 
@@ -36,5 +37,5 @@ def hand_gestures(seed: int) -> DepthRecording:
 
 
 def _gestures() -> Gestures:
-    relaxed, point, pinch = (assets.iwer(name) for name in ("relaxed", "point", "pinch"))
+    relaxed, point, pinch = (iwer(name) for name in ("relaxed", "point", "pinch"))
     return Gestures(np.array([0.0, 0.65, 1.3, 1.95]), (relaxed, point, pinch, relaxed))

@@ -9,7 +9,7 @@ from dataclasses import asdict
 import numpy as np
 
 from regkit_synthesis.noise import noise_of
-from regkit_synthesis.scene import Scene
+from regkit_synthesis.recordings.scene import Scene
 
 RENDERER = 1
 """Version of what renders; it is raised with every change that makes other images of a scene."""

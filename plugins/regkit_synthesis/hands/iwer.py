@@ -9,7 +9,7 @@ import numpy as np
 
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
-from regkit_synthesis.hand_poses import PARENTS, WRIST, HandPose
+from regkit_synthesis.hands.pose import PARENTS, WRIST, HandPose
 
 _JOINT = re.compile(r"'?([a-z-]+)'?:\s*\{\s*offsetMatrix:\s*\[([^\]]*)\]")
 

@@ -12,12 +12,12 @@ from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.system.arrays import Array
-from regkit_synthesis.motion.body_map import body_map
+from regkit_synthesis.bodies.body_map import body_map
+from regkit_synthesis.bodies.retarget import retargeted
 from regkit_synthesis.motion.motion import Motion
 from regkit_synthesis.motion.played import Played
-from regkit_synthesis.motion.retarget import retargeted
 from regkit_synthesis.motion.shipped import shipped_clip
-from regkit_synthesis.scene import SR4000, Scene
+from regkit_synthesis.recordings.scene import SR4000, Scene
 
 _R_CAMERA_BODY = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 """From x left, y backward, z up to x right, y down, z forward: the body looks into the camera."""

@@ -9,7 +9,7 @@ import numpy as np
 
 from regkit.geometry.rotation import conjugate, from_matrix, from_vector, product, to_matrix
 from regkit.system.arrays import Array
-from regkit_synthesis.mending import interpolated
+from regkit_synthesis.motion.mending import interpolated
 
 WRIST = "wrist"
 

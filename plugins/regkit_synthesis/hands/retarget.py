@@ -10,7 +10,7 @@ import numpy as np
 from regkit.geometry.rigid import rigid
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.system.arrays import Array
-from regkit_synthesis.hand_poses import CHAINS, HandPose
+from regkit_synthesis.hands.pose import CHAINS, HandPose
 
 _R_JOINT_BONE = np.array([[-1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, -1.0, 0.0]])
 """From the axes of a bone of a right finger (x to the thumb's side, y along it, z out of the palm)

@@ -8,7 +8,7 @@ import numpy as np
 
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
-from regkit_synthesis.motion.names import instead_of
+from regkit_synthesis.figure.names import instead_of
 
 _SIDED = {
     "collar": "chest",

@@ -1,6 +1,6 @@
 """A rigid figure that turns before a depth camera: the sample of rigid clouds.
 
-python -m regkit_synthesis.mannequin docs/examples/data/mannequin
+python -m regkit_synthesis.samples.mannequin docs/examples/data/mannequin
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from regkit.geometry.rotation import vector_to_matrix
 from regkit.system.arrays import Array
 from regkit.system.files import write_arrays, write_text
 from regkit_synthesis import assets
-from regkit_synthesis.raycast import ray_cast
+from regkit_synthesis.cameras.raycast import ray_cast
 
 FRAMES, TURN = 8, np.radians(12.0)
 """How many clouds there are, and by how much the figure turns from each to the next [rad]."""

@@ -10,11 +10,11 @@ import numpy as np
 
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit_synthesis import assets
-from regkit_synthesis.hand import HandTake
-from regkit_synthesis.hand_moves import fists, gestures, signs
-from regkit_synthesis.person import PersonTake
-from regkit_synthesis.recording import DepthRecording
-from regkit_synthesis.scene import Scene
+from regkit_synthesis.hands.hand_moves import fists, gestures, signs
+from regkit_synthesis.recordings.hand_take import HandTake
+from regkit_synthesis.recordings.person_take import PersonTake
+from regkit_synthesis.recordings.recording import DepthRecording
+from regkit_synthesis.recordings.scene import Scene
 from regkit_synthesis.templates.templates import (
     FittedTemplate,
     human_template,

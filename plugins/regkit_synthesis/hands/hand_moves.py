@@ -6,9 +6,9 @@ from math import radians
 
 import numpy as np
 
-from regkit_synthesis.assets import handywork, iwer
-from regkit_synthesis.gestures import Gestures
-from regkit_synthesis.hand_poses import HandPose
+from regkit_synthesis.hands.gestures import Gestures
+from regkit_synthesis.hands.pose import HandPose
+from regkit_synthesis.hands.shipped import handywork, iwer
 
 _OPENING = 0.12
 """How far fingers of handy-work are opened towards its flat hand: the mesh's proximal phalanges are

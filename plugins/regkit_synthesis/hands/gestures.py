@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from regkit.system.arrays import Array
-from regkit_synthesis.hand_poses import HandPose, chained
-from regkit_synthesis.mending import interpolated
+from regkit_synthesis.hands.pose import HandPose, chained
+from regkit_synthesis.motion.mending import interpolated
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,9 @@ from pydantic import field_validator
 
 from regkit.config.model import Model
 from regkit.system.errors import ConfigError
-from regkit_synthesis.motion.figure import check_joints
-from regkit_synthesis.motion.map_files import read_map, shipped
-from regkit_synthesis.motion.names import instead_of, meant
+from regkit_synthesis.figure.figure import check_joints
+from regkit_synthesis.figure.map_files import read_map, shipped
+from regkit_synthesis.figure.names import instead_of, meant
 
 _NEEDED = (
     *("pelvis", "chest", "head"),

@@ -1,0 +1,20 @@
+"""Rigged bodies: their meshes, their joints, and how their bones follow a motion."""
+
+from regkit_synthesis.bodies.bodies import AnyBody, BodyFile, HumanBody, ShippedBody
+from regkit_synthesis.bodies.body_map import BodyMap, body_map
+from regkit_synthesis.bodies.landmarks import Landmark, hand_landmarks, placed
+from regkit_synthesis.bodies.retarget import Retarget, retargeted
+
+__all__ = [
+    "AnyBody",
+    "BodyFile",
+    "BodyMap",
+    "HumanBody",
+    "Landmark",
+    "Retarget",
+    "ShippedBody",
+    "body_map",
+    "hand_landmarks",
+    "placed",
+    "retargeted",
+]

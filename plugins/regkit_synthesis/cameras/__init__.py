@@ -1,0 +1,17 @@
+"""Depth cameras: known intrinsics, viewpoints, and what a camera sees of a mesh."""
+
+from regkit_synthesis.cameras.cameras import CAMERAS, CameraChoice, CameraName, camera_of
+from regkit_synthesis.cameras.raycast import RayCaster, View, ray_cast, stored
+from regkit_synthesis.cameras.viewpoint import Viewpoint
+
+__all__ = [
+    "CAMERAS",
+    "CameraChoice",
+    "CameraName",
+    "RayCaster",
+    "View",
+    "Viewpoint",
+    "camera_of",
+    "ray_cast",
+    "stored",
+]

@@ -1,0 +1,17 @@
+"""Recordings: a take becomes a scene, a scene is rendered, and the frames are kept in a cache."""
+
+from regkit_synthesis.recordings.cache import RecordingCache
+from regkit_synthesis.recordings.recording import DepthRecording
+from regkit_synthesis.recordings.scene import FPS, SR305, SR4000, Scene, Sensor
+from regkit_synthesis.recordings.take import Take
+
+__all__ = [
+    "FPS",
+    "SR305",
+    "SR4000",
+    "DepthRecording",
+    "RecordingCache",
+    "Scene",
+    "Sensor",
+    "Take",
+]

@@ -1,0 +1,5 @@
+"""The samples that ship with regkit: depth recordings (``depth``) and clouds (``mannequin``)."""
+
+from regkit_synthesis.samples.depth import hand_gestures, human_walk
+
+__all__ = ["hand_gestures", "human_walk"]
