@@ -9,8 +9,7 @@ Modules:
     skinned_mesh: Triangle meshes with linear blend skinning.
     surface: Skinned surfaces in segment frames, with or without triangles.
 
-``rotation`` and ``rigid`` are used as namespaces (``rotation.product``, ``rigid.inverse``), so this
-package exports classes only.
+The package exports classes; import functions from ``rotation`` and ``rigid``.
 """
 
 from regkit.geometry.camera import Camera

@@ -34,7 +34,7 @@ class Capsules:
         ends = self.ends @ np.swapaxes(carriers[:, :3, :3], 1, 2) + carriers[:, None, :3, 3]
         return Capsules(self.segments, ends, self.radii)
 
-    def some(self, chosen: NDArray[np.bool_]) -> Capsules:
+    def selected(self, chosen: NDArray[np.bool_]) -> Capsules:
         """Returns the capsules where the mask ``chosen`` (C,) is true."""
         return Capsules(self.segments[chosen], self.ends[chosen], self.radii[chosen])
 

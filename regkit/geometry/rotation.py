@@ -118,7 +118,7 @@ def vector_to_matrix(vector: Array) -> Array:
 
 
 def rotation_between(start: Array, goal: Array) -> Array:
-    """Returns the smallest rotation matrix (3, 3) from the direction ``start`` (3,) to ``goal`` (3,).
+    """Returns the smallest rotation (3, 3) from the direction ``start`` (3,) to ``goal`` (3,).
 
     For opposite directions the rotation axis is an arbitrary perpendicular one.
     """
