@@ -88,12 +88,12 @@ class Placement:
         return np.asarray(self.jacobian.reshape(-1, dofs).T @ loaded.reshape(-1, dofs))
 
     def rows(self, segments: Indices, points: Array, directions: Array) -> Array:
-        """How the degrees of freedom move points along directions, (R, n).
+        """Returns the Jacobian (R, n) of point displacements along directions.
 
         Args:
-            segments: The segment that carries each point, (R,).
-            points: In the world, (R, 3) [m].
-            directions: In the world, (R, 3).
+            segments: Index of the segment of each point, (R,).
+            points: Points in the world, (R, 3) [m].
+            directions: Directions in the world, (R, 3).
         """
         arms = points - self.transforms[segments, :3, 3]
         wrenches = np.concatenate([directions, cross(arms, directions)], axis=1)

@@ -229,8 +229,8 @@ SECOND = "depth/000001.png"
         (image(SECOND, np.ones((18, 24, 3), np.uint8)), "ROOT/depth/000001.png: a depth image has "
          "one channel of 16 bits; this one is of the mode RGB"),
         (image(SECOND, np.ones((24, 18), np.uint16)), "ROOT/depth/000001.png: the depth image has "
-         "18x24 pixels, but the camera is for 24x18"),
-        (remove("camera.json"), "ROOT/camera.json: the file is missing; it holds the camera's "
+         "18x24 pixels, but the camera has 24x18"),
+        (remove("camera.json"), "ROOT/camera.json: the file is missing; it should hold the camera's "
          "intrinsics"),
         (cut("camera.json", 0.5), "ROOT/camera.json: not a camera file (JSONDecodeError"),
         (write("camera.json", b"\xff\xfe"), "ROOT/camera.json: not a camera file (UnicodeDecode"),
@@ -337,7 +337,7 @@ NO_ARRAY = f"ROOT/{CLOUD}: not a .npz with an array 'points' (N, 3): "
         (npz(points=np.array([["a", "b", "c"]])), NO_ARRAY),
         (npz(points=np.array([[1.0, 2.0, None]])), NO_ARRAY),
         (npz(points=np.ones((30, 2))), f"ROOT/{CLOUD}: points have the shape (30, 2); they must"),
-        (npz(points=np.ones((0, 3))), f"ROOT/{CLOUD}: the file holds no point, or is damaged"),
+        (npz(points=np.ones((0, 3))), f"ROOT/{CLOUD}: the file contains no points or is damaged"),
         (write(CLOUD, b""), NO_ARRAY),
         (write(CLOUD, "hello"), NO_ARRAY),
         (cut(CLOUD, 0.5), NO_ARRAY),
@@ -367,7 +367,7 @@ def test_cloud_file_cut_short_is_refused(tmp_path, random, suffix, kept):
     library.io.write_point_cloud(str(tmp_path / name), cloud)
     cut(name, kept)(tmp_path)
     message = complaint(CloudFolders(root=tmp_path), tmp_path)
-    assert message == f"ROOT/{name}: the file holds no point, or is damaged"
+    assert message == f"ROOT/{name}: the file contains no points or is damaged"
 
 
 # The layout of UTD-MHAD.
@@ -466,7 +466,7 @@ def mat(name: str, **arrays) -> Callable[[Path], None]:
         (mat(DEPTH, depth=np.ones((240, 320, 2))), f"ROOT/{DEPTH}: not a .mat file with 'd_depth'"),
         (mat(DEPTH, d_depth=np.ones((240, 320))), f"ROOT/{DEPTH}: d_depth has the shape"),
         (mat(DEPTH, d_depth=np.ones((320, 240, 2))), f"ROOT/{DEPTH}: frame 0: the depth image has "
-         "240x320 pixels, but the camera is for 320x240"),
+         "240x320 pixels, but the camera has 320x240"),
         (cut(DEPTH, 0.5), f"ROOT/{DEPTH}: not a .mat file with 'd_depth'"),
         (cut(DEPTH, 0.0), f"ROOT/{DEPTH}: not a .mat file with 'd_depth'"),
         (write(DEPTH, "hello"), f"ROOT/{DEPTH}: not a .mat file with 'd_depth'"),
