@@ -91,8 +91,8 @@ def run(
 
 
 def _table(measures: dict[str, dict[str, Measure]]) -> Table:
+    from regkit.report.labels import wrapped
     from regkit.report.tables import TERMINAL, rows
-    from regkit.report.words import broken
 
     # A terminal of 80 characters holds all figures: titles may break there, names
     # only where a sweep joined them.
@@ -102,5 +102,5 @@ def _table(measures: dict[str, dict[str, Measure]]) -> Table:
     for title in TERMINAL.values():
         table.add_column(escape(title), justify="right")
     for name, *figures in rows(measures):
-        table.add_row(broken(name, 22), *figures)
+        table.add_row(wrapped(name, 22), *figures)
     return table
