@@ -111,7 +111,7 @@ def row(name: str, measures: dict[str, Measure]) -> dict[str, float]:
 
 
 HEADER = """\
-| method | raw [cm] | adjusted [cm] | worst raw [cm] | near [%] | evaluations |
+| method | raw [cm] | adjusted [cm] | worst raw [cm] | PCK [%] | evaluations |
 |---|--:|--:|--:|--:|--:|"""
 
 

@@ -58,9 +58,9 @@ class CloudAlignment(Summary):
 
     def plot(self) -> Figure:
         """Both clouds before and after, along two axes."""
-        from regkit.report.before_after import before_after
+        from regkit.report.alignment_figure import alignment_figure
 
-        return before_after(self.source, self.aligned, self.target)
+        return alignment_figure(self.source, self.aligned, self.target)
 
     def save(self, path: str | Path) -> None:
         """Write the aligned source as a cloud, of the kind that the name's end says.

@@ -19,8 +19,8 @@ from regkit.cli.workers import chosen_workers
 from regkit.experiment import Study
 from regkit.experiment import run as run_experiment
 from regkit.metrics import Measure
+from regkit.report.labels import wrapped
 from regkit.report.tables import TERMINAL, rows
-from regkit.report.words import broken
 
 
 def run(
@@ -102,5 +102,5 @@ def _table(measures: dict[str, dict[str, Measure]]) -> Table:
     for title in TERMINAL.values():
         table.add_column(escape(title), justify="right")
     for name, *figures in rows(measures):
-        table.add_row(broken(name, 22), *figures)
+        table.add_row(wrapped(name, 22), *figures)
     return table

@@ -1,11 +1,17 @@
-"""Point clouds by themselves: files, voxels, neighbourhoods, and whether they can be aligned."""
+"""Point clouds: reading, writing, voxel downsampling, normals, checks, and registration quality."""
 
+from regkit.clouds.agreement import Agreement, agreement
+from regkit.clouds.checks import check_shape, check_sizes
 from regkit.clouds.neighbourhoods import normals, spacing
 from regkit.clouds.reading import read_cloud
 from regkit.clouds.voxels import voxel_downsampled, voxel_for
 from regkit.clouds.writing import check_writable, write_cloud
 
 __all__ = [
+    "Agreement",
+    "agreement",
+    "check_shape",
+    "check_sizes",
     "check_writable",
     "normals",
     "read_cloud",

@@ -1,4 +1,4 @@
-"""How well an aligned cloud lies on another."""
+"""Registration quality of two clouds: fitness, inlier RMSE and overlap."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from regkit.system.arrays import Array
 
 @dataclass(frozen=True)
 class Agreement:
-    """How well a source lies on a target.
+    """Registration quality of a source aligned to a target; see Open3D's ``RegistrationResult``.
 
     Attributes:
-        distance: What is farther away than this does not agree [m].
-        fitness: Share of the source's points that have a target point within the distance.
-        inlier_rmse: Root mean square distance of these to it [m]; NaN if there is none.
-        overlap: Share of the target's points that have a source point within the distance.
+        distance: Maximum correspondence distance [m].
+        fitness: Fraction of source points with a correspondence in the target.
+        inlier_rmse: Root mean square distance of these correspondences [m]; NaN without any.
+        overlap: Fraction of target points with a correspondence in the source.
     """
 
     distance: float
@@ -28,7 +28,14 @@ class Agreement:
 
 
 def agreement(source: Array, target: Array, transform: Array, distance: float) -> Agreement:
-    """How well a source (N, 3) lies on a target (M, 3) after T_target_source (4, 4)."""
+    """Evaluates the registration of a source to a target.
+
+    Args:
+        source: Source points, (N, 3) [m].
+        target: Target points, (M, 3) [m].
+        transform: T_target_source, (4, 4).
+        distance: Maximum correspondence distance [m].
+    """
     from scipy.spatial import KDTree
 
     aligned = transformed(transform, source)

@@ -1,4 +1,4 @@
-"""Whether clouds can be aligned at all; what cannot be is told before any work is done."""
+"""Checks that two clouds can be aligned at all, made before any computation."""
 
 from __future__ import annotations
 
@@ -7,54 +7,64 @@ import numpy as np
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
 
-FEWEST = 10
-"""So many different points are needed, which leaves some over after six degrees of freedom."""
+MIN_POINTS = 10
+"""Minimum number of distinct points, more than enough for six degrees of freedom."""
 
-FLAT = 1e-3
-"""A cloud is a plane or a line if it is thinner than this part of its length."""
+MIN_EXTENT = 1e-3
+"""A cloud whose extent in a principal direction is below this fraction of the largest is flat."""
 
-SIZES = 20.0
-"""Clouds whose sizes differ by more than this factor do not show the same thing in one unit."""
+MAX_SIZE_RATIO = 20.0
+"""Clouds whose sizes differ by a larger factor do not show the same object in the same unit."""
 
 
 def check_shape(points: Array, *, place: str) -> None:
-    """Refuse a cloud (N, 3) whose alignment would not be determined.
+    """Rejects a cloud whose alignment would be underdetermined.
+
+    Args:
+        points: The cloud, (N, 3) [m].
+        place: Where it comes from, for the error message.
 
     Raises:
-        DataError: If it has too few different points, or they lie on a line or in a plane.
+        DataError: If it has too few distinct points, or is collinear or coplanar.
     """
-    different = len(np.unique(points, axis=0))
-    if different < FEWEST:
+    distinct = len(np.unique(points, axis=0))
+    if distinct < MIN_POINTS:
         raise DataError(
-            f"the cloud has {different} different points of {len(points)}; at least {FEWEST} are "
-            "needed",
+            f"the cloud has {distinct} different points of {len(points)}; at least {MIN_POINTS} "
+            "are needed",
             place=place,
         )
     lengths = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
-    if lengths[1] < FLAT * lengths[0]:
+    if lengths[1] < MIN_EXTENT * lengths[0]:
         raise DataError(
-            "all points lie on a line, so that the rotation about it is not determined", place=place
+            "all points lie on a line, so the rotation about it is undetermined; the cloud must "
+            "extend in three dimensions",
+            place=place,
         )
-    if lengths[2] < FLAT * lengths[0]:
+    if lengths[2] < MIN_EXTENT * lengths[0]:
         raise DataError(
-            "all points lie in a plane, so that motions in it and turning it over are not "
-            "determined",
+            "all points lie in a plane, so motions within it are undetermined; the cloud must "
+            "extend in three dimensions",
             place=place,
         )
 
 
 def check_sizes(source: Array, target: Array) -> None:
-    """Refuse clouds that cannot be in the same unit.
+    """Rejects clouds whose sizes suggest different units.
+
+    Args:
+        source: Source points, (N, 3).
+        target: Target points, (M, 3).
 
     Raises:
-        DataError: If one is many times as large as the other.
+        DataError: If their sizes differ by more than ``MAX_SIZE_RATIO``.
     """
     sizes = [float(np.linalg.norm(np.ptp(points, axis=0))) for points in (source, target)]
     factor = max(sizes) / min(sizes)
-    if factor <= SIZES:
+    if factor <= MAX_SIZE_RATIO:
         return
     hint = " (one in millimetres, the other in metres?)" if 200.0 < factor < 5000.0 else ""
     raise DataError(
         f"the source is {sizes[0]:.4g} large and the target {sizes[1]:.4g}, a factor of "
-        f"{factor:.3g}; bring both to the same unit{hint}, or crop the larger one"
+        f"{factor:.3g}; convert both to the same unit{hint}, or crop the larger one"
     )

@@ -1,4 +1,4 @@
-"""Planes through many small neighbourhoods, in compiled loops."""
+"""Normals of many small neighbourhoods in compiled loops."""
 
 from __future__ import annotations
 
@@ -12,10 +12,14 @@ from regkit.system.compiled import compiled
 
 @compiled
 def least_directions(points: Array, neighbours: Indices) -> Array:
-    """The direction in which each row of neighbours (N, k) of points varies least, (N, 3).
+    """Returns the direction of least variance of each neighbourhood, (N, 3).
 
-    The eigenvectors of the covariance are found by Jacobi's rotations, which are exact to rounding
-    for any covariance, of a plane as of a ball.
+    The eigenvectors of the covariance come from Jacobi rotations, which are accurate for any
+    covariance, isotropic or degenerate.
+
+    Args:
+        points: The cloud, (P, 3) [m].
+        neighbours: Indices of the k points of each neighbourhood, (N, k).
     """
     count, near = neighbours.shape
     directions = np.empty((count, 3))

@@ -1,4 +1,4 @@
-"""What the neighbours of a cloud's points tell: their distance, and which way a surface lies."""
+"""Local properties of a cloud: point spacing and surface normals."""
 
 from __future__ import annotations
 
@@ -8,14 +8,17 @@ from regkit.clouds.compiled_normals import least_directions
 from regkit.system.arrays import Array
 
 NEIGHBOURS = 10
-"""So many points, a point itself among them, tell the plane of its surface."""
+"""Number of points of a neighbourhood, including the point itself, for normal estimation."""
 
 
 def spacing(points: Array) -> float:
-    """The typical distance of neighbouring points (N, 3) [m]: the median one of the fourth.
+    """Returns the typical point spacing [m]: the median distance to the fourth neighbour.
 
-    On a square grid the fourth neighbour is one step away; the first of scattered points, or of
-    points along a scanner's lines, is much nearer than the surface is sampled.
+    On a square grid the fourth neighbour is one step away. The nearest neighbour of scattered
+    points, or of points on scan lines, is much closer than the sampling distance of the surface.
+
+    Args:
+        points: The cloud, (N, 3) [m].
     """
     from scipy.spatial import KDTree
 
@@ -26,9 +29,13 @@ def spacing(points: Array) -> float:
 
 
 def normals(points: Array, neighbours: int = NEIGHBOURS) -> Array:
-    """Unit normals of a surface at its points (N, 3), (N, 3); their sign is arbitrary.
+    """Returns unit normals (N, 3) of arbitrary sign.
 
-    The normal is the direction in which the nearest points vary least.
+    The normal is the direction of least variance of the nearest points.
+
+    Args:
+        points: The cloud, (N, 3) [m].
+        neighbours: Number of points of a neighbourhood, including the point itself.
     """
     from scipy.spatial import KDTree
 

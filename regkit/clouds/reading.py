@@ -1,4 +1,4 @@
-"""Reading clouds, and points on the surfaces of meshes, from files."""
+"""Reading point clouds from files of points or meshes."""
 
 from __future__ import annotations
 
@@ -18,34 +18,37 @@ from regkit.system.errors import DataError
 from regkit.system.optional import load_library
 
 TEXT = (".txt", ".csv", ".xyz")
-"""Files of numbers in rows, x y z first; what follows on a row is left out."""
+"""Text files with rows that begin with x y z; further columns are ignored."""
 
 CLOUDS = (".ply", ".pcd", ".pts", ".xyzn", ".xyzrgb")
-"""Files of points that Open3D reads; a .ply may hold a mesh."""
+"""Point cloud formats that Open3D reads; a .ply may contain a mesh."""
 
 MESHES = (".stl", ".obj", ".off", ".gltf", ".glb")
-"""Files of triangles that Open3D reads."""
+"""Mesh formats that Open3D reads."""
 
 READABLE = (".npz", *TEXT, *CLOUDS, *MESHES)
+"""All suffixes that ``read_cloud`` accepts."""
 
-ON_MESH = 20_000
-"""So many points stand for the surface of a mesh."""
+MESH_SAMPLES = 20_000
+"""Number of points sampled from the surface of a mesh."""
 
-_DAMAGED = (OSError, EOFError, ValueError, KeyError, TypeError, BadZipFile, zlib.error)
+DAMAGED = "the file contains no points or is damaged"
+
+_READ_ERRORS = (OSError, EOFError, ValueError, KeyError, TypeError, BadZipFile, zlib.error)
 
 
 def read_cloud(path: Path) -> Array:
-    """The points (N, 3) of a cloud's file, or points spread evenly over a mesh's surface.
+    """Reads the points (N, 3) of a cloud, or samples them uniformly from the surface of a mesh.
 
     Raises:
-        DataError: If the file is missing, damaged, empty or of a kind that cannot be read, or if a
-            point is not finite.
-        DependencyError: If Open3D is needed and missing.
+        DataError: If the file is missing, damaged, empty or of an unknown format, or if a point is
+            not finite.
+        DependencyError: If the format needs Open3D, which is missing.
     """
     place = str(path)
     if not path.is_file():
-        told = "this is a folder, not a file" if path.is_dir() else "there is no such file"
-        raise DataError(told, place=place)
+        reason = "this is a folder, not a file" if path.is_dir() else "there is no such file"
+        raise DataError(reason, place=place)
     suffix = path.suffix.lower()
     if suffix == ".npz":
         points = _archived(path)
@@ -61,7 +64,7 @@ def read_cloud(path: Path) -> Array:
         )
     checked = checked_points(points, place=place)
     if not len(checked):
-        raise DataError("the file holds no point, or is damaged", place=place)
+        raise DataError(DAMAGED, place=place)
     return checked
 
 
@@ -69,14 +72,14 @@ def _archived(path: Path) -> Array:
     try:
         with path.open("rb") as stream, np.load(stream, allow_pickle=False) as arrays:
             return np.asarray(arrays["points"].astype(np.float64))
-    except _DAMAGED as error:
+    except _READ_ERRORS as error:
         raise DataError(
             f"not a .npz with an array 'points' (N, 3): {error}", place=str(path)
         ) from None
 
 
 def _written(path: Path) -> Array:
-    """Rows of numbers, parted by spaces or commas; a first row of names is left out."""
+    """Reads rows of numbers, separated by spaces, commas or semicolons; a header is skipped."""
     rows: list[list[float]] = []
     text = path.read_text(encoding="utf-8-sig", errors="replace")
     for number, line in enumerate(text.splitlines(), start=1):
@@ -105,51 +108,51 @@ def _with_open3d(path: Path, *, mesh: bool) -> Array:
     vertices, triangles = np.asarray(read.vertices), np.asarray(read.triangles)
     if not len(triangles):
         return vertices
-    return _on_surface(checked_points(vertices, place=str(path)), triangles)
+    return _sampled(checked_points(vertices, place=str(path)), triangles)
 
 
 def _has_faces(path: Path) -> bool:
-    """Whether a PLY file holds triangles, as its header says.
+    """Returns whether the header of a PLY file declares triangles.
 
     Raises:
-        DataError: If it has no such header.
+        DataError: If the file has no PLY header.
     """
     with path.open("rb") as stream:
         header, ended, _ = stream.read(1 << 16).partition(b"end_header")
     if not header.startswith(b"ply") or not ended:
-        raise DataError("the file holds no point, or is damaged", place=str(path))
+        raise DataError(DAMAGED, place=str(path))
     counts = re.findall(rb"^element face (\d+)", header, flags=re.MULTILINE)
     return any(int(count) for count in counts)
 
 
 def _quietly(path: Path, read: Callable[[str], Any]) -> Any:
-    """What Open3D reads.
+    """Returns what Open3D reads.
 
-    It only prints that it failed, and returns what was in the memory beyond a PLY's end.
+    Open3D reports failures by printing only, and returns uninitialised memory for a truncated PLY.
 
     Raises:
-        DataError: If it printed anything.
+        DataError: If Open3D printed anything.
     """
     library = load_library("open3d")
     level = library.utility.VerbosityLevel.Warning
-    with library.utility.VerbosityContextManager(level), redirect_stdout(StringIO()) as told:
+    with library.utility.VerbosityContextManager(level), redirect_stdout(StringIO()) as printed:
         result = read(str(path))
-    if told.getvalue():
-        raise DataError("the file holds no point, or is damaged", place=str(path))
+    if printed.getvalue():
+        raise DataError(DAMAGED, place=str(path))
     return result
 
 
-def _on_surface(vertices: Array, triangles: Array) -> Array:
-    """Points (``ON_MESH``, 3) spread evenly over triangles, the same ones at each call."""
+def _sampled(vertices: Array, triangles: Array) -> Array:
+    """Returns uniform samples (``MESH_SAMPLES``, 3) of a mesh, with a fixed seed."""
     corners = vertices[triangles]
     sides = corners[:, 1:] - corners[:, :1]
     areas = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
     if not areas.sum() > 0.0:
         return vertices
     random = np.random.default_rng(0)
-    chosen = random.choice(len(areas), size=ON_MESH, p=areas / areas.sum())
-    first, second = random.uniform(size=(2, ON_MESH, 1))
-    # The square root spreads them evenly: Osada et al., Shape distributions, 2002, eq. 1.
+    chosen = random.choice(len(areas), size=MESH_SAMPLES, p=areas / areas.sum())
+    first, second = random.uniform(size=(2, MESH_SAMPLES, 1))
+    # The square root makes the density uniform: Osada et al., Shape distributions, 2002, eq. 1.
     root = np.sqrt(first)
     a, b, c = corners[chosen].transpose(1, 0, 2)
     return np.asarray((1.0 - root) * a + root * (1.0 - second) * b + root * second * c)

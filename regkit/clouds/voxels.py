@@ -1,4 +1,4 @@
-"""Downsampling clouds: one point for each occupied cube."""
+"""Voxel downsampling: one point per occupied voxel."""
 
 from __future__ import annotations
 
@@ -6,27 +6,32 @@ import numpy as np
 
 from regkit.system.arrays import Array, Indices
 
-FINEST = 1e-6
-"""Voxels smaller than this part of a cloud's extent are not tried."""
+MIN_VOXEL = 1e-6
+"""Smallest voxel that is tried, as a fraction of the cloud's extent."""
 
 
 def voxel_downsampled(points: Array, voxel: float) -> Array:
-    """The mean of the points (N, 3) in each occupied cube of side ``voxel`` [m], (M, 3)."""
+    """Returns the mean (M, 3) of the points in each occupied voxel.
+
+    Args:
+        points: The cloud, (N, 3) [m].
+        voxel: Side of a voxel [m].
+    """
     _, cell, counts = np.unique(_numbers(points, voxel), return_inverse=True, return_counts=True)
     sums = [np.bincount(cell, weights=column) for column in points.T]
     return np.column_stack(sums) / counts[:, None]
 
 
 def voxel_for(points: Array, wanted: int) -> float | None:
-    """The side [m] of cubes of which about ``wanted`` are occupied.
+    """Returns the voxel size [m] for which about ``wanted`` voxels are occupied.
 
-    None if there are no more points than that.
+    Returns None if the cloud (N, 3) has at most ``wanted`` points.
     """
     if len(points) <= wanted:
         return None
     extent = float(np.ptp(points, axis=0).max())
-    lower, upper = FINEST * extent, extent
-    # Halving the logarithm a dozen times tells the side within a thousandth of its range.
+    lower, upper = MIN_VOXEL * extent, extent
+    # Twelve bisections of the logarithm determine the size to a thousandth of its range.
     for _ in range(12):
         middle = float(np.sqrt(lower * upper))
         if len(np.unique(_numbers(points, middle))) > wanted:
@@ -37,9 +42,9 @@ def voxel_for(points: Array, wanted: int) -> float | None:
 
 
 def _numbers(points: Array, voxel: float) -> Indices:
-    """The number of the cube that each point is in, (N,)."""
+    """Returns the voxel number of each point, (N,)."""
     cells = np.floor(points / voxel).astype(np.int64)
     cells -= cells.min(axis=0)
-    # One number for each cell sorts much faster than three.
+    # A single number per voxel sorts much faster than three.
     _, height, depth = cells.max(axis=0) + 1
     return np.asarray((cells[:, 0] * height + cells[:, 1]) * depth + cells[:, 2])

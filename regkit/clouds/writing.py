@@ -1,4 +1,4 @@
-"""Writing clouds to files."""
+"""Writing point clouds to files."""
 
 from __future__ import annotations
 
@@ -12,28 +12,36 @@ from regkit.system.files import replacing, write_arrays
 from regkit.system.optional import load_library
 
 TEXT = {".txt": " ", ".xyz": " ", ".csv": ","}
-"""What parts the numbers of a row."""
+"""Text formats and their delimiters."""
 
 WITH_OPEN3D = (".ply", ".pcd")
+"""Formats that Open3D writes."""
 
 
 def check_writable(path: Path, *, place: str) -> None:
-    """Refuse a name that ``write_cloud`` could not write, before any work is done.
+    """Rejects a file name whose format ``write_cloud`` does not know, before any computation.
+
+    Args:
+        path: The file to be written.
+        place: The argument or option that names it, for the error message.
 
     Raises:
-        ConfigError: If it does not end with a known suffix.
+        ConfigError: If the suffix is unknown.
     """
     known = (*WITH_OPEN3D, ".npz", *TEXT)
     if path.suffix.lower() not in known:
-        raise ConfigError(f"the name must end with one of {' '.join(known)}", place=place)
+        raise ConfigError(
+            f"the name must end with one of {' '.join(known)}; '{path.name}' does not",
+            place=place,
+        )
 
 
 def write_cloud(path: Path, points: Array) -> None:
-    """Write points (N, 3) in the format that the file's name says.
+    """Writes points (N, 3) [m] in the format of the file's suffix.
 
     Raises:
         DataError: If the file cannot be written.
-        DependencyError: If Open3D is needed and missing.
+        DependencyError: If the format needs Open3D, which is missing.
     """
     suffix = path.suffix.lower()
     if suffix == ".npz":
@@ -46,4 +54,6 @@ def write_cloud(path: Path, points: Array) -> None:
         library = load_library("open3d")
         cloud = library.geometry.PointCloud(library.utility.Vector3dVector(points))
         if not library.io.write_point_cloud(str(temporary), cloud):
-            raise DataError("cannot be written", place=str(path))
+            raise DataError(
+                "Open3D cannot write this file; check that the folder is writable", place=str(path)
+            )

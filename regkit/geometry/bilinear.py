@@ -1,7 +1,8 @@
-"""Quaternion algebra as tables: what is bilinear in quaternions is one small matrix product.
+"""Quaternion operations as matrix products with constant tables.
 
-NumPy needs a microsecond or more for each operation on a few numbers, so that one product with a
-table is several times as fast as the formulas written out.
+Functions that are bilinear in two quaternions are linear in the products of their components. NumPy
+has an overhead of about a microsecond per operation, so one matrix product with a constant table is
+several times as fast as the written-out formula.
 """
 
 from __future__ import annotations
@@ -13,11 +14,11 @@ from regkit.system.arrays import Array
 _X, _Y, _Z, _W = range(4)
 _CYCLES = ((_X, _Y, _Z), (_Y, _Z, _X), (_Z, _X, _Y))
 _SIGNS = np.array([[1, -1, -1, 1], [-1, 1, -1, 1], [-1, -1, 1, 1]])
-"""Of x^2, y^2, z^2 and w^2 in the diagonal of a rotation matrix."""
+"""Signs of x^2, y^2, z^2 and w^2 in the diagonal entries of a rotation matrix, (3, 4)."""
 
 
 def hamilton() -> Array:
-    """From the flattened products of two quaternions' numbers to their product, (16, 4)."""
+    """Returns the table (16, 4) of the Hamilton product: ``(p q^T).ravel() @ table = p * q``."""
     table = np.zeros((4, 4, 4))
     table[_W, _W, _W] = 1.0
     for a, b, c in _CYCLES:
@@ -28,7 +29,7 @@ def hamilton() -> Array:
 
 
 def matrix_of_products() -> Array:
-    """From the flattened products q q^T of a unit quaternion to its flattened matrix, (16, 9)."""
+    """Returns the table (16, 9) from ``(q q^T).ravel()`` to the flattened rotation matrix."""
     table = np.zeros((4, 4, 3, 3))
     for a, b, c in _CYCLES:
         table[range(4), range(4), a, a] = _SIGNS[a]
@@ -38,7 +39,7 @@ def matrix_of_products() -> Array:
 
 
 def products_of_matrix() -> Array:
-    """From a flattened rotation matrix to 4 q q^T less the identity, flattened, (9, 16)."""
+    """Returns the table (9, 16) from a flattened rotation matrix to flattened ``4 q q^T - I``."""
     table = np.zeros((3, 3, 4, 4))
     for a, b, c in _CYCLES:
         table[a, a, range(4), range(4)] = _SIGNS[a]

@@ -22,8 +22,8 @@ class Camera:
         height: Image height [px].
         fx: Horizontal focal length [px].
         fy: Vertical focal length [px].
-        cx: Principal point, columns from the centre of the first [px].
-        cy: Principal point, rows from the centre of the first [px].
+        cx: Column of the principal point [px]; zero is the centre of the first column.
+        cy: Row of the principal point [px]; zero is the centre of the first row.
     """
 
     width: int
@@ -34,18 +34,18 @@ class Camera:
     cy: float
 
     def back_projected(self, depth: Array) -> Array:
-        """The points (N, 3) [m] of the pixels with a measurement (depth > 0), row by row.
+        """Returns the points (N, 3) [m] of all pixels with depth > 0, in row-major order.
 
         Args:
-            depth: (H, W) distance along the optical axis [m]; zero where nothing was measured.
+            depth: Distance along the optical axis, (H, W) [m]; zero marks an invalid pixel.
 
         Raises:
-            DataError: If the image does not have the camera's size.
+            DataError: If the image size differs from the camera's.
         """
         if depth.shape != (self.height, self.width):
             raise DataError(
-                f"the depth image has {depth.shape[1]}x{depth.shape[0]} pixels, but the camera is "
-                f"for {self.width}x{self.height}"
+                f"the depth image has {depth.shape[1]}x{depth.shape[0]} pixels, but the camera has "
+                f"{self.width}x{self.height}; use the intrinsics of this image"
             )
         rows, columns = np.nonzero(depth > 0.0)
         z = depth[rows, columns]
@@ -54,14 +54,14 @@ class Camera:
         )
 
     def projected(self, points: Array) -> Array:
-        """The pixel coordinates (N, 2), column and row, of points (N, 3) in front of the camera."""
+        """Returns pixel coordinates (N, 2), column and row, of points (N, 3) [m] with z > 0."""
         z = points[:, 2]
         return np.column_stack(
             [self.fx * points[:, 0] / z + self.cx, self.fy * points[:, 1] / z + self.cy]
         )
 
     def rays(self) -> Array:
-        """The direction (H, W, 3) of each pixel's ray, scaled to z = 1."""
+        """Returns the ray direction of each pixel, (H, W, 3), scaled to z = 1."""
         rows, columns = np.mgrid[: self.height, : self.width]
         return np.stack(
             [(columns - self.cx) / self.fx, (rows - self.cy) / self.fy, np.ones(rows.shape)],
@@ -70,10 +70,11 @@ class Camera:
 
     @classmethod
     def read(cls, path: Path) -> Camera:
-        """Read Open3D's ``PinholeCameraIntrinsic`` JSON; its matrix is stored by columns.
+        """Reads Open3D's ``PinholeCameraIntrinsic`` JSON, whose matrix is column-major.
 
         Raises:
-            DataError: If the file is missing or is not such a JSON file.
+            DataError: If the file is missing, is not such a JSON file, or has a size or a focal
+                length that is not positive.
         """
         try:
             content = json.loads(path.read_text(encoding="utf-8"))
@@ -82,23 +83,25 @@ class Camera:
             width, height = int(content["width"]), int(content["height"])
         except FileNotFoundError:
             raise DataError(
-                "the file is missing; it holds the camera's intrinsics", place=str(path)
+                "the file is missing; it should hold the camera's intrinsics", place=str(path)
             ) from None
         except (KeyError, ValueError, TypeError) as error:
             raise DataError(
                 f"not a camera file ({type(error).__name__}: {error}); it must have width, height "
-                "and intrinsic_matrix (9 numbers, by columns), as Open3D writes them",
+                "and intrinsic_matrix (9 numbers, column-major), as Open3D writes them",
                 place=str(path),
             ) from None
         if min(width, height, matrix[0, 0], matrix[1, 1]) <= 0:
             raise DataError(
-                "width, height and both focal lengths must be positive", place=str(path)
+                "width, height and both focal lengths must be positive; they are "
+                f"{width}, {height}, {matrix[0, 0]:g} and {matrix[1, 1]:g}",
+                place=str(path),
             )
         fx, fy, cx, cy = matrix[[0, 1, 0, 1], [0, 1, 2, 2]].tolist()
         return cls(width, height, fx, fy, cx, cy)
 
     def to_json(self) -> str:
-        """The text that ``read`` reads."""
+        """Returns the JSON text that ``read`` accepts."""
         matrix = [self.fx, 0.0, 0.0, 0.0, self.fy, 0.0, self.cx, self.cy, 1.0]
         content = {"width": self.width, "height": self.height, "intrinsic_matrix": matrix}
         return json.dumps(content, indent=2) + "\n"

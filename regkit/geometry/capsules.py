@@ -1,4 +1,4 @@
-"""Tapered capsules: the convex hulls of pairs of spheres, a body's surface in closed form."""
+"""Tapered capsules, the convex hulls of two spheres: a body surface with a closed-form distance."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from regkit.system.arrays import Array, Indices
 
 @dataclass(frozen=True)
 class Capsules:
-    """C tapered capsules in the frames of their segments, or in the world once placed.
+    """C tapered capsules, in segment frames or, after ``place``, in the world frame.
 
     Attributes:
-        segments: The segment that carries each capsule, (C,).
-        ends: The centres of the two end spheres, (C, 2, 3) [m].
-        radii: Their radii, (C, 2) [m].
+        segments: Index of the segment of each capsule, (C,).
+        ends: Centres of the two end spheres, (C, 2, 3) [m].
+        radii: Radii of the two end spheres, (C, 2) [m].
     """
 
     segments: Indices
@@ -29,24 +29,28 @@ class Capsules:
         return len(self.segments)
 
     def place(self, transforms: Array) -> Capsules:
-        """The capsules in the world, for T_world_segment (S, 4, 4)."""
+        """Returns the capsules in the world frame for T_world_segment (S, 4, 4)."""
         carriers = transforms[self.segments]
         ends = self.ends @ np.swapaxes(carriers[:, :3, :3], 1, 2) + carriers[:, None, :3, 3]
         return Capsules(self.segments, ends, self.radii)
 
-    def some(self, chosen: NDArray[np.bool_]) -> Capsules:
-        """The capsules where ``chosen`` (C,) is true."""
+    def selected(self, chosen: NDArray[np.bool_]) -> Capsules:
+        """Returns the capsules where the mask ``chosen`` (C,) is true."""
         return Capsules(self.segments[chosen], self.ends[chosen], self.radii[chosen])
 
     def scaled(self, factor: float) -> Capsules:
-        """The capsules of a body whose lengths are multiplied by ``factor``."""
+        """Returns the capsules with all lengths multiplied by ``factor``."""
         return Capsules(self.segments, factor * self.ends, factor * self.radii)
 
     def nearest(self, points: Array) -> tuple[Indices, Array, Array]:
-        """The nearest capsule (N,), the signed distance of its surface (N,) [m], and its gradient.
+        """Returns the nearest capsule of each point and the signed distance to its surface.
 
-        The distance is negative inside; the gradient (N, 3) is the unit vector away from the
-        surface.
+        Args:
+            points: Query points in the frame of the capsules, (N, 3) [m].
+
+        Returns:
+            The index of the nearest capsule (N,), the signed distance (N,) [m], negative inside,
+            and its gradient (N, 3), a unit vector that points away from the surface.
         """
         distances, heights = self._distances(points)
         nearest = distances.argmin(axis=1)
@@ -59,24 +63,25 @@ class Capsules:
         return nearest, distances[each, nearest], away / np.where(norm > 0.0, norm, 1.0)
 
     def surface_distance(self, points: Array) -> Array:
-        """Signed distance of points (N, 3) to the surface of all capsules together, (N,) [m].
+        """Returns the signed distance (N,) [m] of points (N, 3) [m] to the union of all capsules.
 
-        Exact outside; inside it is a bound, for a capsule's surface may lie within its neighbour.
+        The distance is exact outside. Inside it is a lower bound of the depth, because part of a
+        capsule's surface may be inside another capsule.
         """
         return np.asarray(self._distances(points)[0].min(axis=1))
 
     def axis_points(self, spacing: float) -> AxisPoints:
-        """Points on the axes, at most ``spacing`` [m] apart."""
+        """Returns samples of the axes, at most ``spacing`` [m] apart."""
         lengths = np.linalg.norm(self.ends[:, 1] - self.ends[:, 0], axis=1)
-        # Less a little, so that their number is the same wherever the capsules are placed.
+        # The tolerance keeps the number of samples independent of the placement.
         return self._on_axes(np.ceil(lengths / spacing - 1e-6).astype(np.intp) + 1)
 
     def axis_samples(self, count: int) -> AxisPoints:
-        """``count`` evenly spaced points on each axis."""
+        """Returns ``count`` evenly spaced samples of each axis."""
         return self._on_axes(np.full(len(self), count, dtype=np.intp))
 
     def _on_axes(self, counts: Indices) -> AxisPoints:
-        """Evenly spaced points on the axes, ``counts`` (C,) on each."""
+        """Returns evenly spaced samples of the axes, ``counts`` (C,) of each."""
         capsules = np.repeat(np.arange(len(self)), counts)
         along = np.concatenate([np.linspace(0.0, 1.0, count) for count in counts])
         ends, radii = self.ends[capsules], self.radii[capsules]
@@ -89,19 +94,19 @@ class Capsules:
         )
 
     def _distances(self, points: Array) -> tuple[Array, Array]:
-        """Signed distance to each capsule, (N, C) [m], and where on its axis the nearest sphere is.
+        """Returns signed distances (N, C) [m] and axial positions (N, C) [m] of nearest spheres.
 
-        The surface is the envelope of spheres whose radius falls along the axis with the sine s of
-        the cone's half angle. The sphere nearest to a point at the height y along the axis and at
-        the distance x from it has its centre at y - s x / sqrt(1 - s^2), kept between the ends.
+        The surface is the envelope of spheres whose radius decreases along the axis by the sine s
+        of the cone's half angle. For a point at height y along the axis and distance x from it, the
+        nearest sphere has its centre at y - s x / sqrt(1 - s^2), clipped to the axis.
         """
         start, axis = self.ends[:, 0], self.ends[:, 1] - self.ends[:, 0]
         length = np.linalg.norm(axis, axis=1)
         safe = np.where(length > 0.0, length, 1.0)
         unit = axis / safe[:, None]
-        # At |s| = 1 one sphere holds the other: the nearest centre then runs to the larger sphere.
+        # At |s| = 1 one sphere contains the other; the nearest centre then is the larger sphere's.
         sine = np.clip((self.radii[:, 0] - self.radii[:, 1]) / safe, -1.0 + 1e-12, 1.0 - 1e-12)
-        # With the products on the axes, no (N, C, 3) array is needed.
+        # Expanding the squares avoids an (N, C, 3) array.
         height = points @ unit.T - (start * unit).sum(axis=1)
         square = (points**2).sum(axis=1)[:, None] - 2.0 * points @ start.T + (start**2).sum(axis=1)
         side = np.sqrt(np.maximum(square - height**2, 0.0))
@@ -112,14 +117,14 @@ class Capsules:
 
 @dataclass(frozen=True)
 class AxisPoints:
-    """Points on the axes of capsules, in the capsules' frames.
+    """M samples of capsule axes, in the frame of the capsules.
 
     Attributes:
-        segments: The segment that carries each, (M,).
-        points: (M, 3) [m].
-        radii: Radius of the capsule there, (M,) [m].
-        capsules: The capsule of each, (M,).
-        along: Position on the capsule's axis, from 0 to 1, (M,).
+        segments: Index of the segment of each sample, (M,).
+        points: Positions, (M, 3) [m].
+        radii: Capsule radius at each sample, (M,) [m].
+        capsules: Index of the capsule of each sample, (M,).
+        along: Position of each sample on its axis, from 0 to 1, (M,).
     """
 
     segments: Indices
@@ -129,7 +134,7 @@ class AxisPoints:
     along: Array
 
     def place(self, transforms: Array) -> Array:
-        """Positions in the world, (..., M, 3) [m], for T_world_segment (..., S, 4, 4)."""
+        """Returns world positions (..., M, 3) [m] for T_world_segment (..., S, 4, 4)."""
         carriers = transforms[..., self.segments, :, :]
-        turned = (carriers[..., :3, :3] @ self.points[:, :, None])[..., 0]
-        return np.asarray(turned + carriers[..., :3, 3])
+        rotated = (carriers[..., :3, :3] @ self.points[:, :, None])[..., 0]
+        return np.asarray(rotated + carriers[..., :3, 3])

@@ -1,4 +1,4 @@
-"""A triangle mesh on a skeleton of bones, deformed by linear blend skinning."""
+"""Triangle meshes that bones deform by linear blend skinning."""
 
 from __future__ import annotations
 
@@ -24,24 +24,24 @@ KEYS = (
     "skin_indices",
     "skin_weights",
 )
-"""The arrays of a mesh file, in the order of the fields of ``SkinnedMesh``."""
+"""Names of the arrays in a mesh file, in the order of the fields of ``SkinnedMesh``."""
 
 SHAPE_KEYS = ("rest_vertices", "rest_bone_poses")
-"""The arrays in which the shapes of one mesh differ."""
+"""Names of the arrays that differ between people; topology and skin weights are shared."""
 
 
 @dataclass(frozen=True)
 class SkinnedMesh:
-    """A mesh whose vertices follow up to A bones each.
+    """A mesh with V vertices, each skinned to up to A of J bones.
 
     Attributes:
-        vertices: (V, 3) vertices at rest, in the body's frame [m].
-        faces: (F, 3) vertex indices of the triangles, counter-clockwise seen from outside.
-        labels: The names of the J bones; a parent stands before its children.
-        parents: (J,) index of each bone's parent; -1 for the root.
-        rest: (J, 4, 4) bone poses ``T_body_bone`` at rest; y points along the bone [m].
-        indices: (V, A) bones that a vertex follows.
-        weights: (V, A) how much it follows each; every row sums to one.
+        vertices: Vertices of the rest pose in the body frame, (V, 3) [m].
+        faces: Vertex indices of the triangles, (F, 3), counter-clockwise seen from outside.
+        labels: Names of the J bones, parents before children.
+        parents: Index of each bone's parent, (J,); -1 for the root.
+        rest: Bone poses ``T_body_bone`` of the rest pose, (J, 4, 4) [m]; y points along the bone.
+        indices: Bones of each vertex, (V, A).
+        weights: Skinning weights, (V, A); every row sums to one.
     """
 
     vertices: Array
@@ -54,7 +54,7 @@ class SkinnedMesh:
 
     @classmethod
     def read(cls, path: Path) -> SkinnedMesh:
-        """Read an ``.npz`` file with the arrays ``KEYS``.
+        """Reads an ``.npz`` file with the arrays ``KEYS``.
 
         Raises:
             DataError: If the file is missing, is not an ``.npz`` file, or lacks one of the arrays.
@@ -71,7 +71,7 @@ class SkinnedMesh:
         )
 
     def write(self, path: Path) -> None:
-        """Write an ``.npz`` file that ``read`` takes.
+        """Writes an ``.npz`` file that ``read`` accepts.
 
         Raises:
             DataError: If the file cannot be written.
@@ -88,11 +88,13 @@ class SkinnedMesh:
         write_arrays(path, dict(zip(KEYS, values, strict=True)))
 
     def reshaped(self, path: Path) -> SkinnedMesh:
-        """The same mesh in the shape of another person, from an ``.npz`` file with ``SHAPE_KEYS``.
+        """Returns the mesh with another person's shape, read from an ``.npz`` file.
+
+        The file holds the arrays ``SHAPE_KEYS``.
 
         Raises:
             DataError: If the file is missing, is not an ``.npz`` file, lacks one of the arrays, or
-                is of another mesh.
+                belongs to a mesh of another topology.
         """
         arrays = _arrays(path, SHAPE_KEYS)
         own = {"rest_vertices": self.vertices, "rest_bone_poses": self.rest}
@@ -109,26 +111,30 @@ class SkinnedMesh:
         )
 
     def bone(self, label: str) -> int:
-        """The index of the bone named ``label``.
+        """Returns the index of the bone named ``label``.
 
         Raises:
-            DataError: If there is none.
+            DataError: If the mesh has no such bone.
         """
         if label not in self.labels:
             raise DataError(f"the mesh has no bone '{label}'; it has {', '.join(self.labels)}")
         return self.labels.index(label)
 
     def origin(self, label: str) -> Array:
-        """Where the bone named ``label`` starts at rest (3,) [m]."""
+        """Returns the origin (3,) [m] of the bone named ``label`` in the rest pose.
+
+        Raises:
+            DataError: If the mesh has no such bone.
+        """
         return np.array(self.rest[self.bone(label), :3, 3])
 
     def motions(self, bone_poses: Array) -> Array:
-        """The motion (J, 4, 4) of each bone from rest to ``bone_poses`` (J, 4, 4)."""
-        # The rest poses are only orthogonal to float32, so that a transpose would not invert them.
+        """Returns the motion (J, 4, 4) of each bone from rest to ``bone_poses`` (J, 4, 4)."""
+        # The rest poses are orthogonal to float32 only, so the transpose is not an exact inverse.
         return np.asarray(bone_poses @ np.linalg.inv(self.rest))
 
     def posed(self, bone_poses: Array) -> Array:
-        """The vertices (V, 3) [m] for bone poses ``T_world_bone`` (J, 4, 4): linear blend skinning.
+        """Returns the skinned vertices (V, 3) [m] for bone poses ``T_world_bone`` (J, 4, 4).
 
         Source: Lewis, Cordner, Fong, Pose Space Deformation, SIGGRAPH 2000, eq. 1:
         ``v = sum_a w_a T_bone,a T_rest,a^-1 v_rest``.
@@ -140,10 +146,10 @@ class SkinnedMesh:
         )
 
     def stretched(self, matrices: Array) -> SkinnedMesh:
-        """The mesh at rest with every bone stretched, so that joints stay together.
+        """Returns the rest mesh with every bone scaled or sheared, keeping the joints connected.
 
         Args:
-            matrices: What happens to positions in each bone's frame, (J, 3, 3).
+            matrices: Linear map of positions in each bone's frame, (J, 3, 3).
         """
         inverse = np.linalg.inv(self.rest)
         origins = self.rest[:, :3, 3].copy()
@@ -160,13 +166,13 @@ class SkinnedMesh:
         return replace(self, vertices=self.posed(carriers), rest=rest)
 
     def rotated(self, rotations: Array, root: Array) -> Array:
-        """Bone poses ``T_world_bone`` (J, 4, 4) with every bone turned from its direction at rest.
+        """Returns bone poses ``T_world_bone`` (J, 4, 4) after rotating every bone from rest.
 
-        The joints stay together, so that bone lengths are those at rest.
+        The joints stay connected, so the bone lengths are those of the rest pose.
 
         Args:
-            rotations: (J, 3, 3) rotation of each bone from rest, in world axes.
-            root: (3,) where the first bone starts [m].
+            rotations: Rotation of each bone from rest in world axes, (J, 3, 3).
+            root: Origin of the first bone in the world, (3,) [m].
         """
         origins = self.rest[:, :3, 3].copy()
         offsets = origins - origins[self.parents]
@@ -178,12 +184,14 @@ class SkinnedMesh:
 
 
 def _arrays(path: Path, keys: Sequence[str]) -> dict[str, NDArray[np.generic]]:
-    """The arrays named ``keys`` of an ``.npz`` file."""
+    """Returns the arrays named ``keys`` of an ``.npz`` file."""
     try:
         with np.load(path) as file:
             return {key: file[key] for key in keys}
     except FileNotFoundError:
-        raise DataError("the file is missing; it holds a skinned mesh", place=str(path)) from None
+        raise DataError(
+            "the file is missing; it should hold a skinned mesh", place=str(path)
+        ) from None
     except (KeyError, ValueError, zipfile.BadZipFile) as error:
         raise DataError(
             f"not a skinned mesh ({error}); it must be an .npz file with {', '.join(keys)}",

@@ -1,4 +1,4 @@
-"""Skinned surfaces: points that one or several segments carry, with or without triangles."""
+"""Skinned surfaces: vertices in segment frames, with or without triangles."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from regkit.system.errors import DataError
 
 @dataclass(frozen=True)
 class SkinnedSurface:
-    """A body's measured or modelled surface: the vertices of a mesh, or the points of a cloud.
+    """The measured or modelled surface of a body: the vertices of a mesh or the points of a cloud.
 
-    Each of V vertices follows A segments, by linear blend skinning; a rigid cloud has A = 1.
+    Each of V vertices is skinned to A segments by linear blend skinning; a rigid cloud has A = 1.
 
     Attributes:
-        segments: The segments that carry each vertex, (V, A).
-        points: Where each of them carries it, in that segment's frame, (V, A, 3) [m].
-        blend: By how much each of them does, (V, A); the rows sum to one.
-        normals: Unit outward normals in the segments' frames, (V, A, 3), or None if unknown.
-        faces: The vertices of each triangle, (F, 3); none for a cloud.
+        segments: Segments of each vertex, (V, A).
+        points: Position of the vertex in the frame of each of its segments, (V, A, 3) [m].
+        blend: Skinning weights, (V, A); the rows sum to one.
+        normals: Unit outward normals in the segment frames, (V, A, 3), or None if unknown.
+        faces: Vertex indices of the triangles, (F, 3); F = 0 for a cloud.
     """
 
     segments: Indices
@@ -38,15 +38,15 @@ class SkinnedSurface:
 
     @classmethod
     def of(cls, mesh: SkinnedMesh) -> Self:
-        """The surface of a mesh whose bones are the segments, in their order."""
-        # The rest poses are only orthogonal to float32, so that a transpose would not invert them.
+        """Returns the surface of a mesh whose bones are the segments, in the same order."""
+        # The rest poses are orthogonal to float32 only, so the transpose is not an exact inverse.
         carried = np.linalg.inv(mesh.rest)[mesh.indices, :3]
         normals = vertex_normals(mesh.vertices, mesh.faces)
         points = np.einsum("vaij,vj->vai", carried[..., :3], mesh.vertices) + carried[..., 3]
         return cls(
             segments=mesh.indices,
             points=points,
-            # Their rows sum to one only to float32.
+            # The stored weights sum to one in float32 only.
             blend=mesh.weights / mesh.weights.sum(axis=1, keepdims=True),
             normals=np.einsum("vaij,vj->vai", carried[..., :3], normals),
             faces=mesh.faces,
@@ -57,25 +57,29 @@ class SkinnedSurface:
         return len(self.segments)
 
     def place(self, transforms: Array) -> Array:
-        """Positions in the world, (V, 3) [m], for T_world_segment (S, 4, 4)."""
+        """Returns world positions (V, 3) [m] for T_world_segment (S, 4, 4)."""
         carriers = transforms[self.segments]
         carried = np.einsum("vaij,vaj->vai", carriers[..., :3, :3], self.points)
         carried += carriers[..., :3, 3]
         return np.asarray(np.einsum("va,vai->vi", self.blend, carried))
 
     def scaled(self, factor: float) -> Self:
-        """The same surface on a skeleton whose lengths are multiplied by ``factor``."""
+        """Returns the surface with all lengths multiplied by ``factor``."""
         return replace(self, points=factor * self.points)
 
 
 def surface_in(path: Path, segments: Sequence[str]) -> SkinnedSurface:
-    """The surface of the mesh in a file, whose bones are named as segments are.
+    """Reads the surface of a skinned mesh whose bones are named like the segments.
 
-    The file is read again only if it has changed.
+    The result is cached until the file changes.
+
+    Args:
+        path: An ``.npz`` file of a ``SkinnedMesh``.
+        segments: Names of the segments, in the order of the skeleton.
 
     Raises:
-        DataError: If the file is missing or is no mesh, or a vertex follows a bone that no segment
-            is named after.
+        DataError: If the file is missing, is not a mesh, or skins a vertex to a bone that has no
+            segment of its name.
     """
     changed = path.stat().st_mtime_ns if path.is_file() else 0
     return _read(path, changed, tuple(segments))
@@ -99,9 +103,13 @@ def _read(path: Path, changed: int, segments: tuple[str, ...]) -> SkinnedSurface
 
 
 def vertex_normals(vertices: Array, faces: Indices) -> Array:
-    """Unit normals (V, 3): the mean of those of a vertex's triangles, by their areas.
+    """Returns unit normals (V, 3), averaged over adjacent triangles with their areas as weights.
 
-    A vertex of no triangle has the normal zero.
+    A vertex without a triangle has a zero normal.
+
+    Args:
+        vertices: Vertex positions, (V, 3) [m].
+        faces: Vertex indices of the triangles, (F, 3).
     """
     corners = vertices[faces]
     crossed = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])

@@ -1,14 +1,14 @@
-"""How well recordings were tracked, as the literature measures it, and how sure that is."""
+"""Tracking metrics of the literature, and statistics over recordings."""
 
 from regkit.metrics.joints import JointErrors, joint_errors, matched
 from regkit.metrics.losses import Losses
-from regkit.metrics.measure import PCK_PART, TEN_CM, Measure, mean_of, measured
+from regkit.metrics.measure import PCK_FRACTION, TEN_CM, Measure, mean_of, measured
 from regkit.metrics.pairs import Pair, compared
 from regkit.metrics.statistics import Summary, summary
-from regkit.metrics.thresholds import auc, share_within
+from regkit.metrics.thresholds import auc, fraction_within
 
 __all__ = [
-    "PCK_PART",
+    "PCK_FRACTION",
     "TEN_CM",
     "JointErrors",
     "Losses",
@@ -17,10 +17,10 @@ __all__ = [
     "Summary",
     "auc",
     "compared",
+    "fraction_within",
     "joint_errors",
     "matched",
     "mean_of",
     "measured",
-    "share_within",
     "summary",
 ]

@@ -1,4 +1,4 @@
-"""How far the joints are from their references, as they are and less what is constant."""
+"""Joint errors, raw and after subtraction of each marker's constant displacement."""
 
 from __future__ import annotations
 
@@ -17,13 +17,14 @@ from regkit.tracking import Track
 
 @dataclass(frozen=True)
 class JointErrors:
-    """Distances of the body's markers to the reference joints, in T frames and J joints.
+    """Distances between the body's markers and the reference joints, in T frames for J joints.
 
     Attributes:
-        joints: The joints' names in the data, (J,).
-        raw: As they are, (T, J) [m]; NaN where the reference is missing.
-        adjusted: After each marker's constant displacement in its segment is subtracted, (T, J)
-            [m]; the displacement of even frames is fitted on odd ones and the other way round.
+        joints: Names of the joints in the data, (J,).
+        raw: Distances, (T, J) [m]; NaN where the reference is missing.
+        adjusted: Distances after subtraction of each marker's constant displacement in its segment
+            frame, (T, J) [m]. The displacement of even frames is estimated on odd ones and vice
+            versa.
     """
 
     joints: tuple[str, ...]
@@ -32,16 +33,16 @@ class JointErrors:
 
 
 def joint_errors(track: Track, body: Body, truth: Truth, joints: Mapping[str, str]) -> JointErrors:
-    """The errors of a track.
+    """Computes the joint errors of a track.
 
     Args:
-        track: What was found.
-        body: Whose poses they are.
+        track: The track.
+        body: The tracked body.
         truth: Reference joints.
-        joints: Names of reference joints to the body's markers, where they differ.
+        joints: Marker of the body for each reference joint whose name differs.
 
     Raises:
-        ConfigError: If ``joints`` names what is not there, or no joint is known by the body.
+        ConfigError: If ``joints`` names an unknown joint or marker, or no joint matches a marker.
     """
     columns, markers = matched(body, truth, joints)
     frames = min(len(track.markers), len(truth.positions))
@@ -57,7 +58,7 @@ def joint_errors(track: Track, body: Body, truth: Truth, joints: Mapping[str, st
 
 
 def _without_displacement(local: Array) -> Array:
-    """Errors (T, J, 3) in the segments' frames less their constant part, fitted on other frames."""
+    """Subtracts from errors (T, J, 3) in segment frames their mean over the other frames."""
     adjusted = np.full_like(local, np.nan)
     for parity in (0, 1):
         others = local[1 - parity :: 2] if len(local) > 1 else local[:0]
@@ -70,10 +71,18 @@ def _without_displacement(local: Array) -> Array:
 
 
 def matched(body: Body, truth: Truth, joints: Mapping[str, str]) -> tuple[list[int], list[int]]:
-    """Columns of the truth, and the body's markers that they are compared with.
+    """Matches reference joints with markers of the body.
+
+    Args:
+        body: The body.
+        truth: Reference joints.
+        joints: Marker of the body for each reference joint whose name differs.
+
+    Returns:
+        Indices of the matched reference joints, and indices of their markers.
 
     Raises:
-        ConfigError: If ``joints`` names what is not there, or no joint is known by the body.
+        ConfigError: If ``joints`` names an unknown joint or marker, or no joint matches a marker.
     """
     for name, marker in joints.items():
         if name not in truth.joints:
@@ -84,7 +93,7 @@ def matched(body: Body, truth: Truth, joints: Mapping[str, str]) -> tuple[list[i
             )
         if marker not in body.markers.names:
             raise ConfigError(
-                f"'{body.name}' has no marker '{marker}' (there are: "
+                f"the template '{body.name}' has no marker '{marker}' (there are: "
                 f"{', '.join(body.markers.names)})"
                 + did_you_mean(marker, list(body.markers.names)),
                 place=f"dataset.joints.{name}",
@@ -98,8 +107,8 @@ def matched(body: Body, truth: Truth, joints: Mapping[str, str]) -> tuple[list[i
     if not pairs:
         raise ConfigError(
             f"no joint of the data ({', '.join(truth.joints)}) is a marker of '{body.name}' "
-            f"({', '.join(body.markers.names)}); map them by name (dataset.joints), or leave them "
-            "out (dataset.compared=false)",
+            f"({', '.join(body.markers.names)}); map their names (dataset.joints), or disable the "
+            "comparison (dataset.compared=false)",
             place="dataset.joints",
         )
     return [column for column, _ in pairs], [marker for _, marker in pairs]

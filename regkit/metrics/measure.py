@@ -1,4 +1,4 @@
-"""The figures of one tracked recording."""
+"""The metrics of one tracked recording."""
 
 from __future__ import annotations
 
@@ -10,45 +10,45 @@ import numpy as np
 from regkit.body import Body
 from regkit.metrics.joints import JointErrors
 from regkit.metrics.losses import Losses
-from regkit.metrics.thresholds import auc, share_within
+from regkit.metrics.thresholds import auc, fraction_within
 from regkit.system.arrays import Array
 from regkit.tracking import Track
 
 TEN_CM = 0.10
-"""The threshold of the literature on people [m]."""
+"""The usual threshold in the literature on people [m]."""
 
-PCK_PART = 0.06
-"""A joint is near its reference within this part of the body's size: 10 cm on a tall person."""
+PCK_FRACTION = 0.06
+"""The PCK threshold as a fraction of the body's size: 10 cm for a tall person."""
 
-AUC_PART = 2.0 * PCK_PART
-"""The threshold curve ends at this part of the body's size: 20 cm on a tall person."""
+AUC_FRACTION = 2.0 * PCK_FRACTION
+"""The largest threshold of the AUC as a fraction of the body's size: 20 cm for a tall person."""
 
 
 @dataclass(frozen=True)
 class Measure:
-    """Figures of one tracked recording; None where a figure cannot be had.
+    """Metrics of one tracked recording; a metric that is not defined is None.
 
     Attributes:
-        joint_error_raw_cm: Mean distance of the markers to the reference joints.
-        joint_error_adjusted_cm: The same after each marker's constant displacement in its segment
-            is subtracted; the displacement of even frames is fitted on odd ones and vice versa.
-        within_10cm_percent: How many raw distances are below 10 cm.
-        within_10cm_adjusted_percent: How many adjusted distances are below 10 cm.
-        pck_percent: How many raw distances are below 6 % of the body's size.
-        auc_percent: Area under the curve of how many raw distances are within a threshold, which
-            goes from 0 to 12 % of the body's size; 100 if all of them are zero.
-        auc_adjusted_percent: The same of the adjusted distances.
+        joint_error_raw_cm: Mean distance between markers and reference joints.
+        joint_error_adjusted_cm: The same after subtraction of each marker's constant displacement
+            in its segment frame, estimated for even frames on odd ones and vice versa.
+        within_10cm_percent: Percentage of raw distances below 10 cm.
+        within_10cm_adjusted_percent: Percentage of adjusted distances below 10 cm.
+        pck_percent: Percentage of raw distances below 6 % of the body's size (PCK).
+        auc_percent: Area under the curve of the percentage of raw distances within a threshold,
+            from 0 to 12 % of the body's size; 100 if all distances are zero.
+        auc_adjusted_percent: The same for adjusted distances.
         frames: Number of frames.
-        lost_frames: Frames in which less than half of the joints are near.
-        recovery_s: Mean time from losing the body to having it again; None if it was never lost.
-        lost_at_end: 1 if the last frame is lost, else 0.
-        unconverged_frames: Frames in which the solver met no tolerance.
+        lost_frames: Number of frames with less than half of the joints within the PCK threshold.
+        recovery_s: Mean time until a lost body is recovered; None if it was never lost.
+        lost_at_end: 1 if the body is lost in the last frame, else 0.
+        unconverged_frames: Number of frames in which the solver did not converge.
         surface_distance_mm: Median over frames of the median distance of the data to the surface.
-        limit_violation_deg: Mean over frames of the largest violation of a joint limit.
-        evaluations_per_frame: Mean number of energy evaluations.
-        preprocessing_ms: Mean time to make data of a frame.
-        registering_ms: Mean time to register it.
-        fps: Frames per second of preprocessing and registering.
+        limit_violation_deg: Mean over frames of the largest joint limit violation.
+        evaluations_per_frame: Mean number of energy evaluations per frame.
+        preprocessing_ms: Mean preprocessing time per frame.
+        registering_ms: Mean registration time per frame.
+        fps: Frames per second of preprocessing and registration.
     """
 
     joint_error_raw_cm: float | None
@@ -71,37 +71,37 @@ class Measure:
     fps: float | None
 
     def to_dict(self) -> dict[str, float | None]:
-        """The figures by name."""
+        """Returns the metrics by name."""
         return asdict(self)
 
 
 ONLY_WHERE_LOST = ("recovery_s",)
-"""Figures that a recording lacks because nothing was wrong with it."""
+"""Metrics that are defined only for recordings in which the body was lost."""
 
 
 def measured(track: Track, body: Body, errors: JointErrors | None, fps: float) -> Measure:
-    """The figures of a track.
+    """Computes the metrics of a track.
 
     Args:
-        track: What was found.
-        body: Whose poses they are.
-        errors: How far its joints are from their references, if there are any.
-        fps: Frames per second at which the recording was recorded.
+        track: The track.
+        body: The tracked body.
+        errors: Joint errors, if there are reference joints.
+        fps: Frames per second of the recording.
     """
     raw, adjusted = (None, None) if errors is None else (errors.raw, errors.adjusted)
     frames = len(track.seconds)
     limits = body.skeleton.limits
     violations = [limits.violation(track.pose(index)).max(initial=0.0) for index in range(frames)]
-    near, widest = PCK_PART * body.size, AUC_PART * body.size
-    losses = None if raw is None else Losses.of(raw, near)
+    threshold, largest = PCK_FRACTION * body.size, AUC_FRACTION * body.size
+    losses = None if raw is None else Losses.of(raw, threshold)
     return Measure(
         joint_error_raw_cm=_mean(raw, 100.0),
         joint_error_adjusted_cm=_mean(adjusted, 100.0),
         within_10cm_percent=_percent_within(raw, TEN_CM),
         within_10cm_adjusted_percent=_percent_within(adjusted, TEN_CM),
-        pck_percent=_percent_within(raw, near),
-        auc_percent=_percent_area(raw, widest),
-        auc_adjusted_percent=_percent_area(adjusted, widest),
+        pck_percent=_percent_within(raw, threshold),
+        auc_percent=_auc_percent(raw, largest),
+        auc_adjusted_percent=_auc_percent(adjusted, largest),
         frames=frames,
         lost_frames=None if losses is None else int(losses.lost.sum()),
         recovery_s=None if losses is None else losses.recovery(fps),
@@ -117,9 +117,9 @@ def measured(track: Track, body: Body, errors: JointErrors | None, fps: float) -
 
 
 def mean_of(measures: Sequence[Measure]) -> Measure:
-    """The mean of each figure over recordings; None where any recording lacks it or there is none.
+    """Returns the mean of each metric over recordings; None where a recording lacks it.
 
-    The time to recover is the mean over the recordings in which the body was lost.
+    The recovery time is averaged over the recordings in which the body was lost.
     """
     means: dict[str, float | None] = {}
     for field in fields(Measure):
@@ -134,11 +134,11 @@ def mean_of(measures: Sequence[Measure]) -> Measure:
 def _percent_within(distances: Array | None, threshold: float) -> float | None:
     if distances is None:
         return None
-    return _finite(100.0 * float(share_within(distances, threshold)))
+    return _finite(100.0 * float(fraction_within(distances, threshold)))
 
 
-def _percent_area(distances: Array | None, widest: float) -> float | None:
-    area = None if distances is None else auc(distances, widest)
+def _auc_percent(distances: Array | None, largest: float) -> float | None:
+    area = None if distances is None else auc(distances, largest)
     return None if area is None else 100.0 * area
 
 

@@ -1,4 +1,4 @@
-"""Two methods held against each other, recording by recording."""
+"""Pairwise comparison of methods on the same recordings."""
 
 from __future__ import annotations
 
@@ -11,27 +11,27 @@ from regkit.metrics.measure import Measure
 from regkit.metrics.statistics import Interval, bootstrapped, holm, signed_rank
 
 Measures = Mapping[str, Mapping[str, Measure]]
-"""Figures by method and recording."""
+"""Metrics by method and recording."""
 
 
 @dataclass(frozen=True)
 class Pair:
-    """A figure, of which less is better, of two methods on the recordings that both finished.
+    """Comparison of two methods by a metric, of which less is better, on shared recordings.
 
     Attributes:
-        figure: Its name in ``Measure``.
-        method: The one method.
-        other: The other.
-        n: Number of recordings.
-        won: On how many the figure of ``method`` is smaller.
-        tied: On how many both are the same.
-        difference: Median of ``method`` less ``other``, in the figure's unit.
-        interval: Its 95 % bootstrap interval, or None if n is too small for one.
-        p: Of Wilcoxon's signed-rank test, or None if n is too small for one.
-        p_holm: The same, corrected for all pairs that are compared in this figure.
+        metric: Name of the metric, a field of ``Measure``.
+        method: The first method.
+        other: The second method.
+        n: Number of recordings that both methods finished.
+        won: Number of recordings on which ``method`` has the smaller value.
+        tied: Number of recordings with equal values.
+        difference: Median of the value of ``method`` minus that of ``other``.
+        interval: 95 % bootstrap interval of the difference; None if n is too small.
+        p: p-value of Wilcoxon's signed-rank test; None if n is too small.
+        p_holm: p-value with Holm's correction for all pairs compared by this metric.
     """
 
-    figure: str
+    metric: str
     method: str
     other: str
     n: int
@@ -43,15 +43,15 @@ class Pair:
     p_holm: float | None = None
 
 
-def compared(measures: Measures, figure: str, chosen: Iterable[tuple[str, str]] = ()) -> list[Pair]:
-    """The best method against each other one, and chosen pairs, corrected together.
+def compared(measures: Measures, metric: str, chosen: Iterable[tuple[str, str]] = ()) -> list[Pair]:
+    """Compares the best method with each other one, and chosen pairs, with a joint correction.
 
     Args:
-        measures: Figures by method and recording.
-        figure: Which of them; less is better.
+        measures: Metrics by method and recording.
+        metric: Name of the metric; less is better.
         chosen: Further pairs of methods.
     """
-    first = best(measures, figure)
+    first = best(measures, metric)
     wanted = [(first, name) for name in measures if name != first] if first is not None else []
     for method, other in chosen:
         if (method, other) not in wanted and (other, method) not in wanted:
@@ -59,15 +59,18 @@ def compared(measures: Measures, figure: str, chosen: Iterable[tuple[str, str]] 
     pairs = [
         pair
         for method, other in wanted
-        if (pair := _pair(measures, figure, method, other)) is not None
+        if (pair := _pair(measures, metric, method, other)) is not None
     ]
     corrected = holm([pair.p for pair in pairs])
     return [replace(pair, p_holm=p) for pair, p in zip(pairs, corrected, strict=True)]
 
 
-def best(measures: Measures, figure: str) -> str | None:
-    """The method of the least mean on the recordings that all finished; None if there are none."""
-    values = {name: _values(by_recording, figure) for name, by_recording in measures.items()}
+def best(measures: Measures, metric: str) -> str | None:
+    """Returns the method with the least mean on the recordings that all methods finished.
+
+    Returns None if there is no such recording.
+    """
+    values = {name: _values(by_recording, metric) for name, by_recording in measures.items()}
     values = {name: known for name, known in values.items() if known}
     if not values:
         return None
@@ -77,14 +80,14 @@ def best(measures: Measures, figure: str) -> str | None:
     return min(values, key=lambda name: float(np.mean([values[name][s] for s in sorted(shared)])))
 
 
-def _pair(measures: Measures, figure: str, method: str, other: str) -> Pair | None:
-    ours, theirs = (_values(measures.get(name, {}), figure) for name in (method, other))
+def _pair(measures: Measures, metric: str, method: str, other: str) -> Pair | None:
+    ours, theirs = (_values(measures.get(name, {}), metric) for name in (method, other))
     shared = [recording for recording in ours if recording in theirs]
     if not shared:
         return None
     differences = np.array([ours[recording] - theirs[recording] for recording in shared])
     return Pair(
-        figure=figure,
+        metric=metric,
         method=method,
         other=other,
         n=len(shared),
@@ -96,6 +99,6 @@ def _pair(measures: Measures, figure: str, method: str, other: str) -> Pair | No
     )
 
 
-def _values(by_recording: Mapping[str, Measure], figure: str) -> dict[str, float]:
-    found = {recording: getattr(measure, figure) for recording, measure in by_recording.items()}
+def _values(by_recording: Mapping[str, Measure], metric: str) -> dict[str, float]:
+    found = {recording: getattr(measure, metric) for recording, measure in by_recording.items()}
     return {recording: value for recording, value in found.items() if value is not None}

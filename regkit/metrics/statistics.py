@@ -1,4 +1,4 @@
-"""What a figure's values on several recordings say together, and how sure that is."""
+"""Statistics of a metric over recordings: summaries, bootstrap intervals and paired tests."""
 
 from __future__ import annotations
 
@@ -11,28 +11,29 @@ from numpy.typing import NDArray
 
 from regkit.system.arrays import Array
 
-FEWEST = 6
-"""So many recordings allow an interval or a test: of five pairs, none can be significant at 5 %."""
+MIN_SAMPLES = 6
+"""Minimum number of recordings for an interval or a test: five pairs cannot be significant at the
+5 % level."""
 
 RESAMPLES = 4999
 SEED = 20140711
-"""Resampling begins here, so that a report written anew says the same."""
+"""Seed of the bootstrap, fixed so that a report is reproducible."""
 
 ROUNDING = 1e-12
-"""Values that differ by no more than this part of the largest one are the same value."""
+"""Values whose difference relative to the largest is at most this are equal."""
 
 Interval = tuple[float, float]
 
 
 @dataclass(frozen=True)
 class Summary:
-    """A figure over n recordings.
+    """Summary of a metric over n recordings.
 
     Attributes:
-        n: How many recordings have it.
-        mean: The mean, or None if n is 0.
-        median: The median, or None if n is 0.
-        interval: The 95 % bootstrap interval of the mean, or None if n is too small for one.
+        n: Number of recordings that have the metric.
+        mean: The mean; None if n is 0.
+        median: The median; None if n is 0.
+        interval: 95 % bootstrap interval of the mean; None if n is too small.
     """
 
     n: int
@@ -42,7 +43,7 @@ class Summary:
 
 
 def summary(values: Sequence[float | None]) -> Summary:
-    """The summary of the values that are there."""
+    """Returns the summary of the values that are not None."""
     known = np.array([value for value in values if value is not None], dtype=float)
     if not known.size:
         return Summary(0, None, None, None)
@@ -55,14 +56,14 @@ def summary(values: Sequence[float | None]) -> Summary:
 
 
 def bootstrapped(values: Array, statistic: Literal["mean", "median"]) -> Interval | None:
-    """The 95 % bootstrap interval of a statistic of values (n,); None if they are too few.
+    """Returns the 95 % bootstrap interval of a statistic of values (n,); None if n is too small.
 
-    For a mean it is bias-corrected and accelerated; for a median, whose jackknife says nothing,
-    it is that of the percentiles.
+    For the mean it is the bias-corrected and accelerated interval; for the median, whose jackknife
+    is degenerate, the percentile interval.
     """
-    if len(values) < FEWEST:
+    if len(values) < MIN_SAMPLES:
         return None
-    # Where only rounding tells values apart, the acceleration is zero by zero.
+    # The acceleration is undefined (0 / 0) for values that are equal up to rounding.
     if np.ptp(values) <= ROUNDING * np.abs(values).max():
         return float(values.min()), float(values.max())
     # Imported when first used, for it takes its time to load.
@@ -80,12 +81,12 @@ def bootstrapped(values: Array, statistic: Literal["mean", "median"]) -> Interva
 
 
 def signed_rank(differences: Array) -> float | None:
-    """The p-value of Wilcoxon's two-sided signed-rank test of paired differences (n,).
+    """Returns the p-value of Wilcoxon's two-sided signed-rank test of paired differences (n,).
 
-    Differences of zero say nothing and are left out, as Wilcoxon did; if all are zero, p is 1.
-    None if there are too few pairs.
+    Zero differences are discarded, as by Wilcoxon; if all are zero, p is 1. Returns None if n is
+    too small.
     """
-    if len(differences) < FEWEST:
+    if len(differences) < MIN_SAMPLES:
         return None
     differing = differences[differences != 0.0]
     if not differing.size:
@@ -96,7 +97,7 @@ def signed_rank(differences: Array) -> float | None:
 
 
 def holm(p_values: Sequence[float | None]) -> list[float | None]:
-    """Holm's correction for several tests; a test that was not made stays None."""
+    """Returns p-values with Holm's correction for multiple tests; None stays None."""
     known = [index for index, p in enumerate(p_values) if p is not None]
     values: NDArray[np.float64] = np.array([p_values[index] for index in known], dtype=float)
     corrected: list[float | None] = [None] * len(p_values)

@@ -1,4 +1,4 @@
-"""How many distances are within a threshold, and the area under that curve."""
+"""The fraction of distances within a threshold (PCK), and the area under its curve (AUC)."""
 
 from __future__ import annotations
 
@@ -7,20 +7,26 @@ import numpy as np
 from regkit.system.arrays import Array
 
 
-def share_within(distances: Array, threshold: float, axis: int | None = None) -> Array:
-    """How many of the known distances are below a threshold; NaN where none is known."""
+def fraction_within(distances: Array, threshold: float, axis: int | None = None) -> Array:
+    """Returns the fraction of finite distances below a threshold; NaN if none is finite.
+
+    Args:
+        distances: Distances of any shape [m]; NaN where unknown.
+        threshold: The threshold [m].
+        axis: Axis along which to count; all elements by default.
+    """
     known = np.isfinite(distances).sum(axis=axis)
     below = (distances < threshold).sum(axis=axis)
     return np.asarray(np.where(known > 0, below / np.maximum(known, 1), np.nan))
 
 
-def auc(distances: Array, widest: float) -> float | None:
-    """The area under the curve of ``share_within`` from 0 to the widest threshold, from 0 to 1.
+def auc(distances: Array, largest: float) -> float | None:
+    """Returns the area under the curve of ``fraction_within`` for thresholds from 0 to ``largest``.
 
-    It is exact: a distance d is within every threshold from d on, a part 1 - d / widest of them.
-    None where no distance is known.
+    The area is normalised to [0, 1] and exact: a distance d is within all thresholds above d, which
+    are a fraction 1 - d / largest of the range. Returns None if no distance is finite.
     """
     known = distances[np.isfinite(distances)]
     if not known.size:
         return None
-    return float(np.maximum(1.0 - known / widest, 0.0).mean())
+    return float(np.maximum(1.0 - known / largest, 0.0).mean())

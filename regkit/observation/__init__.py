@@ -1,7 +1,9 @@
-"""What is measured: frames, observations made of them, and the reference joints."""
+"""Measured data: frames, the observations that preprocessors make of them, and reference joints."""
 
+from regkit.geometry.camera import Camera
 from regkit.observation.frame import Frame
 from regkit.observation.observation import Observation
+from regkit.observation.silhouette import Silhouette
 from regkit.observation.truth import Truth
 
-__all__ = ["Frame", "Observation", "Truth"]
+__all__ = ["Camera", "Frame", "Observation", "Silhouette", "Truth"]

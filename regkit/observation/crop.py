@@ -1,4 +1,4 @@
-"""What part of a frame is looked at."""
+"""Cropping: segmentation of the object in a frame by depth and connectivity."""
 
 from __future__ import annotations
 
@@ -16,23 +16,25 @@ from regkit.system.errors import DataError
 
 Distance = Annotated[float, Field(gt=0.0)]
 
-LEAST = 4
-"""Fewer points than this after downsampling tell that the cubes are larger than the body."""
+MIN_DOWNSAMPLED = 4
+"""Fewer points than this after downsampling mean that the voxels are larger than the body."""
 
 
 class Crop(Model):
-    """Keeps the points of the object and drops what lies before and behind it."""
+    """Keeps the points of the object and removes the foreground and background."""
 
     near: Distance | None = None
-    """Drop what is nearer to the camera than this, along its axis [m]."""
+    """Minimum depth [m]; nearer points are removed."""
     far: Distance | None = None
-    """Drop what is farther away than this [m]."""
+    """Maximum depth [m]; farther points are removed."""
     behind_nearest: Distance | None = None
-    """Keep only what is at most so far behind the nearest points [m]: a hand before its owner."""
+    """Maximum depth behind the nearest points [m], for example to separate a hand from its
+    person."""
     connected: Annotated[float, Field(ge=1e-3)] | None = None
-    """Keep only the piece nearest to the camera, pieces being at least so far apart [m]."""
+    """Keep only the connected component nearest to the camera; components are separated by at
+    least this distance [m]."""
     min_points: Annotated[int, Field(ge=1)] = 20
-    """Fewer points than this are an error: no pose can be told from them."""
+    """Minimum number of points after cropping; fewer are an error."""
 
     @model_validator(mode="after")
     def _in_order(self) -> Crop:
@@ -41,14 +43,15 @@ class Crop(Model):
         return self
 
     def cropped(self, frame: Frame) -> Frame:
-        """The frame with what is kept of its points, and of its depth image if it has one.
+        """Returns the frame with cropped points and, if it has one, cropped depth image.
 
         Raises:
-            DataError: If a coordinate is not finite or fewer than ``min_points`` are left.
+            DataError: If the frame is empty, a coordinate is not finite, or fewer than
+                ``min_points`` points are left.
         """
         points = checked_points(frame.points, place=frame.place)
         if not len(points):
-            raise DataError("the frame is empty: it has no measured point", place=frame.place)
+            raise DataError("the frame is empty: it has no valid point", place=frame.place)
         kept = self._kept(points)
         if len(kept) < self.min_points:
             raise DataError(
@@ -60,34 +63,35 @@ class Crop(Model):
             return frame
         depth = frame.depth
         if depth is not None and np.count_nonzero(depth > 0.0) == len(points):
-            # Points come row by row from the measured pixels; what is cut away was seen through.
+            # Points are the valid pixels in row-major order; removed pixels count as free space.
             pixels = np.flatnonzero(depth > 0.0)[kept]
             depth = np.zeros_like(depth)
             depth.flat[pixels] = points[kept, 2]
         return replace(frame, points=points[kept], depth=depth)
 
-    def check_thinned(self, left: int, frame: Frame, field: str, side: float) -> None:
-        """Refuse cubes so large that hardly a point is left, as of millimetres given for metres.
+    def check_downsampled(self, count: int, frame: Frame, field: str, side: float) -> None:
+        """Rejects voxels that leave hardly any point, such as a size in millimetres.
 
         Args:
-            left: How many points there are after downsampling.
-            frame: What was downsampled.
-            field: The preprocessor's field that says how large the cubes are.
-            side: Its value [m].
+            count: Number of points after downsampling.
+            frame: The frame that was downsampled.
+            field: Name of the preprocessor's field for the voxel size.
+            side: Value of that field [m].
 
         Raises:
-            DataError: If fewer than ``LEAST`` are left, or ``min_points`` where that is less.
+            DataError: If fewer than ``MIN_DOWNSAMPLED`` points are left, or ``min_points`` if that
+                is smaller.
         """
-        least = min(LEAST, self.min_points)
-        if left < least:
+        least = min(MIN_DOWNSAMPLED, self.min_points)
+        if count < least:
             raise DataError(
-                f"{side:g} m is too large: the frame's {len(frame.points)} points become {left}; "
+                f"{side:g} m is too large: the frame's {len(frame.points)} points become {count}; "
                 f"at least {least} are needed (preprocessor.{field}, in metres)",
                 place=frame.place,
             )
 
     def _kept(self, points: Array) -> Indices:
-        """Which of the points (N, 3) are kept, in their order."""
+        """Returns the indices of the points (N, 3) to keep, ascending."""
         depths = points[:, 2]
         kept = np.arange(len(points))
         if self.near is not None:
@@ -95,18 +99,18 @@ class Crop(Model):
         if self.far is not None:
             kept = kept[depths[kept] <= self.far]
         if self.behind_nearest is not None and len(kept):
-            # A percentile rather than the minimum, which a single stray pixel would set.
+            # A percentile is robust to stray pixels, the minimum is not.
             nearest = float(np.percentile(depths[kept], 0.5))
             kept = kept[depths[kept] <= nearest + self.behind_nearest]
         if self.connected is not None and len(kept):
-            kept = kept[_nearest_piece(points[kept], self.connected)]
+            kept = kept[_nearest_component(points[kept], self.connected)]
         return kept
 
 
-def _nearest_piece(points: Array, gap: float) -> NDArray[np.bool_]:
-    """Which points are of the piece nearest to the camera, (N,).
+def _nearest_component(points: Array, gap: float) -> NDArray[np.bool_]:
+    """Returns a mask (N,) of the connected component nearest to the camera.
 
-    No occupied cubes of the side ``gap`` [m] join the others to it.
+    Components are sets of adjacent occupied voxels of the size ``gap`` [m].
     """
     from scipy.ndimage import label
 
@@ -114,8 +118,8 @@ def _nearest_piece(points: Array, gap: float) -> NDArray[np.bool_]:
     cells -= cells.min(axis=0)
     occupied = np.zeros(cells.max(axis=0) + 1, dtype=bool)
     occupied[tuple(cells.T)] = True
-    pieces, _ = label(occupied, structure=np.ones((3, 3, 3)))
-    piece = pieces[tuple(cells.T)]
-    # Most of the nearest points decide, for a single one may be a stray pixel.
+    components, _ = label(occupied, structure=np.ones((3, 3, 3)))
+    component = components[tuple(cells.T)]
+    # The majority of the nearest points decides, because a single one may be a stray pixel.
     nearest = points[:, 2] <= np.percentile(points[:, 2], 2.0)
-    return np.asarray(piece == np.bincount(piece[nearest]).argmax())
+    return np.asarray(component == np.bincount(component[nearest]).argmax())

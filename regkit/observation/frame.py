@@ -1,4 +1,4 @@
-"""Frames: measurements as they come."""
+"""Frames: raw measurements."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ class Frame:
     """One measurement of a recording.
 
     Attributes:
-        points: Measured points in the camera's frame (x right, y down, z forward), (N, 3) [m].
-        camera: The camera, if the points are those of a depth image.
-        depth: The depth image (H, W) [m], zero where nothing was measured, if there is one.
-        place: Where it came from, for error messages.
+        points: Points in the camera frame (x right, y down, z forward), (N, 3) [m].
+        camera: Intrinsics, if the points come from a depth image.
+        depth: Depth image, (H, W) [m], zero at invalid pixels; None if there is none.
+        place: Source of the frame, for error messages.
     """
 
     points: Array

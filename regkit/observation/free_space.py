@@ -20,16 +20,17 @@ def free_space_distances(
     offset: Array,
     half: float,
 ) -> tuple[Array, Array]:
-    """The distances (M,) and gradients (M, 3) of ``Silhouette.distances``.
+    """Returns the distances (M,) [m] and gradients (M, 3) of ``Silhouette.distances``.
 
     Args:
-        points: (M, 3) [m].
-        margins: (M,) [m].
-        nearest: Least depth in each block, (columns, rows) [m]; inf where nothing was measured.
-        shown: Rays through the middles of the blocks that show something, (B, 2).
-        scale: Blocks for a unit of a ray, (2,).
-        offset: Block of the ray through the middle of the image, (2,).
-        half: What is nearer than this to a ray that shows something is not beside it.
+        points: Points in the camera frame, (M, 3) [m].
+        margins: Allowed distance of each point in front of the measured depth, (M,) [m].
+        nearest: Minimum depth of each block, (columns, rows) [m]; inf for a block without depth.
+        shown: Normalised image coordinates of the centres of the B blocks with depth, (B, 2).
+        scale: Blocks per unit of normalised image coordinates, (2,).
+        offset: Block coordinates of the principal point, (2,).
+        half: Radius of a block in normalised image coordinates; a ray closer than this to a block
+            with depth is inside the silhouette.
     """
     distances, gradients = np.zeros(len(points)), np.zeros((len(points), 3))
     columns, rows = nearest.shape

@@ -1,4 +1,4 @@
-"""Observations: a frame as a kernel wants it."""
+"""Observations: preprocessed frames, the data that kernels compare with."""
 
 from __future__ import annotations
 
@@ -16,15 +16,13 @@ class Observation:
     """Data as a sum of N isotropic Gaussians, eq. 2.
 
     Attributes:
-        points: Means, (N, 3) [m].
-        weights: (N,).
-        variances: sigma^2 of each, (N,) [m^2]. A kernel's time grows with the number of different
-            values, so a preprocessor that has many rounds them.
-        camera: The camera, if it is known; it looks along z from the origin.
-        depth: The depth image (H, W) [m] that the points come from, zero where nothing was
-            measured, if there is one.
-        normals: Unit normals of the surface at the points, (N, 3), of either sign, if they are
-            known.
+        points: Means in the camera frame, (N, 3) [m].
+        weights: Weights, (N,).
+        variances: Variances sigma^2, (N,) [m^2]. The run time of a kernel grows with the number of
+            distinct values, so a preprocessor should round them.
+        camera: Intrinsics, or None if unknown; the camera is at the origin and looks along z.
+        depth: Depth image of the points, (H, W) [m], zero at invalid pixels; None if there is none.
+        normals: Unit normals of arbitrary sign at the points, (N, 3); None if unknown.
 
     Raises:
         DataError: If there is no point, or the arrays differ in length.
@@ -55,7 +53,7 @@ class Observation:
 
     @cached_property
     def silhouette(self) -> Silhouette | None:
-        """What the depth image says of free space, if there is one."""
+        """The free space of the depth image; None without a depth image."""
         if self.camera is None or self.depth is None:
             return None
         return Silhouette(self.camera, self.depth)

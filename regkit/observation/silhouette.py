@@ -1,4 +1,4 @@
-"""What a depth image says of free space: nothing is beside what it shows, or before it."""
+"""Free space of a depth image: outside the silhouette, and in front of the measured depth."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from regkit.observation.free_space import free_space_distances
 from regkit.system.arrays import Array
 
 COLUMNS = 88
-"""The image is looked at in blocks, about so many in a row: outlines need no more."""
+"""Approximate number of block columns; outlines need no higher resolution."""
 
 HALF = 0.75
-"""What is so many blocks from the middle of one that shows something is not beside it."""
+"""A ray within this many blocks of the centre of a block with depth is inside the silhouette."""
 
 
 class Silhouette:
-    """A depth image in blocks.
+    """A depth image reduced to blocks of pixels.
 
     Args:
-        camera: The camera.
-        depth: (H, W) [m], zero where nothing was measured, which is taken as seen through.
+        camera: Intrinsics of the image.
+        depth: Depth image, (H, W) [m]; zero marks an invalid pixel, which counts as free space.
     """
 
     def __init__(self, camera: Camera, depth: Array) -> None:
@@ -36,14 +36,15 @@ class Silhouette:
         self._shown = (np.argwhere(np.isfinite(self._nearest)) - self._offset) / self._scale
 
     def distances(self, points: Array, margins: Array) -> tuple[Array, Array]:
-        """How far points are in free space, (M,) [m], and the derivative of it, (M, 3).
+        """Returns how far points are inside free space, (M,) [m], and the gradients, (M, 3).
 
-        Beside the silhouette it is the way to the nearest block that shows something, across the
-        line of sight; before it the way to the least depth there, less a margin, along z.
+        Outside the silhouette this is the distance to the nearest block with depth, perpendicular
+        to the optical axis. Inside it is the distance along z to the block's minimum depth less the
+        margin.
 
         Args:
-            points: In the camera's frame, (M, 3) [m].
-            margins: How far before the measured depth each of them may be, (M,) [m].
+            points: Points in the camera frame, (M, 3) [m].
+            margins: Allowed distance of each point in front of the measured depth, (M,) [m].
         """
         return free_space_distances(
             points, margins, self._nearest, self._shown, self._scale, self._offset, self._half

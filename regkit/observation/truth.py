@@ -1,4 +1,4 @@
-"""Truth: what a recording says of the joints."""
+"""Ground truth: reference joint positions of a recording."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from regkit.system.arrays import Array
 
 @dataclass(frozen=True)
 class Truth:
-    """Reference positions of named joints.
+    """Reference positions of J named joints in T frames.
 
     Attributes:
-        joints: (J,) names.
-        positions: (T, J, 3) [m] in the frame of the points; NaN where a joint was not seen.
+        joints: Names of the joints, (J,).
+        positions: Positions in the frame of the points, (T, J, 3) [m]; NaN where unknown.
     """
 
     joints: tuple[str, ...]

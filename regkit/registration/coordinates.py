@@ -98,7 +98,7 @@ class TangentCoordinates(Coordinates):
         if not len(self._couplings):
             return jacobian
         return np.hstack([
-            jacobian[:, : hinges.start], jacobian[:, hinges] @ self._couplings.spread
+            jacobian[:, : hinges.start], jacobian[:, hinges] @ self._couplings.jacobian
         ])  # fmt: skip
 
     def bounds(self) -> tuple[Array, Array]:
@@ -122,7 +122,7 @@ class TangentCoordinates(Coordinates):
         if not len(self._couplings):
             return x
         hinges = self.skeleton.hinge_dofs.start
-        return np.concatenate([x[:hinges], self._couplings.spread @ x[hinges:]])
+        return np.concatenate([x[:hinges], self._couplings.jacobian @ x[hinges:]])
 
     def _independent(self, step: Array) -> Array:
         """The part (m,) of a step (n,) that followers have no part in."""
@@ -165,7 +165,7 @@ class QuaternionCoordinates(Coordinates):
         columns = start + np.arange(4 * len(rates)).reshape(-1, 4)
         jacobian[rows[:, :, None], columns[:, None, :]] = np.swapaxes(rates, 1, 2)
         last = len(x) - len(self._couplings.independent)
-        jacobian[self.skeleton.hinge_dofs, last:] = self._couplings.spread
+        jacobian[self.skeleton.hinge_dofs, last:] = self._couplings.jacobian
         return jacobian
 
     def bounds(self) -> tuple[Array, Array]:

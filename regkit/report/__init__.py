@@ -1,4 +1,4 @@
-"""Reports: tables, figures and pictures of what a run found, as a page and as Markdown."""
+"""Reports: tables, figures and overlays of an experiment's results, as HTML page and Markdown."""
 
 from regkit.report.overlay import draw_overlay
 from regkit.report.page import write_report, write_summary

@@ -1,4 +1,4 @@
-"""Configurations in a line: what they are made of, and where one differs from the others."""
+"""One-line summaries of configurations: their parts, and the values in which they differ."""
 
 from __future__ import annotations
 
@@ -10,7 +10,10 @@ Leaves = dict[Path, Any]
 
 
 def flow(value: Any) -> str:
-    """A value as YAML in one line; what is empty is left out, and a lone kind is its name."""
+    """Returns a value as YAML flow in one line.
+
+    Empty parts are omitted, and a mapping with a kind only is written as its name.
+    """
     if isinstance(value, Mapping):
         parts = {key: text for key, one in value.items() if (text := flow(one))}
         if list(parts) == ["kind"]:
@@ -29,7 +32,11 @@ def flow(value: Any) -> str:
 
 
 def brief(methods: Mapping[str, Mapping[str, Any]]) -> dict[str, str]:
-    """Each method in a line: the kinds of its parts, and values that another one has otherwise."""
+    """Returns a line for each method: the kinds of its parts, and values that differ.
+
+    Args:
+        methods: Configurations by name.
+    """
     flat = {name: dict(_leaves(method, ())) for name, method in methods.items()}
     return {
         name: flow(_pruned(method, (), flat[name], list(flat.values())))
@@ -49,17 +56,17 @@ def _leaves(value: Any, path: Path) -> Iterator[tuple[Path, Any]]:
 
 
 def _pruned(value: Any, path: Path, own: Leaves, all_leaves: list[Leaves]) -> Any:
-    """The value less what says nothing."""
+    """Returns the value without leaves that are the same in all comparable methods."""
     if isinstance(value, Mapping):
         parts = {key: _pruned(one, (*path, key), own, all_leaves) for key, one in value.items()}
         return {key: part for key, part in parts.items() if part is not None}
     if isinstance(value, list | tuple):
         return [_pruned(one, (*path, index), own, all_leaves) for index, one in enumerate(value)]
-    return value if path[-1] == "kind" or _tells(path, own, all_leaves) else None
+    return value if path[-1] == "kind" or _differs(path, own, all_leaves) else None
 
 
-def _tells(path: Path, own: Leaves, all_leaves: list[Leaves]) -> bool:
-    """Whether a method whose parts have the same kinds has another value there."""
+def _differs(path: Path, own: Leaves, all_leaves: list[Leaves]) -> bool:
+    """Returns whether a method with the same kinds along the path has another value there."""
     kinds = [(*path[:depth], "kind") for depth in range(len(path))]
     return any(
         other[path] != own[path]

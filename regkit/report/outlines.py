@@ -1,4 +1,4 @@
-"""The outlines of primitives in a view."""
+"""Outlines of primitives in an orthographic view."""
 
 from __future__ import annotations
 
@@ -7,36 +7,40 @@ from collections.abc import Iterator
 import numpy as np
 from scipy.spatial import ConvexHull
 
-from regkit.report.look import Form
+from regkit.report.frame_drawing import DrawnPrimitives
 from regkit.system.arrays import Array
 
 _CIRCLE = np.array([np.cos(np.linspace(0, 2 * np.pi, 49)), np.sin(np.linspace(0, 2 * np.pi, 49))])
 
 
-def outlines(form: Form, view: tuple[int, int]) -> Iterator[Array]:
-    """What a view shows of primitives, each a closed line (2, P) [m]; nothing of points.
+def outlines(primitives: DrawnPrimitives, view: tuple[int, int]) -> Iterator[Array]:
+    """Yields the outline of each primitive as a closed line (2, P) [m]; points have none.
 
     Args:
-        form: Gaussians, of which the 2-sigma ellipsoids are seen, capsules, or other solids.
-        view: The axes of the camera's frame to the right and down.
+        primitives: Gaussians (drawn as 2-sigma ellipsoids), capsules or other solids.
+        view: The horizontal and the vertical axis of the view, in the camera frame.
     """
-    if form.kind == "gaussians":
-        for centre, covariance in zip(form.centres, form.covariances(), strict=True):
+    if primitives.kind == "gaussians":
+        for centre, covariance in zip(primitives.centres, primitives.covariances(), strict=True):
             # The outline of a projected ellipsoid is the ellipse of its projected covariance.
             root = np.linalg.cholesky(covariance[np.ix_(view, view)])
             yield centre[[*view]][:, None] + 2.0 * root @ _CIRCLE
-    elif form.kind == "capsules":
-        ways = form.halves[:, None] * form.axes[:, :, 1]
-        ends = np.stack([form.centres - ways, form.centres + ways], axis=1)[:, :, [*view]]
-        for pair, radii in zip(ends, form.radii, strict=True):
+    elif primitives.kind == "capsules":
+        ways = primitives.halves[:, None] * primitives.axes[:, :, 1]
+        ends = np.stack([primitives.centres - ways, primitives.centres + ways], axis=1)[
+            :, :, [*view]
+        ]
+        for pair, radii in zip(ends, primitives.radii, strict=True):
             circles = pair[:, :, None] + radii[:, None, None] * _CIRCLE
             yield _hull(circles.transpose(0, 2, 1).reshape(-1, 2))
-    elif form.kind == "solids":
-        surfaces = form.centres[:, None] + form.surfaces @ np.swapaxes(form.axes, 1, 2)
+    elif primitives.kind == "solids":
+        surfaces = primitives.centres[:, None] + primitives.surfaces @ np.swapaxes(
+            primitives.axes, 1, 2
+        )
         yield from map(_hull, surfaces[:, :, [*view]])
 
 
 def _hull(points: Array) -> Array:
-    """The closed line (2, P) around points (N, 2)."""
+    """Returns the convex hull of points (N, 2) as a closed line (2, P)."""
     around = ConvexHull(points).vertices
     return np.asarray(points[[*around, around[0]]].T)

@@ -1,4 +1,4 @@
-"""The report's page, which needs no other file, and its Markdown twin."""
+"""The report as a self-contained HTML page, and as Markdown."""
 
 from __future__ import annotations
 
@@ -15,34 +15,34 @@ from regkit.metrics import mean_of
 from regkit.metrics.pairs import best
 from regkit.report.brief import brief, flow
 from regkit.report.figures import plots
+from regkit.report.labels import BY_NAME, NAMES, counted
 from regkit.report.overlay import draw_overlay
 from regkit.report.plot import DARK, LIGHT, Plot
 from regkit.report.run import Run
 from regkit.report.summary import metrics, write_tables
 from regkit.report.tables import main_table, pair_table, recording_table
-from regkit.report.words import BY_NAME, NAMES, many
 from regkit.system.files import write_json, write_text
 
 if TYPE_CHECKING:
     from jinja2 import Environment
 
 PICTURES = 12
-"""So many overlays are on the page, the worst recordings of each method, or the worst one of the
-first methods; the others are linked."""
+"""Maximum number of overlays on the page, those of each method's worst recordings; the others are
+linked."""
 
 ROWS = 40
-"""A table of more rows than this is folded up."""
+"""Maximum number of rows of a table that is shown unfolded."""
 
 
 @dataclass(frozen=True)
 class Picture:
-    """An overlay.
+    """An overlay of a method on a recording.
 
     Attributes:
-        method: Of which method.
-        recording: On which recording.
-        file: Where it is.
-        link: The same from the results folder, as a URL.
+        method: Name of the method.
+        recording: Name of the recording.
+        file: Path of the image.
+        link: URL of the image relative to the results folder.
     """
 
     method: str
@@ -53,7 +53,7 @@ class Picture:
 
 @dataclass(frozen=True)
 class Drawn:
-    """A figure, and its pictures on light and dark paper."""
+    """A plot, and its PNG images on light and dark background."""
 
     plot: Plot
     light: bytes
@@ -61,18 +61,26 @@ class Drawn:
 
 
 def write_summary(run: Run, folder: Path) -> None:
-    """Write the figures and ``report.md`` without pictures; it takes no time to speak of."""
+    """Writes ``metrics.json`` and ``report.md`` without figures, which is fast.
+
+    Args:
+        run: The results.
+        folder: The results folder.
+
+    Raises:
+        DataError: If a file cannot be written.
+    """
     write_json(folder / "metrics.json", metrics(run))
     write_text(folder / "report.md", _text("report.md", run, folder, []))
 
 
 def write_report(run: Run, folder: Path, *, figures: bool = True) -> None:
-    """Write everything: the page, its Markdown twin, figures, pictures and numbers.
+    """Writes the complete report: HTML page, Markdown, figures, overlays, metrics and tables.
 
     Args:
-        run: What was found.
-        folder: Where to.
-        figures: Whether figures are drawn, which takes some seconds.
+        run: The results.
+        folder: The results folder.
+        figures: Whether to draw figures, which takes a few seconds.
 
     Raises:
         DataError: If a file cannot be written.
@@ -124,25 +132,29 @@ def _text(template: str, run: Run, folder: Path, drawn: list[Drawn]) -> str:
         figures=drawn,
         pictures=shown,
         others=[one for one in pictures if one not in shown and one.file.exists()],
-        many=many,
+        counted=counted,
     )  # fmt: skip
 
 
 def _finding(run: Run) -> str:
-    """The comparison in one sentence."""
-    counts = f"{many(len(run.measures), 'method')} on {many(len(run.recordings), 'recording')}"
-    first = best(run.finished, run.figure)
+    """Returns the result of the comparison in one sentence."""
+    counts = (
+        f"{counted(len(run.measures), 'method')} on {counted(len(run.recordings), 'recording')}"
+    )
+    first = best(run.finished, run.metric)
     if first is None:
         return f"{counts}."
     shared = [run.measures[first][recording] for recording in run.shared]
-    column = BY_NAME[run.figure]
-    least = f"{column.shown(getattr(mean_of(shared), run.figure))} {column.unit}"
+    column = BY_NAME[run.metric]
+    least = f"{column.shown(getattr(mean_of(shared), run.metric))} {column.unit}"
     if len(run.finished) == 1:
-        return f"{counts}: its {NAMES[run.figure]} is {least}."
+        return f"{counts}: its {NAMES[run.metric]} is {least}."
     part = (
-        "" if len(run.shared) == len(run.recordings) else f" on the {len(run.shared)} that all did"
+        ""
+        if len(run.shared) == len(run.recordings)
+        else f" on the {len(run.shared)} that all methods finished"
     )
-    return f"{counts}: {first} has the least {NAMES[run.figure]}, {least}{part}."
+    return f"{counts}: {first} has the least {NAMES[run.metric]}, {least}{part}."
 
 
 def _compared(run: Run) -> list[tuple[str, str]]:
@@ -152,7 +164,7 @@ def _compared(run: Run) -> list[tuple[str, str]]:
 
 
 def _worst(run: Run) -> Iterator[tuple[str, str]]:
-    """The overlays that are shown: of each method, the recordings that went worst."""
+    """Yields the methods and recordings whose overlays are shown: each method's worst."""
     if sum(map(len, run.finished.values())) <= PICTURES:
         each = len(run.recordings)
     else:
@@ -193,7 +205,7 @@ def _embedded(png: bytes) -> str:
 
 
 def _markdown(text: object) -> str:
-    """Text that Markdown takes as it is, also in a table."""
+    """Returns text with Markdown's special characters escaped, also for use in a table."""
     flat = " ".join(str(text).split())
     for special in "\\|*`[]<":
         flat = flat.replace(special, "\\" + special)

@@ -1,4 +1,4 @@
-"""A figure with its numbers and words, drawn on light and on dark paper."""
+"""Plots: figures with their captions and data, drawn on a light or a dark background."""
 
 from __future__ import annotations
 
@@ -21,27 +21,27 @@ if TYPE_CHECKING:
     from matplotlib.legend import Legend
 
 WIDTH = 5.4
-"""Of a figure, in inches; so narrow, its letters can still be read on a phone."""
+"""Width of a figure [in], narrow enough to be legible on a phone."""
 
 DPI = 160
 
 LINE = 0.19
-"""Height of a legend's row, in inches."""
+"""Height of a row of a legend [in]."""
 
 NAME = 30
-"""So many letters of a name stand in one line beside an axis."""
+"""Maximum number of characters of a name in one line beside an axis."""
 
 Value = str | float | int | None
 
 
 @dataclass(frozen=True)
 class Ink:
-    """What a figure is drawn with.
+    """The colours of a figure.
 
     Attributes:
-        text: The colour of letters and axes.
-        faint: Of grids, and of what stands behind.
-        paper: What it is drawn on.
+        text: Colour of text and axes.
+        faint: Colour of grids and backgrounds.
+        paper: Colour of the figure's background.
     """
 
     text: str
@@ -55,16 +55,16 @@ DARK = Ink(text="#E4E4E4", faint="#4A4D52", paper="#1B1D20")
 
 @dataclass(frozen=True)
 class Plot:
-    """A figure of the report.
+    """A figure of the report with its data.
 
     Attributes:
-        name: Of its files.
-        title: Its heading.
-        caption: What is seen, and what it means.
-        alt: The same for those who cannot see it.
-        draw: Draws it.
-        columns: What the numbers are, with their units.
-        rows: The numbers.
+        name: Stem of its file names.
+        title: Heading.
+        caption: Caption.
+        alt: Alternative text for screen readers.
+        draw: Function that draws the figure in given colours.
+        columns: Headings of the data's columns, with units.
+        rows: The data.
     """
 
     name: str
@@ -76,18 +76,30 @@ class Plot:
     rows: Sequence[Sequence[Value]]
 
     def png(self, ink: Ink) -> bytes:
-        """The picture."""
+        """Returns the figure as PNG."""
         return png(self.draw(ink), DPI)
 
     def write(self, folder: Path, picture: bytes) -> None:
-        """Write the picture, and the numbers beside it."""
+        """Writes the image as PNG and the data as CSV.
+
+        Args:
+            folder: The folder for both files.
+            picture: The PNG image.
+
+        Raises:
+            DataError: If a file cannot be written.
+        """
         with replacing(folder / f"{self.name}.png") as temporary:
             temporary.write_bytes(picture)
         write_csv(folder / f"{self.name}.csv", self.columns, self.rows)
 
 
 def write_csv(path: Path, columns: Sequence[str], rows: Iterable[Sequence[Value]]) -> None:
-    """Write a table; what is not known is an empty cell."""
+    """Writes a table as CSV; unknown values are empty cells.
+
+    Raises:
+        DataError: If the file cannot be written.
+    """
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(columns)
@@ -102,7 +114,10 @@ def _cell(value: Value) -> str:
 
 
 def canvas(ink: Ink, height: float, width: float = WIDTH) -> Figure:
-    """An empty figure; the object interface needs no display and leaves no global state behind."""
+    """Returns an empty figure of a height and width [in].
+
+    The object interface of Matplotlib needs no display and has no global state.
+    """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
@@ -112,7 +127,7 @@ def canvas(ink: Ink, height: float, width: float = WIDTH) -> Figure:
 
 
 def styled(axes: Axes, ink: Ink, grid: str | None = None) -> Axes:
-    """Axes in an ink, with lines along one of them (``x`` or ``y``) or none."""
+    """Styles axes in the colours of ``ink``, with grid lines for ``x``, ``y`` or neither."""
     axes.set_facecolor(ink.paper)
     for side, spine in axes.spines.items():
         spine.set_visible(side in ("left", "bottom"))
@@ -133,14 +148,21 @@ def styled(axes: Axes, ink: Ink, grid: str | None = None) -> Axes:
 def legend_above(
     figure: Figure, ink: Ink, handles: Sequence[Artist] | None = None, title: str | None = None
 ) -> None:
-    """A legend above all axes, of the artists that have labels or of others, in an ink."""
+    """Adds a legend above all axes.
+
+    Args:
+        figure: The figure; its height grows with the rows of the legend.
+        ink: Colours of the figure.
+        handles: Artists of the legend; by default the labelled ones of the first axes.
+        title: Title of the legend.
+    """
     if handles is None:
         handles = list(figure.axes[0].get_legend_handles_labels()[0])
     widest = max((len(str(handle.get_label())) for handle in handles), default=1)
     fitting = max(1, int(figure.get_figwidth() / (0.6 + 0.075 * widest)))
-    # As even as may be: five are three and two, not four and one.
+    # Balance the rows: five entries are three and two, not four and one.
     rows = -(-len(handles) // fitting)
-    # The axes keep their height, however many rows there are above them.
+    # The axes keep their height for any number of rows.
     figure.set_figheight(figure.get_figheight() + LINE * (rows - 1))
     legend = figure.legend(
         handles=handles,
@@ -154,7 +176,7 @@ def legend_above(
 
 
 def inked(legend: Legend, ink: Ink) -> None:
-    """A legend without a frame, in an ink."""
+    """Styles a legend in the colours of ``ink``, without a frame."""
     legend.set_frame_on(False)
     legend.get_title().set_color(ink.text)
     for text in legend.get_texts():

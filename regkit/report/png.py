@@ -1,4 +1,4 @@
-"""Figures as small PNG files."""
+"""Compact PNG images of figures."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 COLOURS = 256
-"""A figure has few colours; a palette makes its file a third as large."""
+"""Size of the palette. Figures have few colours, and a palette reduces the file to a third."""
 
 
 def png(figure: Figure, dpi: float) -> bytes:
-    """The picture of a figure."""
+    """Returns a figure as PNG with a palette, at a resolution of ``dpi``."""
     from PIL import Image
 
     stream = io.BytesIO()

@@ -1,4 +1,4 @@
-"""What is kept of a tracked recording for figures and pictures, so that they can be made anew."""
+"""Records: the data of a tracked recording from which its figures and overlays can be redrawn."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from typing import Any, Self
 import numpy as np
 
 from regkit.interfaces import Registrar
-from regkit.metrics import PCK_PART, JointErrors, Losses
+from regkit.metrics import PCK_FRACTION, JointErrors, Losses
 from regkit.observation import Truth
-from regkit.report.look import Look
+from regkit.report.frame_drawing import FrameDrawing
 from regkit.system.arrays import Array
 from regkit.tracking import Snapshot, Track
 
@@ -20,18 +20,18 @@ Arrays = dict[str, np.ndarray[Any, Any]]
 
 @dataclass(frozen=True)
 class Record:
-    """A tracked recording of T frames as its figures need it.
+    """The data of a tracked recording of T frames that figures and overlays show.
 
     Attributes:
-        fps: Frames per second at which it was recorded.
-        size: Of the body [m].
-        errors: Of the joints, if they have references.
-        surface_distances: Median distance of a frame's points to the body's surface, (T,) [m]; NaN
-            for a body without one.
-        seconds: To observe and register, (T,).
-        preprocessing: To observe, (T,) [s].
-        evaluations: Of the energy, (T,).
-        looks: The first, the worst and the last frame; one that is two of these is there once.
+        fps: Frames per second of the recording.
+        size: Size of the body [m].
+        errors: Joint errors, if there are reference joints.
+        surface_distances: Median distance of each frame's points to the body's surface, (T,) [m];
+            NaN for a body without a surface.
+        seconds: Time to preprocess and register each frame, (T,) [s].
+        preprocessing: Time to preprocess each frame, (T,) [s].
+        evaluations: Number of energy evaluations of each frame, (T,).
+        drawings: Snapshots of the first, the worst and the last frame, without duplicates.
     """
 
     fps: float
@@ -41,7 +41,7 @@ class Record:
     seconds: Array
     preprocessing: Array
     evaluations: Array
-    looks: tuple[Look, ...]
+    drawings: tuple[FrameDrawing, ...]
 
     @classmethod
     def of(
@@ -53,19 +53,19 @@ class Record:
         truth: Truth | None,
         fps: float,
     ) -> Self:
-        """The record of what was tracked.
+        """Returns the record of a tracked recording.
 
         Args:
-            track: What was tracked.
-            snapshot: Gives a frame of it by its number.
-            registrar: What registered them.
-            errors: Of the joints, if they have references.
-            truth: The references themselves, which the pictures show.
-            fps: Frames per second at which the recording was recorded.
+            track: The tracked recording.
+            snapshot: Returns the snapshot of a frame by its number.
+            registrar: The registrar that registered the frames.
+            errors: Joint errors, if there are reference joints.
+            truth: Reference joints, which overlays show.
+            fps: Frames per second of the recording.
         """
         positions = None if truth is None else truth.positions
-        looks = [
-            Look.at(
+        drawings = [
+            FrameDrawing.at(
                 name,
                 snapshot(index),
                 registrar,
@@ -81,21 +81,21 @@ class Record:
             seconds=track.seconds,
             preprocessing=track.preprocessing,
             evaluations=track.evaluations,
-            looks=tuple(looks),
+            drawings=tuple(drawings),
         )
 
     @property
-    def near(self) -> float:
-        """Within which distance [m] a joint is near its reference."""
-        return PCK_PART * self.size
+    def pck_threshold(self) -> float:
+        """The PCK threshold [m] of the body."""
+        return PCK_FRACTION * self.size
 
     @property
     def losses(self) -> Losses | None:
-        """In which frames the body was lost, if that is known."""
-        return None if self.errors is None else Losses.of(self.errors.raw, self.near)
+        """The frames in which the body was lost; None without reference joints."""
+        return None if self.errors is None else Losses.of(self.errors.raw, self.pck_threshold)
 
     def arrays(self) -> Arrays:
-        """The record as named arrays, of single precision where they are many."""
+        """Returns the record as named arrays; those of drawings have single precision."""
         named: Arrays = {
             "fps": np.array(self.fps),
             "size": np.array(self.size),
@@ -108,29 +108,29 @@ class Record:
             named["joints"] = np.array(self.errors.joints, dtype=np.str_)
             named["raw"] = self.errors.raw
             named["adjusted"] = self.errors.adjusted
-        for number, look in enumerate(self.looks):
-            named |= {f"look{number}_{name}": array for name, array in look.arrays().items()}
+        for number, drawing in enumerate(self.drawings):
+            named |= {f"drawing{number}_{name}": array for name, array in drawing.arrays().items()}
         return named
 
     @classmethod
     def from_arrays(cls, named: Mapping[str, np.ndarray[Any, Any]]) -> Self:
-        """The record that was written as ``arrays``.
+        """Returns the record of named arrays from ``arrays``.
 
         Raises:
-            KeyError: If one is missing.
+            KeyError: If an array is missing.
         """
         errors = None
         if "joints" in named:
             joints = tuple(str(joint) for joint in named["joints"])
             errors = JointErrors(joints, named["raw"], named["adjusted"])
-        looks: list[Look] = []
-        while any(name.startswith(prefix := f"look{len(looks)}_") for name in named):
+        drawings: list[FrameDrawing] = []
+        while any(name.startswith(prefix := f"drawing{len(drawings)}_") for name in named):
             own = {
                 name.removeprefix(prefix): array
                 for name, array in named.items()
                 if name.startswith(prefix)
             }
-            looks.append(Look.from_arrays(own))
+            drawings.append(FrameDrawing.from_arrays(own))
         return cls(
             fps=float(named["fps"]),
             size=float(named["size"]),
@@ -139,15 +139,15 @@ class Record:
             seconds=named["seconds"],
             preprocessing=named["preprocessing"],
             evaluations=named["evaluations"],
-            looks=tuple(looks),
+            drawings=tuple(drawings),
         )
 
 
 def _chosen(track: Track, errors: JointErrors | None) -> dict[int, str]:
-    """The frames to be looked at, and why; the worst by joint error, or by surface distance."""
+    """Returns the frames of the drawings with reasons; the worst is by joint error, if known."""
     last = len(track.seconds) - 1
     if last == 0:
-        return {0: "the only one"}
+        return {0: "the only frame"}
     chosen = {0: "first", last: "last"}
     badness = track.surface_distances
     if errors is not None and np.isfinite(errors.raw).any():

@@ -1,4 +1,4 @@
-"""What a report is made of: everything that a results folder holds."""
+"""The contents of a results folder, from which a report is made."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from regkit.report.record import Record
 from regkit.report.style import Style, styles
 
 MOST_DRAWN = 12
-"""Curves or bars of more methods than this in one figure cannot be told apart."""
+"""Maximum number of methods in one figure; more curves or bars are indistinguishable."""
 
 
 @dataclass(frozen=True)
@@ -23,13 +23,13 @@ class Run:
     """The results of an experiment.
 
     Attributes:
-        config: The experiment with every default filled in.
+        config: The experiment's configuration with all defaults.
         text: The same as YAML.
-        environment: Versions and machine.
-        measures: Figures by method and recording.
-        failures: Why a recording failed, by method and recording.
-        records: What is kept of each finished recording, by method and recording.
-        chosen: Pairs of methods that the user wants compared.
+        environment: Machine and library versions.
+        measures: Metrics by method and recording.
+        failures: Reasons of failure by method and recording.
+        records: Records of finished recordings by method and recording.
+        chosen: Pairs of methods that the user selected for comparison.
     """
 
     config: Mapping[str, Any]
@@ -42,28 +42,28 @@ class Run:
 
     @property
     def name(self) -> str:
-        """What the experiment is called."""
+        """The name of the experiment."""
         return str(self.config.get("name", "results"))
 
     @cached_property
     def recordings(self) -> list[str]:
-        """The names of all recordings, in the order in which they were met."""
+        """The names of all recordings, in order of first occurrence."""
         found = [name for by in (*self.measures.values(), *self.failures.values()) for name in by]
         return list(dict.fromkeys(found))
 
     @cached_property
     def finished(self) -> dict[str, Mapping[str, Measure]]:
-        """The figures of the methods that finished a recording."""
+        """The metrics of the methods that finished at least one recording."""
         return {name: by_recording for name, by_recording in self.measures.items() if by_recording}
 
     @cached_property
     def shared(self) -> list[str]:
-        """The recordings that every method finished, of those that finished any."""
+        """The recordings that all methods in ``finished`` have finished."""
         return [s for s in self.recordings if all(s in by for by in self.finished.values())]
 
     @cached_property
     def drawn(self) -> list[str]:
-        """The methods that share a figure: all that finished a recording, or the best of many."""
+        """The methods that are drawn: those in ``finished``, or the best of them if too many."""
         names = list(self.finished)
         if len(names) <= MOST_DRAWN:
             return names
@@ -78,40 +78,40 @@ class Run:
 
     @property
     def not_drawn(self) -> str:
-        """What a figure's caption says of the methods that are left out of it."""
+        """The sentence of a caption about methods that are not drawn."""
         if len(self.drawn) == len(self.finished):
             return ""
         return f" Of {len(self.finished)} methods the {len(self.drawn)} best are drawn."
 
     @cached_property
     def compared(self) -> bool:
-        """Whether anyone has a joint error."""
+        """Whether any method has joint errors."""
         known = (m.joint_error_raw_cm for by in self.measures.values() for m in by.values())
         return any(one is not None for one in known)
 
     @property
-    def figure(self) -> str:
-        """The figure that methods are judged by: the joint error where anyone has it."""
+    def metric(self) -> str:
+        """The metric that ranks methods: the joint error if any method has one."""
         return "joint_error_raw_cm" if self.compared else "surface_distance_mm"
 
-    def value(self, method: str, recording: str, figure: str | None = None) -> float | None:
-        """A figure of a method on a recording, or None."""
+    def value(self, method: str, recording: str, metric: str | None = None) -> float | None:
+        """Returns a metric, by default the ranking one, of a method on a recording, or None."""
         measure = self.measures.get(method, {}).get(recording)
-        value: float | None = None if measure is None else getattr(measure, figure or self.figure)
+        value: float | None = None if measure is None else getattr(measure, metric or self.metric)
         return value
 
     @cached_property
     def styles(self) -> dict[str, Style]:
-        """How each method is drawn."""
+        """The style of each method."""
         return method_styles(self.config, self.measures)
 
     def style(self, method: str) -> Style:
-        """How a method is drawn."""
+        """Returns the style of a method."""
         return self.styles[method]
 
     @cached_property
     def shape_pairs(self) -> list[tuple[str, str]]:
-        """Methods that differ in their shape model alone."""
+        """Pairs of methods that differ in their shape model only."""
         methods = {name: dict(self.method(name)) for name in self.finished}
         shapes = {name: config.pop("shape", None) for name, config in methods.items()}
         names = [name for name in methods if shapes[name] is not None]
@@ -125,27 +125,27 @@ class Run:
         ]
 
     def method(self, name: str) -> Mapping[str, Any]:
-        """The configuration of a method."""
+        """Returns the configuration of a method."""
         return _configured(self.config, name)
 
     def pairs(self) -> list[Pair]:
-        """The tests between pairs of methods: the best one, of shape models, and chosen ones."""
-        figures = [self.figure]
+        """Returns the comparisons of the best method with others, of shape models, and chosen."""
+        metrics = [self.metric]
         if self.compared:
-            figures.append("joint_error_adjusted_cm")
+            metrics.append("joint_error_adjusted_cm")
         chosen = (*self.shape_pairs, *self.chosen)
-        return [pair for figure in figures for pair in compared(self.finished, figure, chosen)]
+        return [pair for metric in metrics for pair in compared(self.finished, metric, chosen)]
 
     def worst(self, method: str) -> list[str]:
-        """The recordings that a method finished, the worst first; those without a figure last."""
+        """Returns the recordings that a method finished, worst first, without a metric last."""
         values = {name: self.value(method, name) for name in self.measures.get(method, {})}
         return sorted(values, key=lambda name: -_or(values[name], -np.inf))
 
 
 def method_styles(config: Mapping[str, Any], others: Iterable[str] = ()) -> dict[str, Style]:
-    """How each method of an experiment is drawn, and others that it does not name.
+    """Returns the style of each method of an experiment, and of others that it does not list.
 
-    A method that a sweep runs as ``SETTING/METHOD`` is not drawn itself, and takes no colour.
+    A method that a sweep runs as ``SETTING/METHOD`` is not drawn itself and gets no style.
     """
     names = list(others)
     swept = {name.rpartition("/")[2] for name in names if "/" in name}
@@ -157,18 +157,18 @@ def method_styles(config: Mapping[str, Any], others: Iterable[str] = ()) -> dict
 
 
 def _configured(config: Mapping[str, Any], name: str) -> Mapping[str, Any]:
-    """The configuration of a method, which a sweep calls ``SETTING/METHOD``."""
+    """Returns the configuration of a method, also by its name in a sweep, ``SETTING/METHOD``."""
     methods: Mapping[str, Mapping[str, Any]] = config.get("methods", {})
     return methods.get(name, methods.get(name.rpartition("/")[2], {}))
 
 
 def shape_of(method: Mapping[str, Any]) -> str | None:
-    """The kind of a method's shape model, or its own if it has none."""
+    """Returns the kind of a method's shape model, or of the method if it has none."""
     return kind_of(method.get("shape")) or kind_of(method)
 
 
 def kind_of(plugin: Any) -> str | None:
-    """The kind of a plug-in's configuration, which may be its name alone."""
+    """Returns the kind of a plug-in's configuration, a mapping or just the kind."""
     if isinstance(plugin, Mapping):
         return str(plugin["kind"]) if "kind" in plugin else None
     return None if plugin is None else str(plugin)

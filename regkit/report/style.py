@@ -1,4 +1,4 @@
-"""One look for each method, the same in all figures."""
+"""Styles of methods, the same in all figures."""
 
 from __future__ import annotations
 
@@ -8,26 +8,26 @@ from dataclasses import dataclass
 from matplotlib.colors import to_hex, to_rgb
 
 PALETTE = ("#0072B2", "#D55E00", "#009E73", "#E69F00", "#CC79A7", "#56B4E9", "#7F7F7F")
-"""Okabe and Ito's colours, which the colour-blind can tell apart; yellow is too pale for paper."""
+"""The colour-blind safe palette of Okabe and Ito, without yellow, which is too pale."""
 
 HATCHES = ("", "//", "..", "xx")
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">")
 DASHES = ("-", "--", "-.", ":")
 
 SHADES = (0.0, 0.4, -0.35)
-"""Methods of one shape model: its colour, a lighter one, a darker one."""
+"""Shades of methods with the same shape model: its colour, a lighter one, a darker one."""
 
 
 @dataclass(frozen=True)
 class Style:
-    """How a method is drawn.
+    """The style of a method.
 
     Attributes:
-        shape: The name of its shape model, or of the method if it has none.
-        colour: As #rrggbb.
-        hatch: Of its bars.
-        marker: Of its points.
-        dash: Of its lines.
+        shape: Name of its shape model, or of the method if it has none.
+        colour: Colour as #rrggbb.
+        hatch: Hatch of its bars.
+        marker: Marker of its points.
+        dash: Dash pattern of its lines.
     """
 
     shape: str
@@ -38,10 +38,13 @@ class Style:
 
 
 def styles(shapes: Mapping[str, str]) -> dict[str, Style]:
-    """The look of each method, by name, for the name of its shape model.
+    """Returns the style of each method.
 
-    Colours tell shape models apart, and shades, hatches and markers the methods of one. Where that
-    would tell little, as there is one shape model or many methods of one, each method has its own.
+    Colours distinguish shape models, and shades, hatches and markers the methods of one shape
+    model. With a single shape model, or many methods of one, each method has its own colour.
+
+    Args:
+        shapes: Name of the shape model by method.
     """
     families = list(dict.fromkeys(shapes.values()))
     sizes = [list(shapes.values()).count(family) for family in families]
@@ -65,7 +68,7 @@ def styles(shapes: Mapping[str, str]) -> dict[str, Style]:
 
 
 def _shaded(colour: str, shade: float) -> str:
-    """A colour mixed with white, or with black where the shade is negative."""
+    """Returns a colour mixed with white, or with black if the shade is negative."""
     goal = 1.0 if shade > 0.0 else 0.0
     red, green, blue = (part + abs(shade) * (goal - part) for part in to_rgb(colour))
     return to_hex((red, green, blue))

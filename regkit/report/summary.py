@@ -1,4 +1,4 @@
-"""Everything that was measured, as JSON and as tables for other programs."""
+"""All metrics as JSON and as CSV tables, for use in other programs."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from regkit.report.figures.joints import errors_of, joint_means
 from regkit.report.plot import Value, write_csv
 from regkit.report.run import Run
 
-FIGURES = [field.name for field in fields(Measure)]
+METRICS = [field.name for field in fields(Measure)]
 
 
 def metrics(run: Run) -> dict[str, Any]:
-    """``metrics.json``: figures by method and recording, and what they say together.
+    """Returns the contents of ``metrics.json``: metrics by method and recording, and statistics.
 
-    A failed recording has all its figures None, and says why.
+    All metrics of a failed recording are None, and ``error`` holds the reason.
     """
     methods = {}
     for method, by_recording in run.measures.items():
@@ -27,7 +27,7 @@ def metrics(run: Run) -> dict[str, Any]:
         for recording, reason in run.failures.get(method, {}).items():
             recordings[recording] = mean_of([]).to_dict() | {"error": reason}
         found = list(by_recording.values())
-        over = {name: summary([getattr(one, name) for one in found]) for name in FIGURES}
+        over = {name: summary([getattr(one, name) for one in found]) for name in METRICS}
         methods[method] = {
             "recordings": recordings,
             "mean": mean_of(found).to_dict(),
@@ -40,14 +40,18 @@ def metrics(run: Run) -> dict[str, Any]:
 
 
 def write_tables(run: Run, folder: Path) -> None:
-    """Write the same as CSV."""
-    write_csv(folder / "recordings.csv", ["method", "recording", *FIGURES, "error"], _each(run))
+    """Writes the same as CSV files in ``folder``.
+
+    Raises:
+        DataError: If a file cannot be written.
+    """
+    write_csv(folder / "recordings.csv", ["method", "recording", *METRICS, "error"], _each(run))
     rows = []
     for method, by_recording in run.finished.items():
-        for name in FIGURES:
+        for name in METRICS:
             over = summary([getattr(one, name) for one in by_recording.values()])
             rows.append([method, name, over.n, over.mean, over.median, *_ends(over.interval)])
-    columns = ["method", "figure", "recordings", "mean", "median"]
+    columns = ["method", "metric", "recordings", "mean", "median"]
     write_csv(folder / "methods.csv", [*columns, "mean, 95 % from", "to"], rows)
     joints = [
         [method, joint, one["raw_cm"], one["adjusted_cm"]]
@@ -57,10 +61,10 @@ def write_tables(run: Run, folder: Path) -> None:
     write_csv(folder / "joints.csv", ["method", "joint", "raw [cm]", "adjusted [cm]"], joints)
     write_csv(
         folder / "pairs.csv",
-        ["figure", "method", "other", "recordings", "won", "tied", "median difference",
+        ["metric", "method", "other", "recordings", "won", "tied", "median difference",
          "95 % from", "to", "p (Wilcoxon)", "p (Holm)"],
         [
-            [one.figure, one.method, one.other, one.n, one.won, one.tied, one.difference,
+            [one.metric, one.method, one.other, one.n, one.won, one.tied, one.difference,
              *_ends(one.interval), one.p, one.p_holm]
             for one in run.pairs()
         ],
@@ -72,7 +76,7 @@ def _each(run: Run) -> Iterator[list[Value]]:
         for recording, measure in by_recording.items():
             yield [method, recording, *measure.to_dict().values(), None]
         for recording, reason in run.failures.get(method, {}).items():
-            yield [method, recording, *(None for _ in FIGURES), reason]
+            yield [method, recording, *(None for _ in METRICS), reason]
 
 
 def _joints(run: Run, method: str) -> dict[str, dict[str, float | None]]:

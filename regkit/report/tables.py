@@ -1,4 +1,4 @@
-"""The tables of a report, for a page, for Markdown and for a terminal."""
+"""Tables of a report, for HTML, Markdown and the terminal."""
 
 from __future__ import annotations
 
@@ -8,30 +8,30 @@ from dataclasses import dataclass, replace
 from regkit.metrics import Measure, Pair, mean_of, summary
 from regkit.metrics.pairs import Measures
 from regkit.metrics.statistics import Interval
-from regkit.report.words import BY_NAME, COLUMNS, NAMES, Column
+from regkit.report.labels import BY_NAME, COLUMNS, NAMES, Column
 
 TERMINAL = {
     "joint_error_raw_cm": "raw [cm]",
     "joint_error_adjusted_cm": "adj. [cm]",
-    "pck_percent": "near [%]",
+    "pck_percent": "PCK [%]",
     "lost_frames": "lost",
     "surface_distance_mm": "surf. [mm]",
     "limit_violation_deg": "limits [°]",
     "fps": "fps",
 }
-"""The figures that a terminal of 80 characters has room for, and what it calls them."""
+"""Metrics and headings of the table in a terminal of 80 characters."""
 
 
 @dataclass(frozen=True)
 class Cell:
-    """One cell.
+    """A cell of a table.
 
     Attributes:
-        text: What is read.
-        key: What it is sorted by, or None if it is unknown and stands last.
-        best: Whether no other in its column is better.
-        note: What stands below it, smaller.
-        number: Whether it is a number, which stands to the right.
+        text: Displayed text.
+        key: Sort key; None for an unknown value, which sorts last.
+        best: Whether no other value in its column is better.
+        note: Smaller text below.
+        number: Whether it is a number, which is right-aligned.
     """
 
     text: str
@@ -43,12 +43,12 @@ class Cell:
 
 @dataclass(frozen=True)
 class Table:
-    """A table that can be sorted.
+    """A sortable table.
 
     Attributes:
-        name: Of its file.
-        caption: What it shows.
-        headings: Of the columns, with their units.
+        name: Identifier of the table.
+        caption: Caption.
+        headings: Headings of the columns, with units.
         rows: The cells.
     """
 
@@ -58,27 +58,27 @@ class Table:
     rows: list[list[Cell]]
 
 
-def shown(figure: float | None) -> str:
-    """A figure as a person wants to read it in a terminal."""
-    if figure is None:
+def shown(metric: float | None) -> str:
+    """Returns a metric as text for the terminal."""
+    if metric is None:
         return "-"
-    return f"{figure:.0f}" if float(figure).is_integer() else f"{figure:.1f}"
+    return f"{metric:.0f}" if float(metric).is_integer() else f"{metric:.1f}"
 
 
 def rows(measures: Mapping[str, Mapping[str, Measure]]) -> list[list[str]]:
-    """One row for each method: its name, the number of its recordings, and the mean figures."""
+    """Returns a row for each method: name, number of recordings, and mean metrics."""
     table = []
     for method, by_recording in measures.items():
         if not by_recording:
             continue
         mean = mean_of(list(by_recording.values()))
-        figures = [shown(getattr(mean, name)) for name in TERMINAL]
-        table.append([method, str(len(by_recording)), *figures])
+        metrics = [shown(getattr(mean, name)) for name in TERMINAL]
+        table.append([method, str(len(by_recording)), *metrics])
     return table
 
 
 def main_table(measures: Measures) -> Table:
-    """The methods' means, with the interval and the median of the joint errors."""
+    """Returns the table of each method's mean metrics, with intervals of the main ones."""
     finished = {name: list(by.values()) for name, by in measures.items() if by}
     means = {name: mean_of(found) for name, found in finished.items()}
     columns = _known(list(means.values()))
@@ -90,27 +90,27 @@ def main_table(measures: Measures) -> Table:
             Cell(str(len(finished[name])), len(finished[name])),
         ]
         for column in columns:
-            value = getattr(mean, column.figure)
+            value = getattr(mean, column.metric)
             note = ""
-            if column.figure in NAMES:
-                whole = summary([getattr(one, column.figure) for one in finished[name]])
+            if column.metric in NAMES:
+                whole = summary([getattr(one, column.metric) for one in finished[name]])
                 note = interval_text(whole.interval, column.digits)
-            rivals = [getattr(one, column.figure) for one in means.values()]
+            rivals = [getattr(one, column.metric) for one in means.values()]
             best = alike and _is_best(value, rivals, column)
             cells.append(Cell(column.shown(value), value, best, note))
         table.append(cells)
     return Table(
         "methods",
-        "The mean of each figure over the recordings that a method finished; below it the 95 % "
-        "bootstrap interval of the mean, where there are recordings enough."
-        + ("" if alike else " Nothing is bold, for the methods finished different recordings."),
+        "The mean of each metric over the recordings that a method finished, and below it the 95 % "
+        "bootstrap interval of the mean if there are enough recordings."
+        + ("" if alike else " Nothing is bold because the methods finished different recordings."),
         ["method", "recordings", *(column.heading for column in columns)],
         table,
     )
 
 
 def recording_table(measures: Measures) -> Table:
-    """Every method on every recording."""
+    """Returns the table of every method on every recording."""
     each = [(m, s, one) for m, by in measures.items() for s, one in by.items()]
     columns = _known([one for _, _, one in each])
     table = []
@@ -118,32 +118,32 @@ def recording_table(measures: Measures) -> Table:
         cells = [Cell(recording, recording, number=False), Cell(method, method, number=False)]
         rivals = [one for _, name, one in each if name == recording]
         for column in columns:
-            value = getattr(measure, column.figure)
+            value = getattr(measure, column.metric)
             best = len(rivals) > 1 and _is_best(
-                value, [getattr(one, column.figure) for one in rivals], column
+                value, [getattr(one, column.metric) for one in rivals], column
             )
             cells.append(Cell(column.shown(value), value, best))
         table.append(cells)
     return Table(
         "recordings",
-        "Every method on every recording; bold is the best method of a recording.",
+        "Every method on every recording; the best method of a recording is bold.",
         ["recording", "method", *(column.heading for column in columns)],
         table,
     )
 
 
 def pair_table(pairs: list[Pair]) -> Table:
-    """The tests between pairs of methods; of one recording alone they say nothing."""
+    """Returns the table of pairwise comparisons, without rows for a single recording."""
     table = []
     if all(pair.n < 2 for pair in pairs):
         pairs = []
     for pair in pairs:
-        digits = BY_NAME[pair.figure].digits
+        digits = BY_NAME[pair.metric].digits
         tied = f", {pair.tied} the same" if pair.tied else ""
         table.append(
             [
                 Cell(f"{pair.method} against {pair.other}", pair.method, number=False),
-                Cell(BY_NAME[pair.figure].heading, pair.figure, number=False),
+                Cell(BY_NAME[pair.metric].heading, pair.metric, number=False),
                 Cell(f"{pair.won} of {pair.n}{tied}", pair.won / pair.n),
                 Cell(
                     f"{pair.difference:+.{digits}f}",
@@ -156,31 +156,31 @@ def pair_table(pairs: list[Pair]) -> Table:
         )
     return Table(
         "pairs",
-        "The best method against each other one, methods that differ in their shape model alone, "
-        "and pairs that were asked for: in how many recordings the first one is better, and by how "
-        "much; a negative difference is in its favour.",
-        ["pair", "figure", "won", "median difference", "p (Wilcoxon)", "p (Holm)"],
+        "The best method against each other one, methods that differ in their shape model only, "
+        "and selected pairs: the number of recordings on which the first method is better, and the "
+        "difference; a negative difference is in its favour.",
+        ["pair", "metric", "won", "median difference", "p (Wilcoxon)", "p (Holm)"],
         table,
     )
 
 
 def interval_text(interval: Interval | None, digits: int) -> str:
-    """An interval, or nothing."""
+    """Returns an interval as text; empty for None."""
     return "" if interval is None else f"{interval[0]:.{digits}f} … {interval[1]:.{digits}f}"
 
 
 def p_text(p: float | None) -> str:
-    """A p-value with sensible digits."""
+    """Returns a p-value as text."""
     if p is None:
         return "-"
     return "< 0.001" if p < 0.001 else f"{p:.2g}" if p < 0.1 else f"{p:.2f}"
 
 
 def _known(measures: list[Measure]) -> list[Column]:
-    """The columns that anyone has a figure for; whole numbers alone have no digits."""
+    """Returns the columns with a known value; columns of whole numbers have no decimals."""
     columns = []
     for column in COLUMNS:
-        values = [getattr(measure, column.figure) for measure in measures]
+        values = [getattr(measure, column.metric) for measure in measures]
         known = [value for value in values if value is not None]
         if known:
             whole = all(float(value).is_integer() for value in known)
@@ -189,7 +189,7 @@ def _known(measures: list[Measure]) -> list[Column]:
 
 
 def _is_best(value: float | None, rivals: list[float | None], column: Column) -> bool:
-    """Whether a value is as good as the best; where all are alike, nothing is said."""
+    """Returns whether a value equals the best one; False if all values are equal."""
     known = [round(rival, column.digits) for rival in rivals if rival is not None]
     if value is None or not column.better or len(set(known)) < 2:
         return False

@@ -60,11 +60,11 @@ class LimbSearch:
             if not own.any():
                 continue
             poses = limb.rotated(rest, balls, hinges)
-            axes = body.capsules.some(own).axis_points(SPACING * body.size)
+            axes = body.capsules.selected(own).axis_points(SPACING * body.size)
             transforms = Placement.of(body.skeleton, poses).transforms
             places = axes.place(transforms) - transforms[:, limb.parent, None, :3, 3]
             places = places @ transforms[:, limb.parent, :3, :3]
-            yield cls(body, limb, axes, body.capsules.some(~own), balls, hinges, places)
+            yield cls(body, limb, axes, body.capsules.selected(~own), balls, hinges, places)
 
     def starts(self, cloud: KDTree, pose: Pose, most: int) -> Iterator[Pose]:
         """The poses, at most so many, whose limb covers best what the rest leaves bare.

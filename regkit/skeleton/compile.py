@@ -1,4 +1,4 @@
-"""From the tree that a person wrote to the arrays that are computed with."""
+"""Compilation of a skeleton's YAML description into the arrays of a ``Skeleton``."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class _Links:
 
 
 def compiled(description: SkeletonDescription, scale: float = 1.0) -> Skeleton:
-    """The skeleton of a description, its lengths multiplied by ``scale``."""
+    """Returns the skeleton of a description, with all lengths multiplied by ``scale``."""
     names = parents_first(description.segments)
     links = _Links()
     segment_links: dict[str, int] = {}
@@ -82,7 +82,6 @@ def _skeleton(
 ) -> Skeleton:
     parents = [description.segments[name].parent for name in names]
     chains = [_chain(link, links.parents) for link in range(len(links.parents))]
-    depths = np.array([len(chain) for chain in chains])
     ball_links = np.array([link for link, _ in links.balls], dtype=np.intp)
     hinge_links = np.array([link for link, _, _ in links.hinges], dtype=np.intp)
     movers = [*([0] * 6 if free else []), *np.repeat(ball_links, 3), *hinge_links]
@@ -93,12 +92,11 @@ def _skeleton(
         segment_links=np.array([segment_links[name] for name in names], dtype=np.intp),
         link_parents=np.array(links.parents, dtype=np.intp),
         link_offsets=read_only(links.offsets),
-        levels=tuple(np.flatnonzero(depths == d) for d in range(2, int(depths.max()) + 1)),
         ball_links=ball_links,
         hinge_links=hinge_links,
         hinge_axes=read_only([axis for _, axis, _ in links.hinges]).reshape(-1, 3),
         joint_dofs=_joint_dofs(links, segment_links, first=6 if free else 0),
-        moves=read_only(
+        dof_mask=read_only(
             [[mover in chains[segment_links[name]] for name in names] for mover in movers]
         ).reshape(len(movers), len(names)),
         limits=_limits(links, segment_links),
@@ -106,7 +104,7 @@ def _skeleton(
 
 
 def _joint_dofs(links: _Links, segment_links: dict[str, int], *, first: int) -> dict[str, Indices]:
-    """Three for a ball, one for a hinge, and for a universal joint those of two links."""
+    """Returns the dof indices of each joint: 3 for a ball, 1 for a hinge, 2 for a universal."""
     dofs: dict[int, list[int]] = {}
     for link, _ in links.balls:
         dofs[link] = [first, first + 1, first + 2]
@@ -125,7 +123,7 @@ def _joint_dofs(links: _Links, segment_links: dict[str, int], *, first: int) -> 
 
 
 def _chain(link: int, parents: list[int]) -> list[int]:
-    """A link and all that it hangs on."""
+    """Returns a link and all its ancestors."""
     chain = [link]
     while parents[chain[-1]] >= 0:
         chain.append(parents[chain[-1]])

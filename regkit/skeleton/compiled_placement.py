@@ -1,4 +1,4 @@
-"""Forward kinematics in compiled loops: on a few joints NumPy's calls cost more than their work."""
+"""Forward kinematics in compiled loops; for few joints NumPy's call overhead would dominate."""
 
 from __future__ import annotations
 
@@ -20,7 +20,18 @@ def place_links(
     hinge_axes: Array,
     hinges: Array,
 ) -> Array:
-    """T_world_link of P poses, (P, L, 4, 4), for balls (P, n_ball, 4) and hinges (P, n_hinge)."""
+    """Returns T_world_link (P, L, 4, 4) of P poses.
+
+    Args:
+        offsets: T_parent_joint of each link at rest, (L, 4, 4).
+        parents: Parent of each link, (L,); -1 for the root.
+        root: T_world_root, (4, 4).
+        ball_links: Link of each ball joint, (n_ball,).
+        balls: Unit quaternions of the ball joints, (P, n_ball, 4).
+        hinge_links: Link of each hinge, (n_hinge,).
+        hinge_axes: Unit axes of the hinges in their link frames, (n_hinge, 3).
+        hinges: Hinge angles, (P, n_hinge) [rad].
+    """
     poses, count = len(hinges), len(offsets)
     links = np.empty((poses, count, 4, 4))
     turns = np.empty((count, 3, 3))
@@ -82,7 +93,18 @@ def joint_twists(
     dofs: int,
     root: Array,
 ) -> Array:
-    """The world twists (n, 6) about a reference of the dofs at unit rate."""
+    """Returns the world twist (n, 6), linear first, of each degree of freedom at unit rate.
+
+    Args:
+        links: T_world_link, (L, 4, 4).
+        reference: The point that the twists refer to, in the world, (3,) [m].
+        first: Number of degrees of freedom of the root, 6 or 0.
+        ball_links: Link of each ball joint, (n_ball,).
+        hinge_links: Link of each hinge, (n_hinge,).
+        hinge_axes: Unit axes of the hinges in their link frames, (n_hinge, 3).
+        dofs: Number n of degrees of freedom.
+        root: T_world_root, (4, 4).
+    """
     twists = np.zeros((dofs, 6))
     if first == 6:
         for i in range(3):
@@ -111,20 +133,26 @@ def joint_twists(
 
 
 @compiled
-def segment_jacobian(twists: Array, moves: Array, arms: Array) -> Array:
-    """(S, 6, n) of the dofs' twists (n, 6), of what they move (n, S), and of arms (S, 3)."""
-    dofs, segments = moves.shape
+def segment_jacobian(twists: Array, dof_mask: Array, arms: Array) -> Array:
+    """Returns the Jacobian (S, 6, n) of the segments' twists about their origins.
+
+    Args:
+        twists: World twists of the degrees of freedom about the reference, (n, 6).
+        dof_mask: 1 where a degree of freedom moves a segment, else 0, (n, S).
+        arms: Vectors from the reference to the segments' origins, (S, 3) [m].
+    """
+    dofs, segments = dof_mask.shape
     jacobian = np.zeros((segments, 6, dofs))
     for segment in range(segments):
         x, y, z = arms[segment]
-        for freedom in range(dofs):
-            if moves[freedom, segment] == 0.0:
+        for dof in range(dofs):
+            if dof_mask[dof, segment] == 0.0:
                 continue
-            v0, v1, v2, w0, w1, w2 = twists[freedom]
-            jacobian[segment, 0, freedom] = v0 + w1 * z - w2 * y
-            jacobian[segment, 1, freedom] = v1 + w2 * x - w0 * z
-            jacobian[segment, 2, freedom] = v2 + w0 * y - w1 * x
-            jacobian[segment, 3, freedom] = w0
-            jacobian[segment, 4, freedom] = w1
-            jacobian[segment, 5, freedom] = w2
+            v0, v1, v2, w0, w1, w2 = twists[dof]
+            jacobian[segment, 0, dof] = v0 + w1 * z - w2 * y
+            jacobian[segment, 1, dof] = v1 + w2 * x - w0 * z
+            jacobian[segment, 2, dof] = v2 + w0 * y - w1 * x
+            jacobian[segment, 3, dof] = w0
+            jacobian[segment, 4, dof] = w1
+            jacobian[segment, 5, dof] = w2
     return jacobian

@@ -1,4 +1,4 @@
-"""Single rotations in compiled loops; the formulas are those of ``regkit.geometry.rotation``."""
+"""Rotation functions on scalars for compiled loops; see ``regkit.geometry.rotation``."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from regkit.system.compiled import compiled
 
 @compiled
 def set_rotation(matrix: Array, x: float, y: float, z: float, w: float) -> None:
-    """Writes the rotation matrix of a unit quaternion into (3, 3)."""
+    """Writes the rotation matrix of a unit quaternion into ``matrix`` (3, 3)."""
     matrix[0, 0] = 1 - 2 * (y * y + z * z)
     matrix[1, 1] = 1 - 2 * (x * x + z * z)
     matrix[2, 2] = 1 - 2 * (x * x + y * y)
@@ -21,7 +21,7 @@ def set_rotation(matrix: Array, x: float, y: float, z: float, w: float) -> None:
 
 @compiled
 def exponential(x: float, y: float, z: float) -> tuple[float, float, float, float]:
-    """The unit quaternion of a rotation vector [rad]."""
+    """Returns the unit quaternion (x, y, z, w) of a rotation vector (x, y, z) [rad]."""
     square = x * x + y * y + z * z
     half = 0.5 * sqrt(square)
     scale = 0.5 - square / 48.0 if half < 1e-4 else sin(half) / (2.0 * half)
@@ -32,7 +32,7 @@ def exponential(x: float, y: float, z: float) -> tuple[float, float, float, floa
 def hamilton_product(
     a: float, b: float, c: float, d: float, x: float, y: float, z: float, w: float
 ) -> tuple[float, float, float, float]:
-    """The Hamilton product (a, b, c, d) (x, y, z, w)."""
+    """Returns the Hamilton product of the quaternions (a, b, c, d) and (x, y, z, w)."""
     return (
         d * x + w * a + b * z - c * y,
         d * y + w * b + c * x - a * z,

@@ -1,4 +1,4 @@
-"""Steps of poses and their limits, in compiled loops."""
+"""Retraction, differences and limits of poses in compiled loops."""
 
 from __future__ import annotations
 
@@ -12,8 +12,12 @@ from regkit.system.compiled import compiled
 
 
 @compiled
-def moved_root(root: Array, step: Array) -> Array:
-    """The root (4, 4) after a translation in the world and a rotation vector in its own frame."""
+def retracted_root(root: Array, step: Array) -> Array:
+    """Returns T_world_root (4, 4) after a step (>= 6,) on the tangent space.
+
+    The step begins with a translation in the world [m] and a rotation vector in the root frame
+    [rad].
+    """
     turn = np.empty((3, 3))
     x, y, z, w = exponential(step[3], step[4], step[5])
     set_rotation(turn, x, y, z, w)
@@ -28,8 +32,8 @@ def moved_root(root: Array, step: Array) -> Array:
 
 
 @compiled
-def turned_balls(balls: Array, turns: Array) -> Array:
-    """Balls (n_ball, 4) after rotation vectors (n_ball, 3) in the frames that they turn."""
+def retracted_balls(balls: Array, turns: Array) -> Array:
+    """Returns quaternions ``balls * exp(turns)`` (n_ball, 4) for rotation vectors (n_ball, 3)."""
     result = np.empty_like(balls)
     for index in range(len(balls)):
         a, b, c, d = balls[index]
@@ -41,7 +45,10 @@ def turned_balls(balls: Array, turns: Array) -> Array:
 
 @compiled
 def ball_steps(starts: Array, ends: Array) -> Array:
-    """The rotation vectors (n_ball, 3) [rad], of at most half a turn, from balls to balls."""
+    """Returns the rotation vectors (n_ball, 3) [rad] with ``starts * exp(steps) = ends``.
+
+    Both arguments are unit quaternions (n_ball, 4); a rotation angle is at most pi.
+    """
     steps = np.empty((len(starts), 3))
     for index in range(len(starts)):
         a, b, c, d = starts[index]
@@ -57,7 +64,13 @@ def ball_steps(starts: Array, ends: Array) -> Array:
 
 @compiled
 def step_jacobian(step: Array, first: int, last: int) -> Array:
-    """The identity (n, n) but for the right Jacobians of the rotation vectors step[first:last]."""
+    """Returns the identity (n, n) with right Jacobians of SO(3) as diagonal blocks.
+
+    Args:
+        step: A step on the tangent space, (n,).
+        first: Index in ``step`` of the first rotation vector [rad].
+        last: Index after the last rotation vector.
+    """
     jacobian = np.eye(len(step))
     for start in range(first, last, 3):
         v = step[start : start + 3]
@@ -84,14 +97,17 @@ def step_jacobian(step: Array, first: int, last: int) -> Array:
 def within_limits(
     balls: Array, centre: Array, twist_axis: Array, cone: Array, twist_limits: Array
 ) -> tuple[Array, bool]:
-    """Balls with swings shortened to their cones and twists clipped; whether any was turned.
+    """Projects ball joints onto their limits: swings onto their cones, twists onto intervals.
 
     Args:
-        balls: (n_ball, 4).
-        centre: Middles of the cones, (n_ball, 4).
-        twist_axis: (n_ball, 3).
-        cone: The two swing axes over the cone's half angles, (n_ball, 2, 3).
-        twist_limits: (n_ball, 2).
+        balls: Unit quaternions, (n_ball, 4).
+        centre: Centres of the swing cones as unit quaternions, (n_ball, 4).
+        twist_axis: Unit vectors, (n_ball, 3).
+        cone: Swing axes divided by the half angles of the cone, (n_ball, 2, 3) [1/rad].
+        twist_limits: Lower and upper twist, (n_ball, 2) [rad].
+
+    Returns:
+        The projected quaternions (n_ball, 4), and whether any of them changed.
     """
     result = balls.copy()
     changed = False

@@ -1,4 +1,4 @@
-"""Coupled hinges: angles that follow from those of others, as in a finger's last joint."""
+"""Coupled hinges, whose angle is an affine function of another one, as a finger's last joint."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from regkit.system.arrays import Array, Indices
 
 @dataclass(frozen=True)
 class Couplings:
-    """``follower = ratio * leader + offset``, for C pairs of the hinges.
+    """``follower = ratio * leader + offset`` for C pairs of hinges.
 
-    A follower has no coordinate of its own; so every solver holds a coupling exactly.
+    A follower is not an optimisation variable, so every solver satisfies a coupling exactly.
 
     Attributes:
-        hinges: How many hinges there are.
-        followers: Which hinges follow, (C,).
-        leaders: Which hinge each of them follows, itself no follower, (C,).
-        ratios: (C,).
-        offsets: (C,) [rad].
+        hinges: Number of hinges, n_hinge.
+        followers: Indices of the following hinges, (C,).
+        leaders: Index of the hinge that each follower follows, (C,); a leader follows no other.
+        ratios: Ratio of each coupling, (C,).
+        offsets: Offset of each coupling, (C,) [rad].
     """
 
     hinges: int
@@ -36,33 +36,40 @@ class Couplings:
 
     @cached_property
     def independent(self) -> Indices:
-        """The hinges that follow no other, in their order."""
+        """Indices of the hinges that follow no other, ascending, (n_hinge - C,)."""
         return np.setdiff1d(np.arange(self.hinges), self.followers)
 
     @cached_property
-    def spread(self) -> Array:
-        """By how much each hinge turns with each independent one, (n_hinge, n_hinge - C)."""
-        spread = np.zeros((self.hinges, self.hinges))
-        spread[self.independent, self.independent] = 1.0
-        spread[self.followers, self.leaders] = self.ratios
-        return spread[:, self.independent]
+    def jacobian(self) -> Array:
+        """Derivative of all hinge angles to the independent ones, (n_hinge, n_hinge - C)."""
+        jacobian = np.zeros((self.hinges, self.hinges))
+        jacobian[self.independent, self.independent] = 1.0
+        jacobian[self.followers, self.leaders] = self.ratios
+        return jacobian[:, self.independent]
 
     def coupled(self, hinges: Array) -> Array:
-        """The same angles (..., n_hinge) [rad], those of the followers made to follow."""
+        """Returns the angles (..., n_hinge) [rad] with the followers set from their leaders."""
         if not len(self):
             return hinges
         coupled = hinges.copy()
         coupled[..., self.followers] = self.ratios * hinges[..., self.leaders] + self.offsets
         return coupled
 
-    def misfit(self, hinges: Array) -> Array:
-        """How far each follower (C,) is from where it should be [rad]."""
+    def residuals(self, hinges: Array) -> Array:
+        """Returns the deviation (C,) [rad] of each follower from its coupling.
+
+        Args:
+            hinges: Hinge angles, (n_hinge,) [rad].
+        """
         return np.asarray(hinges - self.coupled(hinges))[self.followers]
 
     def narrowed(self, limits: Array) -> Array:
-        """The hinges' limits (n_hinge, 2) [rad], those of leaders such that followers keep theirs.
+        """Returns the limits (n_hinge, 2) [rad] with leaders narrowed to their followers' limits.
 
-        An empty interval has its ends reversed.
+        An empty interval has its lower end above its upper end.
+
+        Args:
+            limits: Lower and upper angle of each hinge, (n_hinge, 2) [rad].
         """
         narrowed = limits.copy()
         for follower, leader, ratio, offset in zip(

@@ -1,4 +1,4 @@
-"""What a skeleton's YAML holds: a tree of named segments."""
+"""The YAML description of a skeleton: a tree of named segments."""
 
 from __future__ import annotations
 
@@ -14,35 +14,35 @@ Radius = Annotated[float, Field(gt=0.0)]
 
 
 class CapsuleDescription(Model):
-    """The convex hull of two spheres, in the segment's frame."""
+    """A tapered capsule, the convex hull of two spheres, in the segment's frame."""
 
     start: Vector
     """Centre of the first sphere [m]."""
     end: Vector
-    """Centre of the second sphere [m]; the same as the first makes one sphere."""
+    """Centre of the second sphere [m]; equal to ``start`` it makes a single sphere."""
     radius: Radius | tuple[Radius, Radius]
-    """One radius, or that of the first and of the second sphere [m]."""
+    """Radius of both spheres, or the radii of the first and the second [m]."""
 
 
 class SegmentDescription(Model):
-    """One rigid segment and the joint that ties it to its parent."""
+    """One rigid segment and the joint that connects it to its parent."""
 
     parent: str | None = None
-    """Name of the parent segment; the one segment without it is the root."""
+    """Name of the parent segment; exactly one segment, the root, has none."""
     offset: Vector = (0.0, 0.0, 0.0)
     """Position of the joint in the parent's frame [m]."""
     rotation_deg: Vector = (0.0, 0.0, 0.0)
-    """Rotation vector of the joint's frame in the parent's at rest [deg]; zero: parallel."""
+    """Rotation vector of the joint's frame in the parent's frame at rest [deg]."""
     joint: Joint | None = None
-    """How the segment moves relative to its parent; it is fixed to it without. A root must say."""
+    """Joint to the parent, fixed by default; for the root, which must name it, to the world."""
     capsules: tuple[CapsuleDescription, ...] = ()
-    """The segment's surface."""
+    """Capsules that approximate the segment's surface."""
     markers: dict[str, Vector] = Field(default_factory=dict)
-    """Named points in the segment's frame [m]: joints, fingertips, whatever can be measured."""
+    """Named points in the segment's frame [m], such as joints or fingertips."""
 
 
 class SkeletonDescription(Model):
-    """A tree of segments; in the rest pose every joint angle is zero."""
+    """A tree of segments. All joint angles are zero in the rest pose."""
 
     segments: dict[str, SegmentDescription] = Field(min_length=1)
     """The segments by name, in any order."""
@@ -55,7 +55,8 @@ class SkeletonDescription(Model):
             for marker in segment.markers:
                 if marker in owners:
                     raise _wrong(
-                        f"marker '{marker}' is on '{owners[marker]}' and on '{name}'",
+                        f"marker '{marker}' is on '{owners[marker]}' and on '{name}'; marker names "
+                        "must be unique",
                         name,
                         "markers",
                         marker,
@@ -66,7 +67,7 @@ class SkeletonDescription(Model):
 
 
 def parents_first(segments: dict[str, SegmentDescription]) -> list[str]:
-    """The names ordered so that each parent comes before its children.
+    """Returns the segment names with each parent before its children.
 
     Raises:
         ValidationError: If there is not exactly one root, a parent is unknown, the tree has a
@@ -83,12 +84,14 @@ def parents_first(segments: dict[str, SegmentDescription]) -> list[str]:
                 "parent",
             )
         if segment.parent is not None and isinstance(segment.joint, FreeJoint):
-            raise _wrong(f"segment '{name}' has a free joint; only the root may", name, "joint")
+            raise _wrong(
+                f"segment '{name}' has a free joint; only the root may have one", name, "joint"
+            )
     for name in roots:
         if segments[name].joint is None:
             raise _wrong(
-                f"the root '{name}' has no joint; write joint: {{type: free}}, or fixed if it "
-                "rests",
+                f"the root '{name}' has no joint; write joint: {{type: free}}, or {{type: fixed}} "
+                "if it does not move",
                 name,
             )
     if len(roots) > 1:
@@ -110,31 +113,31 @@ def parents_first(segments: dict[str, SegmentDescription]) -> list[str]:
 
 
 def _check_couplings(segments: dict[str, SegmentDescription]) -> None:
-    """A leader is another hinge that follows none, and has angles that suit all its followers."""
+    """Checks that leaders are independent hinges whose limits are compatible with all followers."""
     hinges = {n: s.joint for n, s in segments.items() if isinstance(s.joint, HingeJoint)}
     leaders = [name for name, hinge in hinges.items() if hinge.coupled is None]
-    left: dict[str, tuple[float, float]] = {}
+    remaining: dict[str, tuple[float, float]] = {}
     for name, follower in hinges.items():
         if follower.coupled is None:
             continue
         to = follower.coupled.to
         if to not in leaders:
-            reason = f"'{to}' follows another itself" if to in hinges else f"'{to}' is no hinge"
+            reason = f"'{to}' is itself coupled" if to in hinges else f"'{to}' is not a hinge"
             reason = "a hinge cannot follow itself" if to == name else reason
             raise _wrong(
-                f"{reason}; '{name}' can follow a hinge that follows none "
+                f"{reason}; '{name}' can follow an independent hinge "
                 f"(there are: {', '.join(leaders)})" + did_you_mean(to, leaders),
                 *(name, "joint", "coupled", "to"),
             )
-        low, high = left.get(to, hinges[to].limits_deg or (-np.inf, np.inf))
+        low, high = remaining.get(to, hinges[to].limits_deg or (-np.inf, np.inf))
         own = follower.limits_deg or (-np.inf, np.inf)
         ratio, offset = follower.coupled.ratio, follower.coupled.offset_deg
         ends = sorted((end - offset) / ratio for end in own)
-        left[to] = max(low, ends[0]), min(high, ends[1])
-        if left[to][0] > left[to][1]:
+        remaining[to] = max(low, ends[0]), min(high, ends[1])
+        if remaining[to][0] > remaining[to][1]:
             raise _wrong(
-                f"no angle of '{to}' keeps all limits: '{name}' needs it between {ends[0]:g} and "
-                f"{ends[1]:g} degrees, and its own limits and what else follows it leave "
+                f"no angle of '{to}' satisfies all limits: '{name}' needs it between {ends[0]:g} "
+                f"and {ends[1]:g} degrees, but its own limits and its other followers allow only "
                 f"{low:g} to {high:g}",
                 *(name, "joint", "coupled"),
             )

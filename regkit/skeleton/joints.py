@@ -1,4 +1,4 @@
-"""What a skeleton's YAML says of a joint: its type, axes and limits, in degrees."""
+"""The YAML description of joints: type, axes and limits, in degrees."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from regkit.config.model import Model
 Vector = tuple[float, float, float]
 
 Letter = Literal["x", "y", "z", "-x", "-y", "-z"]
-"""A direction along an axis."""
+"""A signed coordinate axis."""
 
 _LETTERS: dict[str, Vector] = {
     "x": (1.0, 0.0, 0.0),
@@ -24,22 +24,22 @@ _LETTERS: dict[str, Vector] = {
 }
 
 
-LEAST_RATIO = 1e-3
-"""A hinge that turns by less than this with its leader can as well be fixed."""
+MIN_RATIO = 1e-3
+"""Smallest magnitude of a coupling's ratio; below it the joint is practically fixed."""
 
 
 def _from_letter(value: Any) -> Any:
     if isinstance(value, str) and value in _LETTERS:
         return _LETTERS[value]
     if isinstance(value, str):
-        raise ValueError(f"an axis is x, y, z, -x, -y, -z or three numbers; it is {value!r}")
+        raise ValueError(f"{value!r} is not an axis: write x, y, z, -x, -y, -z or three numbers")
     return value
 
 
 def _of_unit_length(value: Vector) -> Vector:
     length = float(np.linalg.norm(value))
     if length < 1e-9:
-        raise ValueError("an axis must not be zero")
+        raise ValueError(f"the axis {list(value)} has no direction; it must not be zero")
     x, y, z = value
     return (x / length, y / length, z / length)
 
@@ -51,10 +51,10 @@ def _in_order(value: tuple[float, float]) -> tuple[float, float]:
 
 
 def _not_zero(value: float) -> float:
-    if abs(value) < LEAST_RATIO:
+    if abs(value) < MIN_RATIO:
         raise ValueError(
-            f"a ratio is at least {LEAST_RATIO:g}, or at most -{LEAST_RATIO:g}; it is {value:g}; a "
-            "joint that does not turn is of type fixed"
+            f"the ratio {value:g} is too small: its magnitude must be at least {MIN_RATIO:g}; for "
+            "a joint that does not turn write type: fixed"
         )
     return value
 
@@ -73,8 +73,8 @@ Range = Annotated[tuple[float, float], AfterValidator(_in_order)]
 def _within_half_a_turn(value: tuple[float, float]) -> tuple[float, float]:
     if value[0] < -180.0 or value[1] > 180.0:
         raise ValueError(
-            f"a twist is between -180 and 180 degrees; the limits are {list(value)}; turn the "
-            "middle of the cone (centre_deg) instead"
+            f"twist limits must be between -180 and 180 degrees; they are {list(value)}; rotate "
+            "the centre of the cone (centre_deg) instead"
         )
     return value
 
@@ -85,73 +85,79 @@ HalfAngle = Annotated[float, Field(gt=0.0, le=180.0)]
 
 
 class FreeJoint(Model):
-    """The root moves and turns freely in the world: six degrees of freedom."""
+    """The root translates and rotates freely in the world: six degrees of freedom."""
 
     type: Literal["free"] = "free"
 
 
 class FixedJoint(Model):
-    """The segment moves with its parent."""
+    """The segment is rigidly attached to its parent."""
 
     type: Literal["fixed"] = "fixed"
 
 
 class CouplingDescription(Model):
-    """A hinge's angle follows that of another: ``ratio * angle + offset_deg``."""
+    """Couples a hinge to another hinge: ``angle = ratio * leader + offset_deg``."""
 
     to: str
-    """The segment whose hinge leads."""
+    """Segment whose hinge is the leader."""
     ratio: Annotated[float, AfterValidator(_not_zero)]
-    """By how much the angle turns with that of the leader."""
+    """Change of this angle per change of the leader's angle."""
     offset_deg: float = 0.0
-    """The angle where that of the leader is zero [deg]."""
+    """Angle at which the leader's angle is zero [deg]."""
 
 
 class HingeJoint(Model):
-    """One angle about an axis."""
+    """A revolute joint: one angle about one axis."""
 
     type: Literal["hinge"]
     axis: Axis
-    """Axis of the rotation in the segment's frame."""
+    """Rotation axis in the segment's frame."""
     limits_deg: Range | None = None
-    """Smallest and largest angle [deg]; without them the hinge turns freely."""
+    """Smallest and largest angle [deg]; unlimited by default."""
     coupled: CouplingDescription | None = None
-    """What the angle follows from, if it is not free."""
+    """Coupling to another hinge; by default the hinge is independent."""
 
 
 class UniversalJoint(Model):
-    """Two hinges, one after the other: the second axis turns with the first."""
+    """Two hinges in series; the second axis rotates with the first hinge."""
 
     type: Literal["universal"]
     axes: tuple[Axis, Axis]
-    """Axes of the two rotations in the frames in which they act."""
+    """Axes of the first and the second hinge, each in its own frame."""
     limits_deg: tuple[Range, Range] | None = None
-    """Smallest and largest angle of each [deg]."""
+    """Smallest and largest angle of each hinge [deg]; unlimited by default."""
 
 
 class BallJoint(Model):
-    """Any rotation, split for its limits into a swing of the bone and a twist about it.
+    """A spherical joint with swing-twist limits.
 
-    The rotation relative to the centre is ``swing * twist``. The swing, a rotation vector at right
-    angles to the twist axis, must lie in an ellipse (an elliptic cone for the bone).
+    The rotation relative to the centre is decomposed as ``swing * twist``. The swing, a rotation
+    vector perpendicular to the twist axis, is limited to an ellipse, so the bone to an elliptic
+    cone; the twist about the bone is limited to an interval.
     """
 
     type: Literal["ball"]
     twist_axis: Axis = (0.0, 1.0, 0.0)
     """The bone's direction in the segment's frame."""
     swing_axis: Axis = (1.0, 0.0, 0.0)
-    """Axis of the first swing angle; that of the second is at right angles to both."""
+    """Axis of the first swing angle, perpendicular to the twist axis; the second is their cross
+    product."""
     centre_deg: Vector = (0.0, 0.0, 0.0)
-    """Rotation vector of the middle of the cone, relative to the rest pose [deg]."""
+    """Rotation vector of the cone's centre relative to the rest pose [deg]."""
     swing_deg: tuple[HalfAngle, HalfAngle] | None = None
-    """The cone's half angles about the first and the second swing axis [deg]."""
+    """Half angles of the cone about the first and the second swing axis [deg]; unlimited by
+    default."""
     twist_deg: TwistRange | None = None
-    """Smallest and largest twist [deg]."""
+    """Smallest and largest twist [deg]; unlimited by default."""
 
     @model_validator(mode="after")
     def _axes_at_right_angles(self) -> BallJoint:
         if abs(float(np.dot(self.twist_axis, self.swing_axis))) > 1e-6:
-            raise ValueError("twist_axis and swing_axis must be at right angles")
+            raise ValueError(
+                f"twist_axis {list(self.twist_axis)} and swing_axis {list(self.swing_axis)} must "
+                "be perpendicular"
+            )
         return self
 
 

@@ -1,4 +1,4 @@
-"""Joint limits: intervals and couplings of hinges, a swing cone and a twist interval of balls."""
+"""Joint limits: intervals and couplings for hinges, swing cones and twist intervals for balls."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ from regkit.system.arrays import Array
 
 @dataclass(frozen=True)
 class Limits:
-    """All limits of a skeleton; what has none is bounded by infinity.
+    """All joint limits of a skeleton; an unlimited joint has infinite bounds.
 
     Attributes:
-        hinge: Lower and upper angle, (n_hinge, 2) [rad]; within those of a leader its followers
-            keep theirs.
+        hinge: Lower and upper angle, (n_hinge, 2) [rad]; a leader's limits include those that
+            its followers imply.
         couplings: Hinges that follow others.
-        centre: Middle of each ball's cone as a unit quaternion, (n_ball, 4).
-        twist_axis: Unit vectors in the segments' frames, (n_ball, 3).
+        centre: Centre of each ball's swing cone as a unit quaternion, (n_ball, 4).
+        twist_axis: Unit vectors in the segment frames, (n_ball, 3).
         swing_axis: Axes of the first swing angle, (n_ball, 3).
-        swing: Half angles of the cone, (n_ball, 2) [rad].
+        swing: Half angles of the swing cone, (n_ball, 2) [rad].
         twist: Lower and upper twist, (n_ball, 2) [rad].
     """
 
@@ -46,11 +46,11 @@ class Limits:
     twist: Array
 
     def violation(self, pose: Pose) -> Array:
-        """How far beyond its limits each joint is, (n_ball + n_hinge,) [rad]; zero inside.
+        """Returns the limit violation of each joint, (n_ball + n_hinge,) [rad]; zero inside.
 
-        A ball's is the larger of its twist's and its swing's; the latter is measured along the ray
-        from the middle of the cone through the swing. A hinge that follows another may violate its
-        coupling too, and the larger counts.
+        The violation of a ball joint is the larger of its twist and swing violations; the latter is
+        measured along the ray from the centre of the cone through the swing. The violation of a
+        coupled hinge is the larger of its interval violation and its coupling residual.
         """
         swing, twist = self._swing_twist(pose)
         stretch = self._stretch(swing)
@@ -59,17 +59,17 @@ class Limits:
         balls = np.maximum(outside, _beyond(twist, self.twist))
         hinges = _beyond(pose.hinges, self.hinge)
         followers = self.couplings.followers
-        misfit = np.abs(self.couplings.misfit(pose.hinges))
-        hinges[followers] = np.maximum(hinges[followers], misfit)
+        residuals = np.abs(self.couplings.residuals(pose.hinges))
+        hinges[followers] = np.maximum(hinges[followers], residuals)
         return np.concatenate([balls, hinges])
 
-    def slopes(self, pose: Pose) -> tuple[Array, Array, Array]:
-        """How far beyond its limits each twist, swing and hinge is, and the derivative of that.
+    def linearized(self, pose: Pose) -> tuple[Array, Array, Array]:
+        """Returns the violations of all twists, swings and hinges, and their derivatives.
 
         Returns:
-            The violations (2 n_ball + n_hinge,) [rad] of all twists, all swings and all hinges; the
-            derivatives (2, n_ball, 3) of the twists' and swings' to a rotation vector in the frame
-            that the ball turns; and those of the hinges', (n_hinge,).
+            The violations of all twists, then all swings, then all hinges, (2 n_ball + n_hinge,)
+            [rad]; the derivatives of twist and swing violations to a rotation vector in the frame
+            of the ball's segment, (2, n_ball, 3); the derivatives of hinge violations, (n_hinge,).
         """
         relative = product(self._from_centre, pose.balls)
         swing, twist = swing_twist(relative, self.twist_axis)
@@ -77,9 +77,9 @@ class Limits:
         # dq = q (w, 0) / 2 moves the twist angle 2 atan2(q.a, q_w).
         along = (relative[:, :3] * self.twist_axis).sum(axis=1, keepdims=True)
         scalar = relative[:, 3:]
-        to_twist = scalar * self._turned(relative) + along * relative[:, :3]
+        to_twist = scalar * self._twist_rate(relative) + along * relative[:, :3]
         to_twist /= np.maximum(along**2 + scalar**2, 1e-12)
-        # exp(swing) = q exp(-twist a), so a turn w of q turns the swing by R_twist w - a dtwist.
+        # exp(swing) = q exp(-twist a): rotating q by w rotates the swing by R_twist w - a dtwist.
         turned = to_matrix(from_vector(twist[:, None] * self.twist_axis))
         turned = turned - self.twist_axis[:, :, None] * to_twist[:, None, :]
         to_swing = np.linalg.inv(right_jacobian(swing)) @ turned
@@ -96,14 +96,15 @@ class Limits:
         return violations, np.stack([sign[:, None] * to_twist, swings]), hinge_sign
 
     def hinged(self, pose: Pose) -> Pose:
-        """The pose with its hinges within their limits, followers following; balls as they are."""
+        """Returns the pose with hinges clipped to limits and couplings; balls are unchanged."""
         hinges = self.couplings.coupled(pose.hinges.clip(self.hinge[:, 0], self.hinge[:, 1]))
         return Pose(pose.root, pose.balls, hinges)
 
     def projected(self, pose: Pose) -> Pose:
-        """The pose itself if it keeps the limits; else hinges, swings and twists brought to them.
+        """Returns the pose projected onto the limits; the same object if it satisfies them.
 
-        A swing is shortened towards the middle of its cone; a hinge follows its leader.
+        Hinges and twists are clipped, swings are shortened towards the centre of their cone, and
+        followers are set from their leaders.
         """
         balls, turned = within_limits(
             pose.balls, self.centre, self.twist_axis, self._cone, self.twist
@@ -114,7 +115,11 @@ class Limits:
         return Pose(pose.root, balls, hinges)
 
     def sampled(self, random: np.random.Generator, count: int) -> tuple[Array, Array]:
-        """Joint angles evenly spread over their limits, or all round where there is none.
+        """Samples joint angles uniformly within the limits; unlimited angles within a full turn.
+
+        Args:
+            random: Random generator.
+            count: Number of samples.
 
         Returns:
             Unit quaternions (count, n_ball, 4) and hinge angles (count, n_hinge) [rad].
@@ -133,30 +138,30 @@ class Limits:
         return balls, self.couplings.coupled(hinges)
 
     def _swing_twist(self, pose: Pose) -> tuple[Array, Array]:
-        """Swing vectors (n_ball, 3) and twist angles (n_ball,) relative to the cones' middles."""
+        """Returns swing vectors (n_ball, 3) and twists (n_ball,) relative to the cone centres."""
         return swing_twist(product(self._from_centre, pose.balls), self.twist_axis)
 
-    def _turned(self, relative: Array) -> Array:
-        """The derivative of q.a to w in dq = q (w, 0) / 2, but for the half: q_w a - q x a."""
+    def _twist_rate(self, relative: Array) -> Array:
+        """Returns q_w a - q x a, twice the derivative of q.a to w in dq = q (w, 0) / 2."""
         return np.asarray(
             relative[:, 3:] * self.twist_axis - cross(relative[:, :3], self.twist_axis)
         )
 
     def _stretch_rate(self, swing: Array, stretch: Array) -> Array:
-        """The derivative (n_ball, 3) of the stretch to the swing."""
+        """Returns the derivative (n_ball, 3) of the stretch to the swing."""
         second = cross(self.twist_axis, self.swing_axis)
         first_part = (swing * self.swing_axis).sum(axis=1) / self.swing[:, 0] ** 2 / stretch
         second_part = (swing * second).sum(axis=1) / self.swing[:, 1] ** 2 / stretch
         return np.asarray(first_part[:, None] * self.swing_axis + second_part[:, None] * second)
 
     def _stretch(self, swing: Array) -> Array:
-        """How long a swing is against the cone in its direction, (n_ball,); above 1 outside."""
+        """Returns the swing's length relative to the cone in its direction; above 1 outside."""
         parts = (self._cone @ swing[:, :, None])[:, :, 0]
         return np.asarray(np.hypot(parts[:, 0], parts[:, 1]))
 
     @cached_property
     def _cone(self) -> Array:
-        """The two swing axes over the cone's half angles, (n_ball, 2, 3) [1/rad]."""
+        """The two swing axes divided by the half angles of the cone, (n_ball, 2, 3) [1/rad]."""
         axes = np.stack([self.swing_axis, cross(self.twist_axis, self.swing_axis)], axis=1)
         return np.asarray(axes / self.swing[:, :, None])
 
@@ -170,12 +175,12 @@ def _beyond(angles: Array, interval: Array) -> Array:
 
 
 def _between(intervals: Array, random: np.random.Generator, count: int) -> Array:
-    """Evenly spread angles (count, M) in intervals (M, 2)."""
+    """Returns uniform samples (count, M) of intervals (M, 2)."""
     share = random.uniform(size=(count, len(intervals)))
     return np.asarray(intervals[:, 0] + share * (intervals[:, 1] - intervals[:, 0]))
 
 
 def _signed_beyond(angles: Array, interval: Array) -> tuple[Array, Array]:
-    """How far angles are beyond an interval, and the derivative of that: -1, 0 or 1."""
+    """Returns the violation of an interval and its derivative: -1, 0 or 1."""
     sign = (angles > interval[:, 1]).astype(float) - (angles < interval[:, 0])
     return _beyond(angles, interval), sign

@@ -1,4 +1,4 @@
-"""A placed skeleton: forward kinematics, and the chain rule back to the degrees of freedom."""
+"""Forward kinematics of a pose, and the chain rule to the degrees of freedom."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from regkit.system.arrays import Array, Indices
 
 @dataclass(frozen=True)
 class Placement:
-    """Where a pose puts every link, and how the degrees of freedom move them.
+    """The world transforms of all links in a pose, and their Jacobian.
 
-    Twists and wrenches are linear first: velocity [m] and rotation [rad], force and torque. Here
-    they are taken about the *reference*, the root's origin, which is near enough to the body that
-    nothing cancels.
+    Twists and wrenches are linear first: velocity [m] then rotation [rad], force then torque. They
+    refer to the *reference*, the root's origin, which is close to the body and so avoids
+    cancellation.
 
     Attributes:
-        skeleton: What is placed.
-        pose: How.
+        skeleton: The skeleton.
+        pose: Its pose.
         links: T_world_link, (L, 4, 4).
     """
 
@@ -34,10 +34,10 @@ class Placement:
 
     @classmethod
     def of(cls, skeleton: Skeleton, pose: Pose) -> Placement:
-        """Where a pose puts every link, eq. 4: T_l = T_par(l) R_l, level by level of the tree.
+        """Computes forward kinematics, eq. 4: T_l = T_par(l) R_l.
 
-        The joints of the pose may have leading dimensions, for many poses at once; so have then the
-        links and the transforms.
+        Balls and hinges of the pose may have leading dimensions for many poses at once; ``links``
+        and ``transforms`` then have the same.
         """
         many = pose.hinges.shape[:-1]
         count = int(np.prod(many))
@@ -60,7 +60,7 @@ class Placement:
         return self.links[..., self.skeleton.segment_links, :, :]
 
     def twists(self) -> Array:
-        """The world twist about the reference of each degree of freedom at unit rate, (n, 6)."""
+        """Returns the world twist (n, 6) about the reference of each dof at unit rate."""
         bones = self.skeleton
         return joint_twists(
             self.links,
@@ -74,26 +74,26 @@ class Placement:
         )
 
     def jacobian_transpose(self, wrenches: Array) -> Array:
-        """The generalised force (n,) of wrenches (S, 6) about the segments' origins.
+        """Returns the generalised force (n,) of wrenches (S, 6) about the segments' origins.
 
-        If the wrenches are an energy's derivative to the segments' motion, this is its derivative
-        to the steps that ``Skeleton.retract`` takes, at a zero step.
+        For wrenches that are the derivative of an energy to the segments' twists, this is its
+        gradient to the step of ``Skeleton.retract`` at zero.
         """
         return np.asarray(wrenches.ravel() @ self.jacobian.reshape(-1, self.skeleton.dofs))
 
     def normal_matrix(self, stiffness: Array) -> Array:
-        """The Gauss-Newton matrix (n, n) of (S, 6, 6) blocks about the segments' origins."""
+        """Returns the Gauss-Newton matrix (n, n) of blocks (S, 6, 6) about the segment origins."""
         dofs = self.skeleton.dofs
         loaded = stiffness @ self.jacobian
         return np.asarray(self.jacobian.reshape(-1, dofs).T @ loaded.reshape(-1, dofs))
 
     def rows(self, segments: Indices, points: Array, directions: Array) -> Array:
-        """How the degrees of freedom move points along directions, (R, n).
+        """Returns the Jacobian (R, n) of point displacements along directions.
 
         Args:
-            segments: The segment that carries each point, (R,).
-            points: In the world, (R, 3) [m].
-            directions: In the world, (R, 3).
+            segments: Index of the segment of each point, (R,).
+            points: Points in the world, (R, 3) [m].
+            directions: Directions in the world, (R, 3).
         """
         arms = points - self.transforms[segments, :3, 3]
         wrenches = np.concatenate([directions, cross(arms, directions)], axis=1)
@@ -101,8 +101,8 @@ class Placement:
 
     @cached_property
     def jacobian(self) -> Array:
-        """The twist about its own origin of each segment, by each degree of freedom, (S, 6, n)."""
-        return segment_jacobian(self.twists(), self.skeleton.moves, self._arms)
+        """Twist of each segment about its own origin per degree of freedom, (S, 6, n)."""
+        return segment_jacobian(self.twists(), self.skeleton.dof_mask, self._arms)
 
     @property
     def _reference(self) -> Array:
@@ -110,5 +110,5 @@ class Placement:
 
     @property
     def _arms(self) -> Array:
-        """From the reference to the segments' origins, (S, 3)."""
+        """Vectors from the reference to the segments' origins, (S, 3) [m]."""
         return np.asarray(self.transforms[:, :3, 3] - self._reference)

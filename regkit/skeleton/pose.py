@@ -1,4 +1,4 @@
-"""Poses: where the root is and how every joint is turned."""
+"""Poses: the root transform and all joint angles of a skeleton."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ class Pose:
 
     Attributes:
         root: T_world_root, (4, 4) [m].
-        balls: One unit quaternion (x, y, z, w) for each ball joint, (n_ball, 4).
-        hinges: One angle for each hinge, a universal joint having two, (n_hinge,) [rad].
+        balls: Unit quaternion (x, y, z, w) of each ball joint, (n_ball, 4).
+        hinges: Angle of each hinge, (n_hinge,) [rad]; a universal joint has two hinges.
     """
 
     root: Array
@@ -27,18 +27,18 @@ class Pose:
 
 
 class RootDescription(Model):
-    """Where the root is."""
+    """Position and orientation of the root in the world."""
 
     position: Vector = (0.0, 0.0, 0.0)
     """Position of the root's origin in the world [m]."""
     rotation_deg: Vector = (0.0, 0.0, 0.0)
-    """Rotation vector of the root's frame in the world [deg]."""
+    """Rotation vector of the root frame in the world [deg]."""
 
 
 class PoseDescription(Model):
-    """A pose as a person writes it; what is not named stays at rest."""
+    """A pose in YAML; joints that it does not name are at rest."""
 
     root: RootDescription = RootDescription()
-    """Where the root is."""
+    """Position and orientation of the root in the world."""
     joints: dict[str, float | tuple[float, float] | Vector] = Field(default_factory=dict)
-    """By segment: a hinge's angle, a universal joint's two, or a ball's rotation vector [deg]."""
+    """By segment: one angle of a hinge, two of a universal joint, or a rotation vector [deg]."""

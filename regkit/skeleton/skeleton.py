@@ -1,4 +1,4 @@
-"""Skeletons: a tree of segments, its degrees of freedom, and steps on its poses."""
+"""Skeletons: a tree of segments, its degrees of freedom, and retraction of its poses."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from regkit.geometry.rotation import (
     to_vector,
     vector_to_matrix,
 )
-from regkit.skeleton.compiled_steps import moved_root, turned_balls
+from regkit.skeleton.compiled_steps import retracted_balls, retracted_root
 from regkit.skeleton.limits import Limits
 from regkit.skeleton.pose import Pose, PoseDescription
 from regkit.system.arrays import Array, Indices
@@ -27,27 +27,26 @@ from regkit.system.errors import ConfigError
 
 @dataclass(frozen=True, eq=False)
 class Skeleton:
-    """A tree of *links*, each with at most one joint; ``regkit.skeleton.compile`` makes it.
+    """A tree of *links*, each with at most one joint, built by ``regkit.skeleton.compile``.
 
-    A universal joint is two hinges, the first of them on a link of its own. So every link's joint
-    is free (the root's), a ball, a hinge, or fixed, and a segment is the last link of its joint.
+    A universal joint is two hinges, the first of them on a virtual link. So every link's joint is
+    free (the root only), a ball, a hinge or fixed, and a segment is the last link of its joint.
 
-    The degrees of freedom are ordered: the root's translation (3) and rotation (3) if it is free,
-    three for each ball joint, one for each hinge.
+    The degrees of freedom are ordered: translation (3) and rotation (3) of a free root, three per
+    ball joint, one per hinge.
 
     Attributes:
-        names: Names of the segments, parents first, (S).
-        parents: Index of each segment's parent, -1 for the root, (S,).
-        free: Whether the root moves.
-        segment_links: The link of each segment, (S,).
-        link_parents: Index of each link's parent, -1 for the root, (L,).
+        names: Names of the S segments, parents before children.
+        parents: Index of each segment's parent, (S,); -1 for the root.
+        free: Whether the root has a free joint.
+        segment_links: Link of each segment, (S,).
+        link_parents: Index of each link's parent, (L,); -1 for the root.
         link_offsets: T_parent_joint of each link at rest, (L, 4, 4).
-        levels: Indices of the links at each depth of the tree below the root.
-        ball_links: The link of each ball joint, (n_ball,).
-        hinge_links: The link of each hinge, (n_hinge,).
-        hinge_axes: Unit axis of each hinge in its link's frame, (n_hinge, 3).
-        joint_dofs: The degrees of freedom of each segment's own joint, by the segment's name.
-        moves: 1 where a degree of freedom moves a segment, else 0, (n, S).
+        ball_links: Link of each ball joint, (n_ball,).
+        hinge_links: Link of each hinge, (n_hinge,).
+        hinge_axes: Unit axis of each hinge in its link frame, (n_hinge, 3).
+        joint_dofs: Indices of the degrees of freedom of each joint, by segment name.
+        dof_mask: 1 where a degree of freedom moves a segment, else 0, (n, S).
         limits: Joint limits.
     """
 
@@ -57,58 +56,51 @@ class Skeleton:
     segment_links: Indices
     link_parents: Indices
     link_offsets: Array
-    levels: tuple[Indices, ...]
     ball_links: Indices
     hinge_links: Indices
     hinge_axes: Array
     joint_dofs: Mapping[str, Indices]
-    moves: Array
+    dof_mask: Array
     limits: Limits
-
-    @cached_property
-    def turned_links(self) -> Indices:
-        """The links of all ball joints, then those of all hinges."""
-        return np.concatenate([self.ball_links, self.hinge_links])
-
-    @cached_property
-    def level_parents(self) -> tuple[Indices, ...]:
-        """The parents of the links at each of ``levels``."""
-        return tuple(self.link_parents[level] for level in self.levels)
 
     @property
     def dofs(self) -> int:
         """Number n of degrees of freedom."""
-        return len(self.moves)
+        return len(self.dof_mask)
 
     @property
     def ball_dofs(self) -> slice:
-        """Where the ball joints stand among the degrees of freedom."""
+        """Indices of the ball joints among the degrees of freedom."""
         start = 6 if self.free else 0
         return slice(start, start + 3 * len(self.ball_links))
 
     @property
     def hinge_dofs(self) -> slice:
-        """Where the hinges stand among the degrees of freedom."""
+        """Indices of the hinges among the degrees of freedom."""
         return slice(self.ball_dofs.stop, self.dofs)
 
     def rest(self, root: Array | None = None) -> Pose:
-        """The pose of zero angles, but for coupled ones, its root at T_world_root (4, 4)."""
+        """Returns the rest pose: zero angles, except for the offsets of coupled hinges.
+
+        Args:
+            root: T_world_root, (4, 4); the identity by default.
+        """
         balls = np.tile([0.0, 0.0, 0.0, 1.0], (len(self.ball_links), 1))
         hinges = self.limits.couplings.coupled(np.zeros(len(self.hinge_links)))
         return Pose(np.eye(4) if root is None else root, balls, hinges)
 
     def retract(self, pose: Pose, step: Array) -> Pose:
-        """The pose after a step (n,) on the tangent space at ``pose``.
+        """Returns the pose after a step (n,) on the tangent space at ``pose``.
 
-        The root's translation is in the world; its rotation and those of the ball joints are
-        rotation vectors in the frames that they turn, R exp(w); hinge angles add.
+        The root's translation [m] is in the world; the rotations of the root and of ball joints are
+        rotation vectors [rad] in the rotated frame, R exp(w); hinge angles [rad] add.
         """
-        root = moved_root(pose.root, step) if self.free else pose.root
-        balls = turned_balls(pose.balls, step[self.ball_dofs].reshape(-1, 3))
+        root = retracted_root(pose.root, step) if self.free else pose.root
+        balls = retracted_balls(pose.balls, step[self.ball_dofs].reshape(-1, 3))
         return Pose(root, balls, pose.hinges + step[self.hinge_dofs])
 
     def difference(self, start: Pose, end: Pose) -> Array:
-        """The step (n,) with ``retract(start, step) = end``, of at most half a turn each."""
+        """Returns the step (n,) with ``retract(start, step) = end``; rotations are at most pi."""
         turns = to_vector(product(conjugate(start.balls), end.balls)).ravel()
         root = [
             end.root[:3, 3] - start.root[:3, 3],
@@ -117,8 +109,8 @@ class Skeleton:
         return np.concatenate([*(root if self.free else []), turns, end.hinges - start.hinges])
 
     def violations(self, pose: Pose) -> tuple[Array, Array]:
-        """How far each limit is violated, (R,) [rad], and the derivative to the dofs (R, n)."""
-        violations, balls, hinges = self.limits.slopes(pose)
+        """Returns the violation of each limit (R,) [rad] and its Jacobian (R, n) to the dofs."""
+        violations, balls, hinges = self.limits.linearized(pose)
         jacobian = np.zeros((len(violations), self.dofs))
         count = len(self.ball_links)
         columns = self.ball_dofs.start + np.arange(3 * count).reshape(count, 3)
@@ -130,8 +122,11 @@ class Skeleton:
         return violations, jacobian
 
     @cached_property
-    def tied(self) -> NDArray[np.bool_]:
-        """Which segments are one or are tied by a joint, (S, S); rigidly tied ones count as one."""
+    def adjacent(self) -> NDArray[np.bool_]:
+        """Whether two segments are the same or connected by a joint, (S, S).
+
+        Segments connected by fixed joints count as one.
+        """
         groups = np.arange(len(self.names))
         for segment, name in enumerate(self.names):
             if self.parents[segment] >= 0 and name not in self.joint_dofs:
@@ -143,25 +138,26 @@ class Skeleton:
         joined |= joined.T
         return joined[np.ix_(groups, groups)]
 
-    def freedoms_of(self, joint: str) -> Indices:
-        """The degrees of freedom of a segment's own joint.
+    def dofs_of(self, joint: str) -> Indices:
+        """Returns the indices of the degrees of freedom of a segment's joint.
 
         Raises:
-            ConfigError: If there is no such joint, or it does not move.
+            ConfigError: If there is no such segment, or its joint is fixed.
         """
         if joint not in self.joint_dofs:
             known = list(self.joint_dofs)
             raise ConfigError(
-                f"there is no joint '{joint}' (there are: {', '.join(known)})"
+                f"no segment '{joint}' has a moving joint (there are: {', '.join(known)})"
                 + did_you_mean(joint, known)
             )
         return self.joint_dofs[joint]
 
     def pose(self, description: PoseDescription) -> Pose:
-        """The pose that a person wrote down in degrees.
+        """Returns the pose of a YAML description.
 
         Raises:
-            ConfigError: If a joint is unknown, has another number of angles, or follows another.
+            ConfigError: If a joint is unknown, the number of its angles is wrong, or it is coupled
+                to another.
         """
         root = rigid(
             vector_to_matrix(np.radians(description.root.rotation_deg)),
@@ -170,14 +166,16 @@ class Skeleton:
         pose = self.rest(root)
         for name, angles in description.joints.items():
             values = np.radians(np.atleast_1d(angles))
-            where = self.freedoms_of(name)
-            if len(values) != len(where):
+            dofs = self.dofs_of(name)
+            if len(values) != len(dofs):
                 raise ConfigError(
-                    f"a pose gives {len(values)} angles for '{name}', which has {len(where)}"
+                    f"the pose gives {len(values)} angles for '{name}'; its joint has {len(dofs)}"
                 )
-            if where[0] - self.hinge_dofs.start in self.limits.couplings.followers:
-                raise ConfigError(f"the angle of '{name}' follows another joint's; leave it out")
+            if dofs[0] - self.hinge_dofs.start in self.limits.couplings.followers:
+                raise ConfigError(
+                    f"the joint of '{name}' is coupled to another joint; leave its angle out"
+                )
             step = np.zeros(self.dofs)
-            step[where] = values
+            step[dofs] = values
             pose = self.retract(pose, step)
         return Pose(pose.root, pose.balls, self.limits.couplings.coupled(pose.hinges))

@@ -86,7 +86,7 @@ class ShapeLaws(Laws):
         centres, flesh = primitives.place(transforms).centres, body.capsules.place(transforms)
         for segment in np.unique(np.intersect1d(primitives.segments, flesh.segments)):
             own = centres[primitives.segments == segment]
-            outside = flesh.some(flesh.segments == segment).surface_distance(own)
+            outside = flesh.selected(flesh.segments == segment).surface_distance(own)
             require(
                 outside.max() < OUTSIDE * body.size, shape, f"has a primitive {outside.max():.2g} "
                 f"m outside of its segment '{body.skeleton.names[segment]}'; centres are given in "
@@ -171,7 +171,7 @@ def _outside(volumes: Volumes, body: Body) -> float:
     placed, flesh = volumes.place(transforms), body.capsules.place(transforms)
     surfaces = volumes.surface_points() @ np.swapaxes(placed.axes, 1, 2) + placed.centres[:, None]
     distances = [
-        flesh.some(flesh.segments == segment).surface_distance(
+        flesh.selected(flesh.segments == segment).surface_distance(
             surfaces[volumes.segments == segment].reshape(-1, 3)
         )
         for segment in np.intersect1d(volumes.segments, flesh.segments)

@@ -65,7 +65,7 @@ def test_run_that_was_killed_before_its_first_report_has_one(regkit, results):
 def test_pair_that_is_asked_for_is_compared_once(regkit, results):
     assert regkit("report", results, "--compare", "sog,gsog").code == 0
     pairs = json.loads((results / "metrics.json").read_text())["pairs"]
-    raw = [pair for pair in pairs if pair["figure"] == "joint_error_raw_cm"]
+    raw = [pair for pair in pairs if pair["metric"] == "joint_error_raw_cm"]
     assert [{pair["method"], pair["other"]} for pair in raw] == [{"sog", "gsog"}]
     assert raw[0]["n"] == 1
     assert raw[0]["p"] is raw[0]["interval"] is None

@@ -47,7 +47,7 @@ class Faulty(ShapeModel):
 SHAPE_FAULTS = {
     "covers": (
         "capsules = body.capsules\n",
-        "capsules = body.capsules.some(body.capsules.segments != 1)\n",
+        "capsules = body.capsules.selected(body.capsules.segments != 1)\n",
         "test_shape_covers_every_segment",
         "shape 'faulty' leaves segments without a primitive: arm; look at",
     ),

@@ -196,7 +196,7 @@ def test_setting_changes_the_run(regkit, files):
 
 def test_table_names_the_units(regkit, files):
     ended = regkit("run", files.experiment, "--out", files.out, *QUICK)
-    for unit in ("raw [cm]", "near [%]", "surf.", "[mm]", "limits"):
+    for unit in ("raw [cm]", "PCK [%]", "surf.", "[mm]", "limits"):
         assert unit in ended.out
 
 

@@ -150,7 +150,7 @@ def test_a_body_without_a_skin_shows_its_capsules(tmp_path: Path, motion: Tracke
         # Capsules overlap, so that a point of one may be inside another, but never outside all.
         distances = np.stack(
             [
-                placed.some(np.arange(len(placed)) == k).surface_distance(points)
+                placed.selected(np.arange(len(placed)) == k).surface_distance(points)
                 for k in range(len(placed))
             ]
         )

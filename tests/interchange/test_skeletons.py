@@ -65,7 +65,7 @@ def _pose(body: Body, root: np.ndarray, turns: dict[str, np.ndarray]) -> Pose:
     pose = body.skeleton.rest(root)
     step = np.zeros(body.skeleton.dofs)
     for name, angles in turns.items():
-        step[body.skeleton.freedoms_of(name)] = angles
+        step[body.skeleton.dofs_of(name)] = angles
     moved = body.skeleton.retract(pose, step)
     return Pose(root, moved.balls, body.skeleton.limits.couplings.coupled(moved.hinges))
 

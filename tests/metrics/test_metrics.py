@@ -8,7 +8,7 @@ import pytest
 from regkit.body import Body
 from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import vector_to_matrix
-from regkit.metrics import PCK_PART, Measure, joint_errors, mean_of
+from regkit.metrics import PCK_FRACTION, Measure, joint_errors, mean_of
 from regkit.metrics import measured as measured_from
 from regkit.observation import Truth
 from regkit.skeleton import Pose
@@ -33,6 +33,7 @@ def track_of(body: Body, poses: list[Pose]) -> Track:
         markers=np.array([body.markers.place(placed.transforms) for placed in placements]),
         surface_distances=np.linspace(0.001, 0.003, len(poses)),
         energies=np.zeros(len(poses)),
+        inlier_shares=np.ones(len(poses)),
         evaluations=np.arange(1.0, len(poses) + 1.0),
         converged=np.ones(len(poses)),
         seconds=np.full(len(poses), 0.05),
@@ -92,7 +93,7 @@ def test_constant_displacement_in_a_segment_vanishes_when_adjusted(linkage, trac
     lengths = np.linalg.norm(offsets, axis=1)
     assert found.joint_error_raw_cm == pytest.approx(100.0 * lengths.mean())
     assert found.joint_error_adjusted_cm == pytest.approx(0.0, abs=1e-9)
-    assert found.within_10cm_percent == pytest.approx(100.0 * (lengths < PCK_PART).mean())
+    assert found.within_10cm_percent == pytest.approx(100.0 * (lengths < PCK_FRACTION).mean())
     assert found.within_10cm_adjusted_percent == 100.0
 
 
@@ -183,7 +184,7 @@ def test_area_is_that_under_the_curve_of_the_shares_within_thresholds(linkage, t
     truth = Truth(linkage.markers.names, track.markers + noise)
     found = measured(track, linkage, truth, {})
     distances = np.linalg.norm(noise, axis=2)
-    thresholds = np.linspace(0.0, 2.0 * PCK_PART * linkage.size, 20001)
+    thresholds = np.linspace(0.0, 2.0 * PCK_FRACTION * linkage.size, 20001)
     shares = [(distances < threshold).mean() for threshold in thresholds]
     expected = 100.0 * np.trapezoid(shares, thresholds) / thresholds[-1]
     assert found.auc_percent == pytest.approx(expected, abs=0.01)
@@ -238,20 +239,17 @@ def test_joints_of_other_names_are_mapped(linkage, track):
 @pytest.mark.parametrize(
     ("joints", "expected"),
     [
-        ({}, "dataset.joints: no joint of the data (toe, nose) is a marker of 'linkage' (origin, "
-         "tip, foot); map them by name (dataset.joints), or leave them out "
-         "(dataset.compared=false)"),
-        ({"toes": "foot"}, "dataset.joints: the data have no joint 'toes' (there are: toe, nose); "
-         "did you mean 'toe'?"),
-        ({"toe": "foots"}, "dataset.joints.toe: 'linkage' has no marker 'foots' (there are: "
-         "origin, tip, foot); did you mean 'foot'?"),
+        ({}, ["dataset.joints: ", "toe, nose", "'linkage'", "dataset.compared=false"]),
+        ({"toes": "foot"}, ["dataset.joints: ", "'toes'", "did you mean 'toe'?"]),
+        ({"toe": "foots"}, ["dataset.joints.toe: ", "'foots'", "did you mean 'foot'?"]),
     ],
-)  # fmt: skip
+)
 def test_joints_that_do_not_match_are_told(linkage, track, joints, expected):
     truth = Truth(("toe", "nose"), np.zeros((FRAMES, 2, 3)))
     with pytest.raises(ConfigError) as caught:
         measured(track, linkage, truth, joints)
-    assert str(caught.value) == expected
+    for part in expected:
+        assert part in str(caught.value)
 
 
 def test_limit_violation_is_the_mean_of_the_largest(linkage):

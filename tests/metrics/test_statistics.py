@@ -7,7 +7,7 @@ import pytest
 from scipy.stats import wilcoxon
 
 from regkit.metrics import Measure, compared, summary
-from regkit.metrics.statistics import FEWEST, bootstrapped, holm, signed_rank
+from regkit.metrics.statistics import MIN_SAMPLES, bootstrapped, holm, signed_rank
 
 FIGURE = "joint_error_raw_cm"
 
@@ -34,7 +34,7 @@ def test_summary_is_of_what_is_known():
 
 @pytest.mark.parametrize("statistic", ["mean", "median"])
 def test_few_values_have_no_interval(random, statistic):
-    values = random.normal(size=FEWEST)
+    values = random.normal(size=MIN_SAMPLES)
     assert bootstrapped(values[:-1], statistic) is None
     low, high = bootstrapped(values, statistic)
     assert low < getattr(np, statistic)(values) < high
@@ -82,7 +82,7 @@ def test_signed_rank_leaves_out_what_does_not_differ(random):
     with_zeros = np.concatenate([differences, np.zeros(4)])
     assert signed_rank(with_zeros) == pytest.approx(signed_rank(differences))
     assert signed_rank(np.zeros(12)) == 1.0
-    assert signed_rank(differences[: FEWEST - 1]) is None
+    assert signed_rank(differences[: MIN_SAMPLES - 1]) is None
 
 
 def test_signed_rank_takes_equal_differences():

@@ -15,11 +15,11 @@ from regkit.report import Record, write_report, write_summary
 from regkit.report.brief import brief, flow
 from regkit.report.figures import plots
 from regkit.report.figures.density import projected
+from regkit.report.labels import wrapped
 from regkit.report.outlines import outlines
 from regkit.report.plot import DARK, LIGHT
 from regkit.report.style import PALETTE, styles
 from regkit.report.tables import main_table, p_text
-from regkit.report.words import broken
 
 
 @pytest.fixture(scope="module")
@@ -75,7 +75,7 @@ def test_tables_hold_all_recordings_and_pairs(folder):
     (failed,) = [row for row in rows if row["error"]]
     assert failed["joint_error_raw_cm"] == ""
     pairs = cells(folder / "tables" / "pairs.csv")
-    of_raw = [row for row in pairs if row["figure"] == "joint_error_raw_cm"]
+    of_raw = [row for row in pairs if row["metric"] == "joint_error_raw_cm"]
     assert [(row["method"], row["other"]) for row in of_raw] == [
         ("sog", "gsog"), ("sog", "icp")
     ]  # fmt: skip
@@ -253,12 +253,12 @@ def test_record_is_read_as_it_was_written(random, kind, compared, tmp_path):
     if made.errors is not None:
         np.testing.assert_array_equal(read.errors.raw, made.errors.raw)
         assert read.errors.joints == made.errors.joints
-    assert len(read.looks) == len(made.looks)
-    for one, other in zip(read.looks, made.looks, strict=True):
-        assert (one.frame, one.why, one.form.kind) == (other.frame, other.why, kind)
+    assert len(read.drawings) == len(made.drawings)
+    for one, other in zip(read.drawings, made.drawings, strict=True):
+        assert (one.frame, one.why, one.primitives.kind) == (other.frame, other.why, kind)
         np.testing.assert_allclose(one.points, other.points, rtol=1e-6)
-        np.testing.assert_allclose(one.form.centres, other.form.centres, rtol=1e-6)
-        np.testing.assert_allclose(one.form.radii, other.form.radii, rtol=1e-6)
+        np.testing.assert_allclose(one.primitives.centres, other.primitives.centres, rtol=1e-6)
+        np.testing.assert_allclose(one.primitives.radii, other.primitives.radii, rtol=1e-6)
         assert one.reference.shape == other.reference.shape
 
 
@@ -363,10 +363,10 @@ def test_figures_have_room_for_a_sweep_beside_its_names(name):
 
 
 def test_long_name_is_broken_where_a_sweep_joined_it():
-    assert broken("icp_of_the_textbook_and_no_other", 10) == "icp_of_the_textbook_and_no_other"
+    assert wrapped("icp_of_the_textbook_and_no_other", 10) == "icp_of_the_textbook_and_no_other"
     name = "voxel=0.03/best,outliers=0.05,steps=3"
-    assert broken(name, 16).split("\n") == ["voxel=0.03/best,", "outliers=0.05,", "steps=3"]
-    assert broken(name, 80) == name
+    assert wrapped(name, 16).split("\n") == ["voxel=0.03/best,", "outliers=0.05,", "steps=3"]
+    assert wrapped(name, 80) == name
 
 
 def test_method_is_told_by_its_kinds_and_by_what_others_have_otherwise():

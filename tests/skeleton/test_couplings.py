@@ -124,7 +124,7 @@ def test_violation_says_how_far_a_follower_is_off(finger):
 def test_pose_leaves_the_follower_out(finger):
     bones = finger.skeleton
     assert follows(finger, bones.pose(PoseDescription(joints={"middle": 30.0})))
-    with pytest.raises(ConfigError, match="'last' follows another joint's; leave it out"):
+    with pytest.raises(ConfigError, match=r"'last' is coupled.*leave"):
         bones.pose(PoseDescription(joints={"last": 30.0}))
 
 
@@ -153,7 +153,7 @@ def test_followers_that_contradict_one_another_are_refused(tmp_path):
         "  other:\n    parent: palm\n    joint: {type: hinge, axis: y, limits_deg: [80, 90], "
         "coupled: {to: middle, ratio: 1.0}}\n"
     )
-    with pytest.raises(ConfigError, match="no angle of 'middle' keeps all limits: 'other' needs"):
+    with pytest.raises(ConfigError, match=r"no angle of 'middle' .*'other' needs"):
         written(tmp_path, FINGER + other)
 
 
@@ -186,9 +186,9 @@ def test_every_solver_holds_a_coupling(finger, random, solver):
     ("change", "message"),
     [
         (("to: middle", "to: midle"), "did you mean 'middle'?"),
-        (("to: middle", "to: first"), "'first' is no hinge; 'last' can follow"),
+        (("to: middle", "to: first"), "'first' is not a hinge; 'last' can follow"),
         (("to: middle", "to: last"), "a hinge cannot follow itself"),
-        (("ratio: 0.5", "ratio: 0"), "a ratio is at least 0.001"),
+        (("ratio: 0.5", "ratio: 0"), "must be at least 0.001"),
         (("limits_deg: [0, 40]", "limits_deg: [70, 80]"), "between 130 and 150 degrees"),
     ],
 )

@@ -181,5 +181,5 @@ def test_difference_is_the_step_that_retract_takes(linkage, random):
 def test_twist_beyond_half_a_turn_is_refused(linkage_text, tmp_path):
     path = tmp_path / "linkage.yaml"
     path.write_text(linkage_text.replace("twist_deg: [-45, 45]", "twist_deg: [20, 300]"))
-    with pytest.raises(ConfigError, match="a twist is between -180 and 180 degrees"):
+    with pytest.raises(ConfigError, match=r"twist_deg.*-180 and 180 degrees"):
         Document.read(path).validated(BodyDescription)

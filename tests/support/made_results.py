@@ -4,11 +4,11 @@ from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
+from regkit.report.frame_drawing import DrawnPrimitives, FrameDrawing
 
 from regkit.metrics import JointErrors, Measure
 from regkit.primitives import SPHERE
 from regkit.report import Record, Run
-from regkit.report.look import Form, Look
 
 METHODS = {
     "sog": {"kind": "direct", "shape": {"kind": "sog"}, "solver": {"kind": "lbfgs", "memory": 5}},
@@ -19,10 +19,10 @@ FRAMES, JOINTS = 9, ("head", "hand", "foot")
 ENVIRONMENT = {"date": "2020-02-20 20:20", "processor": "abacus", "cores": 2, "libraries": {}}
 
 
-def form(kind: str, random: np.random.Generator) -> Form:
+def form(kind: str, random: np.random.Generator) -> DrawnPrimitives:
     count = 6
     capsules = kind == "capsules"
-    return Form(
+    return DrawnPrimitives(
         kind=kind,
         centres=0.5 * random.normal(size=(count, 3)),
         axes=np.tile(np.eye(3), (count, 1, 1)),
@@ -40,11 +40,11 @@ def record(
     """Errors [m] around a mean one, and looks at two frames."""
     raw = error * random.uniform(0.5, 1.5, size=(FRAMES, len(JOINTS)))
     looks = [
-        Look(
+        FrameDrawing(
             frame=index,
             why=why,
             points=random.normal(size=(50, 3)),
-            form=form(kind, random),
+            primitives=form(kind, random),
             bones=random.normal(size=(4, 2, 3)),
             markers=random.normal(size=(3, 3)),
             reference=random.normal(size=(3 if compared else 0, 3)),
@@ -59,7 +59,7 @@ def record(
         seconds=np.full(FRAMES, 0.05),
         preprocessing=np.full(FRAMES, 0.01),
         evaluations=np.full(FRAMES, 12.0),
-        looks=tuple(looks),
+        drawings=tuple(looks),
     )
 
 

@@ -1,4 +1,4 @@
-"""The preprocessor that makes the leaves of an octree Gaussians of their size."""
+"""The octree preprocessor: leaves of an octree as Gaussians of their size."""
 
 from __future__ import annotations
 
@@ -16,24 +16,29 @@ from regkit.system.arrays import Array, Indices
 class OctreePreprocessor(Preprocessor):
     """A sum of Gaussians from the leaves of an octree, section 3 of the paper.
 
-    A cube is divided until its side is ``leaf`` or it holds at most ``few`` points. A leaf becomes
-    the Gaussian at the mean of its points, with half its side as standard deviation and the number
-    of its points as weight.
+    A cell is subdivided until its side is ``leaf`` or it contains at most ``few`` points. A leaf
+    becomes a Gaussian at the mean of its points, with half its side as standard deviation and its
+    number of points as weight.
     """
 
     kind: Literal["octree"] = "octree"
 
     leaf: Annotated[float, Field(gt=0.0)] = 0.045
-    """Side of the smallest cubes [m]."""
+    """Side of the smallest cells [m]."""
     few: Annotated[int, Field(ge=1)] = 2
-    """A cube with so few points is not divided further."""
+    """A cell with at most this number of points is not subdivided."""
     largest: Annotated[int, Field(ge=0, le=20)] = 2
-    """How often ``leaf`` may double at most: stray points get no Gaussian larger than that."""
+    """Number of levels above the smallest cells; the largest cells have the side ``leaf`` times 2
+    to this power, which bounds the Gaussians of stray points."""
     crop: Crop = Crop()
-    """What part of the frame is looked at."""
+    """Crop that segments the object."""
 
     def preprocess(self, frame: Frame) -> Observation:
-        """One Gaussian for each leaf."""
+        """Returns one Gaussian per octree leaf.
+
+        Raises:
+            DataError: If too few points remain after cropping or in the leaves.
+        """
         frame = self.crop.cropped(frame)
         points = frame.points
         cells = np.floor((points - points.min(axis=0)) / self.leaf).astype(np.int64)
@@ -52,7 +57,7 @@ class OctreePreprocessor(Preprocessor):
             if not len(pending):
                 break
         variances = np.concatenate(deviations) ** 2
-        self.crop.check_thinned(len(variances), frame, "leaf", self.leaf)
+        self.crop.check_downsampled(len(variances), frame, "leaf", self.leaf)
         return Observation(
             np.concatenate(means), np.concatenate(weights), variances, frame.camera, frame.depth
         )

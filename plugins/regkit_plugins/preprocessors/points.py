@@ -1,4 +1,4 @@
-"""The preprocessor that makes every point, or every voxel, one Gaussian of the same variance."""
+"""The point preprocessor: every point or voxel as a Gaussian of the same variance."""
 
 from __future__ import annotations
 
@@ -23,23 +23,25 @@ class PointsPreprocessor(Preprocessor):
     sigma: Length = 0.02
     """Standard deviation of each Gaussian [m]."""
     voxel: Annotated[float, Field(ge=1e-4)] | None = None
-    """Side of the cubes whose points are averaged to one [m]; every point counts without it."""
+    """Voxel size for downsampling [m]; by default all points are used."""
     normals: Annotated[int, Field(ge=3)] | None = None
-    """Give each point the normal of the plane through so many of its neighbours; none without."""
+    """Number of neighbours for normal estimation; by default there are no normals."""
     crop: Crop = Crop()
-    """What part of the frame is looked at."""
+    """Crop that segments the object."""
 
     def preprocess(self, frame: Frame) -> Observation:
-        """One Gaussian for each point or voxel, all of weight 1.
+        """Returns one Gaussian of weight 1 per point or voxel.
 
-        Averaging also evens out how densely a surface is seen: near parts count no more than far
-        ones.
+        Downsampling also equalises the sampling density of near and far surfaces.
+
+        Raises:
+            DataError: If too few points remain after cropping or downsampling.
         """
         frame = self.crop.cropped(frame)
         points = frame.points
         if self.voxel is not None:
             points = voxel_downsampled(points, self.voxel)
-            self.crop.check_thinned(len(points), frame, "voxel", self.voxel)
+            self.crop.check_downsampled(len(points), frame, "voxel", self.voxel)
         ones = np.ones(len(points))
         return Observation(
             points,
@@ -47,6 +49,6 @@ class PointsPreprocessor(Preprocessor):
             self.sigma**2 * ones,
             frame.camera,
             frame.depth,
-            # A point is the first of its own neighbours.
+            # A neighbourhood includes the point itself.
             None if self.normals is None else normals(points, self.normals + 1),
         )

@@ -37,14 +37,14 @@ class Continuity(Term):
             ConfigError: If ``joints_deg`` names a joint that there is not.
         """
         for name in self.joints_deg:
-            body.skeleton.freedoms_of(name)
+            body.skeleton.dofs_of(name)
 
     def bind(self, scene: Scene) -> BoundContinuity:
         """Bind the term to the pose that is expected."""
         skeleton = scene.body.skeleton
         usual = np.full(skeleton.dofs, self.joint_deg)
         for name, degrees in self.joints_deg.items():
-            usual[skeleton.freedoms_of(name)] = degrees
+            usual[skeleton.dofs_of(name)] = degrees
         weights = self.weight / np.radians(usual) ** 2
         weights[: skeleton.ball_dofs.start] = 0.0
         return BoundContinuity(skeleton, scene.prior, weights, np.diag(weights))

@@ -71,5 +71,5 @@ class BoundIntersection(Similarity):
 def _strangers(segments: Indices, skeleton: Skeleton) -> tuple[Indices, Indices]:
     """The pairs of primitives on different segments that no joint ties directly, (M,) each."""
     first, second = np.triu_indices(len(segments), k=1)
-    apart = ~skeleton.tied[segments[first], segments[second]]
+    apart = ~skeleton.adjacent[segments[first], segments[second]]
     return first[apart], second[apart]

@@ -11,7 +11,7 @@ from regkit.config.model import did_you_mean
 from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.interchange.urdf.xml_lines import Element
-from regkit.skeleton.joints import LEAST_RATIO
+from regkit.skeleton.joints import MIN_RATIO
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
 
@@ -119,7 +119,7 @@ def _limits(element: Element) -> tuple[float, float]:
 
 def _mimic(element: Element) -> Mimic:
     ratio = element.number("multiplier", 1.0)
-    if abs(ratio) < LEAST_RATIO:
+    if abs(ratio) < MIN_RATIO:
         raise element.wrong(f"multiplier={ratio:g}: a joint that does not turn must be fixed")
     return Mimic(element.text("joint"), ratio, element.number("offset", 0.0))
 

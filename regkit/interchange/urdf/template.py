@@ -13,7 +13,7 @@ from regkit.interchange.urdf.joints import Mimic, UrdfJoint
 from regkit.interchange.urdf.shapes import capsules_of
 from regkit.interchange.urdf.urdf import Urdf
 from regkit.skeleton.joints import (
-    LEAST_RATIO,
+    MIN_RATIO,
     CouplingDescription,
     FixedJoint,
     FreeJoint,
@@ -100,7 +100,7 @@ def _coupling(joint: UrdfJoint, mimic: Mimic, robot: Urdf) -> CouplingDescriptio
         DataError: If it hardly turns with it, over others that follow each other.
     """
     leader = next(other for other in robot.joints.values() if other.name == mimic.joint)
-    if abs(mimic.ratio) < LEAST_RATIO:
+    if abs(mimic.ratio) < MIN_RATIO:
         raise DataError(
             f"joint '{joint.name}' turns by {mimic.ratio:g} with '{leader.name}'; one that does "
             "not turn must be fixed",

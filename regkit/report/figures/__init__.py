@@ -1,4 +1,4 @@
-"""The figures of a report, each in a file of its own."""
+"""The figures of a report, one module each."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from regkit.report.run import Run
 
 
 def plots(run: Run) -> Iterator[Plot]:
-    """Every figure that the results allow."""
+    """Yields all figures for which the results have data."""
     for make in (
         method_means,
         shape_bars,

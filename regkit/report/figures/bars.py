@@ -1,40 +1,40 @@
-"""Bars of each recording, the methods side by side."""
+"""Bar charts of each recording, grouped by method."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from regkit.report.labels import BY_NAME, NAMES, axis_label, counted, label
 from regkit.report.plot import Ink, Plot, canvas, legend_above, styled
 from regkit.report.run import Run
-from regkit.report.words import BY_NAME, NAMES, axis_label, label, many
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 BAR = 0.13
-"""Height of a bar, in inches; thinner where there are many."""
+"""Height of a bar [in] for few recordings."""
 
 MOST = 60
-"""Of so many recordings bars are drawn: those with the largest figures."""
+"""Maximum number of recordings that are drawn, those with the largest values."""
 
 
 def recording_bars(run: Run) -> Plot | None:
-    """The figure that methods are judged by, of all methods on all recordings."""
+    """Returns the plot of the ranking metric of all methods on all recordings."""
     if run.shape_pairs and set(run.shape_pairs[0]) == set(run.finished):
-        return None  # The figure of two shape models shows it all.
+        return None  # The plot of two shape models shows the same.
     return _bars(
         run,
         run.drawn,
         "recordings",
         "Each recording",
-        f"The {NAMES[run.figure]} of every method on every recording; shorter is better, and where "
-        f"a bar is missing the recording failed or was not done.{run.not_drawn}",
+        f"The {NAMES[run.metric]} of every method on every recording. Shorter is better; a missing "
+        f"bar means that the recording failed or was not run.{run.not_drawn}",
     )
 
 
 def shape_bars(run: Run) -> Plot | None:
-    """The paper's figure: two methods that differ in their shape model alone."""
+    """Returns the paper's plot of two methods that differ in their shape model only."""
     if not run.shape_pairs:
         return None
     one, other = run.shape_pairs[0]
@@ -48,14 +48,14 @@ def shape_bars(run: Run) -> Plot | None:
         [one, other],
         "shapes",
         "Two shape models",
-        f"The {NAMES[run.figure]} of {_named(run, one)} and {_named(run, other)}, which differ in "
-        f"the shape model alone: it is smaller with {one} in {won} of "
-        f"{many(len(both), 'recording')}.",
+        f"The {NAMES[run.metric]} of {_named(run, one)} and {_named(run, other)}, which differ in "
+        f"the shape model only: it is smaller with {one} in {won} of "
+        f"{counted(len(both), 'recording')}.",
     )
 
 
 def _named(run: Run, method: str) -> str:
-    """A method with its shape model, if it is not called by that."""
+    """Returns the name of a method, with its shape model if that differs from the name."""
     shape = run.style(method).shape
     return method if shape == method else f"{method} (shape model {shape})"
 
@@ -65,12 +65,12 @@ def _bars(run: Run, methods: Sequence[str], name: str, title: str, caption: str)
     rows = [row for row in rows if any(value is not None for value in row[1:])]
     if not rows:
         return None
-    unit, shown = BY_NAME[run.figure].unit, rows
+    unit, shown = BY_NAME[run.metric].unit, rows
     if len(rows) > MOST:
         largest = {row[0]: max(float(one) for one in row[1:] if one is not None) for row in rows}
         worst = set(sorted(largest, key=lambda name: -largest[name])[:MOST])
         shown = [row for row in rows if row[0] in worst]
-        caption += f" Of {len(rows)} recordings the {MOST} with the largest are drawn."
+        caption += f" Of {len(rows)} recordings the {MOST} with the largest values are drawn."
 
     def draw(ink: Ink) -> Figure:
         return _drawn(run, methods, shown, ink)
@@ -111,6 +111,6 @@ def _drawn(
     axes.set_yticks(range(len(rows)), [label(str(row[0])) for row in rows])
     axes.set_ylim(len(rows) - 0.5, -0.5)
     axes.tick_params(axis="y", length=0)
-    axes.set_xlabel(axis_label(run.figure))
+    axes.set_xlabel(axis_label(run.metric))
     legend_above(figure, ink)
     return figure

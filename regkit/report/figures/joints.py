@@ -1,4 +1,4 @@
-"""The error of each joint."""
+"""The figure of the error of each joint."""
 
 from __future__ import annotations
 
@@ -7,16 +7,21 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from regkit.metrics import JointErrors
+from regkit.report.labels import label
 from regkit.report.plot import Ink, Plot, canvas, legend_above, styled
 from regkit.report.run import Run
-from regkit.report.words import label
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
 def joint_means(errors: list[JointErrors], kind: str) -> dict[str, float]:
-    """The mean distance [cm] of each joint over all frames in which it is known."""
+    """Returns the mean error [cm] of each joint over all frames in which it is known.
+
+    Args:
+        errors: Joint errors of several recordings.
+        kind: ``raw`` or ``adjusted``.
+    """
     sums: dict[str, tuple[float, int]] = {}
     for one in errors:
         distances = one.raw if kind == "raw" else one.adjusted
@@ -29,21 +34,21 @@ def joint_means(errors: list[JointErrors], kind: str) -> dict[str, float]:
 
 
 def errors_of(run: Run, method: str) -> list[JointErrors]:
-    """The joints' errors of a method on each recording that has them."""
+    """Returns the joint errors of a method on each recording that has them."""
     records = run.records.get(method, {}).values()
     return [record.errors for record in records if record.errors is not None]
 
 
 def joint_dots(run: Run) -> Plot | None:
-    """The mean raw error of each joint, the methods side by side."""
+    """Returns the plot of each joint's mean raw error, by method; None without joint errors."""
     means = {method: joint_means(errors_of(run, method), "raw") for method in run.records}
     means = {method: by_joint for method, by_joint in means.items() if by_joint}
     joints = list(dict.fromkeys(joint for by_joint in means.values() for joint in by_joint))
     if len(joints) < 2:
         return None
     caption = (
-        "The mean error of each joint over all frames of all recordings, the joint that is worst "
-        f"over all methods at the top.{run.not_drawn}"
+        "The mean error of each joint over all frames of all recordings, sorted by the mean over "
+        f"all methods with the worst joint at the top.{run.not_drawn}"
     )
     joints.sort(key=lambda name: -float(np.mean([by[name] for by in means.values() if name in by])))
 

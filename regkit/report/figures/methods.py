@@ -1,4 +1,4 @@
-"""The methods against each other, coloured by shape model."""
+"""The figure of the methods' means, coloured by shape model."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from regkit.metrics import Summary, summary
-from regkit.metrics.statistics import FEWEST
+from regkit.metrics.statistics import MIN_SAMPLES
+from regkit.report.labels import NAMES, axis_label, label, wrapped
 from regkit.report.plot import NAME, Ink, Plot, canvas, legend_above, styled
 from regkit.report.run import Run
-from regkit.report.words import NAMES, axis_label, broken, label
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -18,33 +18,33 @@ if TYPE_CHECKING:
 
 
 def method_means(run: Run) -> Plot | None:
-    """Each method's mean over the recordings, its 95 % interval, and the recordings themselves."""
-    figures = [run.figure]
+    """Returns the plot of each method's mean with its 95 % interval, and of its recordings."""
+    metrics = [run.metric]
     if run.compared:
-        figures.append("joint_error_adjusted_cm")
-    figures = [
-        name for name in figures if any(_values(run, method, name) for method in run.finished)
+        metrics.append("joint_error_adjusted_cm")
+    metrics = [
+        name for name in metrics if any(_values(run, method, name) for method in run.finished)
     ]
-    if not figures:
+    if not metrics:
         return None
     rows = []
     for method in run.finished:
-        for name in figures:
+        for name in metrics:
             found = summary(_values(run, method, name))
             low, high = found.interval or (None, None)
             rows.append((method, run.style(method).shape, name, found.n, found.mean, found.median,
                          low, high))  # fmt: skip
-    enough = len(run.recordings) >= FEWEST
+    enough = len(run.recordings) >= MIN_SAMPLES
     caption = (
-        f"The mean over the recordings of the {NAMES[run.figure]}"
-        + (", as it is and adjusted" if len(figures) > 1 else "")
+        f"The mean over the recordings of the {NAMES[run.metric]}"
+        + (", raw and adjusted" if len(metrics) > 1 else "")
         + (", with its 95 % bootstrap interval" if enough else "")
-        + "; the pale points are the recordings, and methods of one shape model stand together."
-        + ("" if enough else f" Fewer than {FEWEST} recordings allow no interval.")
+        + "; pale points are single recordings, and methods are grouped by shape model."
+        + ("" if enough else f" An interval needs at least {MIN_SAMPLES} recordings.")
     )
 
     def draw(ink: Ink) -> Figure:
-        return _drawn(run, figures, ink)
+        return _drawn(run, metrics, ink)
 
     return Plot(
         name="methods",
@@ -55,7 +55,7 @@ def method_means(run: Run) -> Plot | None:
         columns=[
             "method",
             "shape model",
-            "figure (cm or mm by its name)",
+            "metric (cm or mm by its name)",
             "recordings",
             "mean",
             "median",
@@ -66,21 +66,21 @@ def method_means(run: Run) -> Plot | None:
     )
 
 
-def _values(run: Run, method: str, figure: str) -> list[float]:
-    values = [run.value(method, recording, figure) for recording in run.finished[method]]
+def _values(run: Run, method: str, metric: str) -> list[float]:
+    values = [run.value(method, recording, metric) for recording in run.finished[method]]
     return [value for value in values if value is not None]
 
 
-def _drawn(run: Run, figures: list[str], ink: Ink) -> Figure:
+def _drawn(run: Run, metrics: list[str], ink: Ink) -> Figure:
     from matplotlib.patches import Patch
 
     families = list(dict.fromkeys(run.style(method).shape for method in run.finished))
     methods = sorted(run.finished, key=lambda name: families.index(run.style(name).shape))
     figure = canvas(ink, 0.9 + 0.3 * len(methods) + 0.12 * len(families))
-    grid = figure.subplots(1, len(figures), sharey=True, squeeze=False)[0]
+    grid = figure.subplots(1, len(metrics), sharey=True, squeeze=False)[0]
     places = {name: index + 0.4 * families.index(run.style(name).shape)
               for index, name in enumerate(methods)}  # fmt: skip
-    for axes, name in zip(grid, figures, strict=True):
+    for axes, name in zip(grid, metrics, strict=True):
         styled(axes, ink, grid="x")
         for method, place in places.items():
             values = _values(run, method, name)
@@ -95,7 +95,7 @@ def _drawn(run: Run, figures: list[str], ink: Ink) -> Figure:
         axes.set_xlim(0.0, 1.06 * largest or 1.0)
         axes.set_xlabel(axis_label(name).replace("mean joint", "joint"))
         axes.tick_params(axis="y", length=0)
-    grid[0].set_yticks(list(places.values()), [broken(label(name), NAME) for name in places])
+    grid[0].set_yticks(list(places.values()), [wrapped(label(name), NAME) for name in places])
     grid[0].set_ylim(max(places.values()) + 0.5, -0.5)
     if len(families) > 1:
         handles = [
@@ -106,7 +106,7 @@ def _drawn(run: Run, figures: list[str], ink: Ink) -> Figure:
 
 
 def _colour(run: Run, family: str) -> str:
-    """The colour of a shape model's first method."""
+    """Returns the colour of a shape model's first method."""
     return next(run.style(name).colour for name in run.finished if run.style(name).shape == family)
 
 

@@ -1,4 +1,4 @@
-"""How many joints are within a threshold."""
+"""The figure of PCK curves: the percentage of joints within a threshold."""
 
 from __future__ import annotations
 
@@ -6,26 +6,26 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from regkit.metrics import PCK_PART, share_within
-from regkit.metrics.measure import AUC_PART
+from regkit.metrics import PCK_FRACTION, fraction_within
+from regkit.metrics.measure import AUC_FRACTION
+from regkit.report.labels import label
 from regkit.report.plot import Ink, Plot, canvas, legend_above, styled
 from regkit.report.run import Run
-from regkit.report.words import label
 from regkit.system.arrays import Array
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 STEPS = 61
-KINDS = {"raw": "as they are", "adjusted": "adjusted"}
+KINDS = {"raw": "raw", "adjusted": "adjusted"}
 
 
 def threshold_curves(run: Run) -> Plot | None:
-    """The percent of all joints of all frames and recordings within x cm, for each method."""
+    """Returns the plot of the percentage of all joints within a threshold, for each method."""
     sizes = [r.size for by in run.records.values() for r in by.values() if r.errors is not None]
     if not sizes:
         return None
-    widest = AUC_PART * max(sizes)
+    widest = AUC_FRACTION * max(sizes)
     thresholds = np.linspace(0.0, widest, STEPS)
     curves = {
         (method, kind): curve
@@ -35,11 +35,11 @@ def threshold_curves(run: Run) -> Plot | None:
     }
     if not curves:
         return None
-    near = 100.0 * PCK_PART * max(sizes)
+    near = 100.0 * PCK_FRACTION * max(sizes)
     caption = (
-        f"The percent of all joints, in all frames of all recordings, that are within a distance; "
-        f"it ends at {100 * AUC_PART:.0f} % of the body's size, and the upright line is at "
-        f"{100 * PCK_PART:.0f} % ({near:.3g} cm). Higher and farther to the left is better."
+        "The percentage of joints, over all frames of all recordings, whose error is within a "
+        f"threshold, up to {100 * AUC_FRACTION:.0f} % of the body's size; the vertical line is the "
+        f"PCK threshold of {100 * PCK_FRACTION:.0f} % ({near:.3g} cm). Higher is better."
     ) + run.not_drawn
 
     def draw(ink: Ink) -> Figure:
@@ -67,7 +67,7 @@ def _curve(run: Run, method: str, kind: str, thresholds: Array) -> Array | None:
     ]
     if not distances or not np.isfinite(together := np.concatenate(distances)).any():
         return None
-    return np.array([100.0 * float(share_within(together, x)) for x in thresholds])
+    return np.array([100.0 * float(fraction_within(together, x)) for x in thresholds])
 
 
 def _drawn(
@@ -98,6 +98,6 @@ def _drawn(
         axes.set_xlim(0.0, 100.0 * float(thresholds[-1]))
         axes.set_ylim(0.0, 101.0)
         axes.set_xlabel("threshold [cm]")
-    grid[0].set_ylabel("joints within it [%]")
+    grid[0].set_ylabel("joints within threshold [%]")
     legend_above(figure, ink)
     return figure

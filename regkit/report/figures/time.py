@@ -1,4 +1,4 @@
-"""The error over time, and when bodies were lost."""
+"""The figure of the error over time, with the frames in which bodies were lost."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from regkit.report.labels import label
 from regkit.report.plot import Ink, Plot, Value, canvas, legend_above, styled
 from regkit.report.record import Record
 from regkit.report.run import Run
-from regkit.report.words import label
 from regkit.system.arrays import Array
 
 if TYPE_CHECKING:
@@ -17,12 +17,12 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 MOST = 6
-"""So many recordings are drawn: those with the largest errors."""
+"""Maximum number of recordings that are drawn, those with the largest errors."""
 
 
 def errors_over_time(run: Run) -> Plot | None:
-    """Each frame's mean joint error, or distance to the surface, in the worst recordings."""
-    joints = run.figure == "joint_error_raw_cm"
+    """Returns the plot of each frame's mean joint error, or else distance to the surface."""
+    joints = run.metric == "joint_error_raw_cm"
     curves: dict[str, dict[str, Array]] = {}
     for method, by_recording in run.records.items():
         for recording, record in by_recording.items():
@@ -45,8 +45,8 @@ def errors_over_time(run: Run) -> Plot | None:
     caption = (
         f"The {what} of each frame{chosen}"
         + (
-            "; a bar below shows when a method had lost the body (less than half of the joints "
-            "near)."
+            "; bars below the axis mark frames in which a method lost the body (less than half of "
+            "the joints within the PCK threshold)."
             if joints
             else "."
         )
@@ -60,7 +60,7 @@ def errors_over_time(run: Run) -> Plot | None:
     rows: list[list[Value]] = []
     for recording, by_method in curves.items():
         for method, curve in by_method.items():
-            # References may be of fewer frames than there are, and then have no joint at all.
+            # Losses are unknown without reference joints.
             losses = run.records[method][recording].losses if joints else None
             fps = run.records[method][recording].fps
             rows += [
@@ -120,17 +120,17 @@ def _drawn(run: Run, curves: dict[str, dict[str, Array]], what: str, ink: Ink) -
 
 
 def _shade(axes: Axes, run: Run, recording: str, methods: list[str]) -> None:
-    """A strip below zero for each method that was lost, in its colour."""
+    """Draws a strip below zero for each method that lost the body, in its colour."""
     top = axes.get_ylim()[1]
     lost = [
-        (method, losses.stretches())
+        (method, losses.intervals())
         for method in methods
         if (losses := run.records[method][recording].losses) is not None and losses.lost.any()
     ]
     strip = 0.07 * top
-    for row, (method, stretches) in enumerate(lost):
+    for row, (method, intervals) in enumerate(lost):
         style, fps = run.style(method), run.records[method][recording].fps
-        for first, end in stretches:
+        for first, end in intervals:
             span = (first - 0.5) / fps, (end - first) / fps
             axes.broken_barh([span], (-(row + 1.0) * strip, 0.8 * strip), color=style.colour,
                              linewidth=0)  # fmt: skip

@@ -1,4 +1,4 @@
-"""Where the time goes."""
+"""The figure of the time per frame."""
 
 from __future__ import annotations
 
@@ -6,16 +6,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from regkit.report.labels import label, wrapped
 from regkit.report.plot import NAME, Ink, Plot, canvas, legend_above, styled
 from regkit.report.run import Run
-from regkit.report.words import broken, label
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
 def timing_split(run: Run) -> Plot | None:
-    """The mean time of a frame, split into preprocessing and registering."""
+    """Returns the plot of the mean time per frame, split into preprocessing and registration."""
     rows: list[tuple[str, float, float, float]] = []
     for method, by_recording in run.records.items():
         records = list(by_recording.values())
@@ -35,8 +35,8 @@ def timing_split(run: Run) -> Plot | None:
     if not rows:
         return None
     caption = (
-        "The mean time of a frame: to make data of it (pale) and to register it, and how often the "
-        "energy was evaluated for it; reading files is not counted."
+        "The mean time per frame for preprocessing (pale) and registration, and the number of "
+        "energy evaluations; reading files is not included."
     )
 
     def draw(ink: Ink) -> Figure:
@@ -73,17 +73,17 @@ def _drawn(run: Run, rows: list[tuple[str, float, float, float]], ink: Ink) -> F
             linewidth=0,
         )
         total = preprocessing + registering
-        # Methods of other libraries do not count them.
-        counted = f", {_rounded(evaluations)} evaluations" if evaluations else ""
-        told = f"{_rounded(total)} ms{counted}"
+        # Methods of other libraries do not report evaluations.
+        evaluated = f", {_rounded(evaluations)} evaluations" if evaluations else ""
+        text = f"{_rounded(total)} ms{evaluated}"
         axes.text(
-            total + 0.01 * widest, place, told, va="center", color=ink.text, fontsize=8.5
+            total + 0.01 * widest, place, text, va="center", color=ink.text, fontsize=8.5
         )  # fmt: skip
-    axes.set_yticks(range(len(rows)), [broken(label(method), NAME) for method, *_ in rows])
+    axes.set_yticks(range(len(rows)), [wrapped(label(method), NAME) for method, *_ in rows])
     axes.set_ylim(len(rows) - 0.5, -0.5)
     axes.set_xlim(0.0, 1.5 * widest)
     axes.tick_params(axis="y", length=0)
-    axes.set_xlabel("time of a frame [ms]")
+    axes.set_xlabel("time per frame [ms]")
     handles = [
         Patch(facecolor=ink.text, alpha=0.35, label="preprocessing"),
         Patch(facecolor=ink.text, label="registering"),
@@ -93,5 +93,5 @@ def _drawn(run: Run, rows: list[tuple[str, float, float, float]], ink: Ink) -> F
 
 
 def _rounded(value: float) -> str:
-    """A number with two or three digits that count."""
+    """Returns a number with two or three significant digits."""
     return f"{value:.0f}" if value >= 10.0 else f"{value:.1f}"

@@ -10,7 +10,7 @@ for (const table of document.querySelectorAll("table.sortable")) {
       const numbers = rows.every((row) => key(row) === "" || !Number.isNaN(Number(key(row))));
       rows.sort((one, other) => {
         const a = key(one), b = key(other);
-        // What is unknown stands last, whichever way the others are sorted.
+        // Unknown values sort last in both directions.
         if (a === "" || b === "") return (a === "") - (b === "");
         const order = numbers ? Number(a) - Number(b) : a.localeCompare(b, "en", { numeric: true });
         return falling ? -order : order;

@@ -73,7 +73,7 @@ NO_ARRAY = f"ROOT/{CLOUD}: not a .npz with an array 'points' (N, 3): "
         (npz(points=np.array([["a", "b", "c"]])), NO_ARRAY),
         (npz(points=np.array([[1.0, 2.0, None]])), NO_ARRAY),
         (npz(points=np.ones((30, 2))), f"ROOT/{CLOUD}: points have the shape (30, 2); they must"),
-        (npz(points=np.ones((0, 3))), f"ROOT/{CLOUD}: the file holds no point, or is damaged"),
+        (npz(points=np.ones((0, 3))), f"ROOT/{CLOUD}: the file contains no points or is damaged"),
         (write(CLOUD, b""), NO_ARRAY),
         (write(CLOUD, "hello"), NO_ARRAY),
         (cut(CLOUD, 0.5), NO_ARRAY),
@@ -103,4 +103,4 @@ def test_cloud_file_cut_short_is_refused(tmp_path, random, suffix, kept):
     library.io.write_point_cloud(str(tmp_path / name), cloud)
     cut(name, kept)(tmp_path)
     message = complaint(CloudFolders(root=tmp_path), tmp_path)
-    assert message == f"ROOT/{name}: the file holds no point, or is damaged"
+    assert message == f"ROOT/{name}: the file contains no points or is damaged"

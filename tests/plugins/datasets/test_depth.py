@@ -174,7 +174,7 @@ SECOND = "depth/000001.png"
         (image(SECOND, np.ones((18, 24, 3), np.uint8)), "ROOT/depth/000001.png: a depth image has "
          "one channel of 16 bits; this one is of the mode RGB"),
         (image(SECOND, np.ones((24, 18), np.uint16)), "ROOT/depth/000001.png: the depth image has "
-         "18x24 pixels, but the camera is for 24x18"),
+         "18x24 pixels, but the camera has 24x18"),
         (remove("camera.json"), "ROOT/camera.json: the file is missing; it holds the camera's "
          "intrinsics"),
         (cut("camera.json", 0.5), "ROOT/camera.json: not a camera file (JSONDecodeError"),

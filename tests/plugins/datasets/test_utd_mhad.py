@@ -105,7 +105,7 @@ def mat(name: str, **arrays) -> Callable[[Path], None]:
         (mat(DEPTH, depth=np.ones((240, 320, 2))), f"ROOT/{DEPTH}: not a .mat file with 'd_depth'"),
         (mat(DEPTH, d_depth=np.ones((240, 320))), f"ROOT/{DEPTH}: d_depth has the shape"),
         (mat(DEPTH, d_depth=np.ones((320, 240, 2))), f"ROOT/{DEPTH}: frame 0: the depth image has "
-         "240x320 pixels, but the camera is for 320x240"),
+         "240x320 pixels, but the camera has 320x240"),
         (cut(DEPTH, 0.5), f"ROOT/{DEPTH}: not a .mat file with 'd_depth'"),
         (cut(DEPTH, 0.0), f"ROOT/{DEPTH}: not a .mat file with 'd_depth'"),
         (write(DEPTH, "hello"), f"ROOT/{DEPTH}: not a .mat file with 'd_depth'"),

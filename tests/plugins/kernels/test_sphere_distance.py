@@ -104,7 +104,7 @@ def test_distance_is_that_of_the_nearest_sampled_point_of_the_surface(linkage, r
     )
     points = random.normal(scale=0.3, size=(60, 3))
     points = points[capsules.surface_distance(points) > 0.0]
-    single = capsules.some(np.array([True, False, False]))
+    single = capsules.selected(np.array([True, False, False]))
     within = single.ends[0].mean(axis=0) + random.normal(scale=0.02, size=(30, 3))
     assert len(points) > 30
     assert (single.surface_distance(within) < 0.0).all()
@@ -271,7 +271,7 @@ def test_sphere_behind_a_capsule_is_hidden(linkage):
 
 
 def test_template_without_capsules_is_refused(linkage):
-    none = linkage.capsules.some(np.zeros(len(linkage.capsules), dtype=bool))
+    none = linkage.capsules.selected(np.zeros(len(linkage.capsules), dtype=bool))
     with pytest.raises(ConfigError, match="'linkage' has no capsules, which the shape 'sphere'"):
         SphereMesh().bind(replace(linkage, capsules=none))
 

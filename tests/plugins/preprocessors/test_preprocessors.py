@@ -128,7 +128,7 @@ class TestEveryObserver:
     def test_empty_frame_is_refused(self, preprocessor):
         with pytest.raises(DataError) as caught:
             preprocessor.preprocess(frame(np.zeros((0, 3))))
-        assert str(caught.value) == "some/000003.png: the frame is empty: it has no measured point"
+        assert str(caught.value) == "some/000003.png: the frame is empty: it has no valid point"
 
     def test_too_few_points_are_refused(self, preprocessor, cloud):
         with pytest.raises(DataError) as caught:

@@ -60,7 +60,7 @@ def test_constant_velocity_offers_the_last_step_again_within_the_limits(linkage)
     recorder = Recorder(linkage)
     step = np.zeros(bones.dofs)
     step[0] = 0.1
-    step[bones.freedoms_of("forearm")] = np.radians(80.0)  # Twice that is beyond 140 degrees.
+    step[bones.dofs_of("forearm")] = np.radians(80.0)  # Twice that is beyond 140 degrees.
     before, last = bones.rest(), bones.retract(bones.rest(), step)
     past = Past.start(before).followed_by(seen(before)).followed_by(seen(last))
     ConstantVelocity(recovery=None).bind(recorder).step(NOTHING, past)

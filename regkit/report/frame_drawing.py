@@ -1,4 +1,4 @@
-"""What is seen of one frame: the data, the placed shape model, the bones and the joints."""
+"""Drawings of tracked frames: the data, the placed shape model, the bones and the joints."""
 
 from __future__ import annotations
 
@@ -15,27 +15,26 @@ from regkit.skeleton import Placement
 from regkit.system.arrays import Array
 from regkit.tracking import Snapshot
 
-MOST_POINTS = 1500
-"""More dots than this show no more in a picture."""
+MAX_POINTS = 1500
+"""Maximum number of points in a plot; more add nothing visible."""
 
-MANY = 300
-"""More outlines than this would only hide each other: the primitives are shown as dots."""
+MAX_OUTLINES = 300
+"""Maximum number of outlines; more would occlude each other and are drawn as points."""
 
 
 @dataclass(frozen=True)
-class Form:
-    """K placed primitives, as they are drawn.
+class DrawnPrimitives:
+    """K placed primitives in the form in which they are drawn.
 
     Attributes:
-        kind: ``gaussians``, ``capsules``, ``solids`` or ``points``; of the last only the centres
-            are known.
-        centres: (K, 3) [m].
+        kind: ``gaussians``, ``capsules``, ``solids`` or ``points``; points have centres only.
+        centres: Centres, (K, 3) [m].
         axes: R_world_primitive, (K, 3, 3).
         scales: Standard deviations along the axes, (K, 3) [m].
-        weights: (K,).
-        halves: Of capsules, half the distance of the ends on the second axis, (K,) [m].
-        radii: Of capsules, at the ends, (K, 2) [m].
-        surfaces: Of other solids, points all over each in its own axes, (K, P, 3) [m].
+        weights: Weights, (K,).
+        halves: Half the distance of a capsule's ends along its second axis, (K,) [m].
+        radii: Radii of a capsule at its ends, (K, 2) [m].
+        surfaces: Surface samples of other solids in their own axes, (K, P, 3) [m].
     """
 
     kind: str
@@ -49,20 +48,20 @@ class Form:
 
     @classmethod
     def of(cls, primitives: Primitives, placement: Placement) -> Self:
-        """The primitives of a body in a pose."""
+        """Returns the primitives of a placed body."""
         placed = primitives.place(placement.transforms)
         count = len(primitives)
         kind, halves, radii = "points", np.zeros(0), np.zeros((0, 2))
         surfaces = np.zeros((0, 0, 3))
         every = 1
-        if isinstance(primitives, TaperedCapsules) and count <= MANY:
+        if isinstance(primitives, TaperedCapsules) and count <= MAX_OUTLINES:
             kind, halves, radii = "capsules", primitives.halves, primitives.radii
-        elif isinstance(primitives, Gaussians) and count <= MANY:
+        elif isinstance(primitives, Gaussians) and count <= MAX_OUTLINES:
             kind = "gaussians"
-        elif isinstance(primitives, Volumes) and count <= MANY:
+        elif isinstance(primitives, Volumes) and count <= MAX_OUTLINES:
             kind, surfaces = "solids", primitives.surface_points()
         else:
-            every = -(-count // MOST_POINTS)
+            every = -(-count // MAX_POINTS)
         return cls(
             kind=kind,
             centres=placed.centres[::every],
@@ -75,28 +74,28 @@ class Form:
         )
 
     def covariances(self) -> Array:
-        """``R diag(scales^2) R^T``, (K, 3, 3) [m^2]."""
+        """Returns the covariances ``R diag(scales^2) R^T``, (K, 3, 3) [m^2]."""
         return np.asarray((self.axes * self.scales[:, None, :] ** 2) @ np.swapaxes(self.axes, 1, 2))
 
 
 @dataclass(frozen=True)
-class Look:
-    """One frame in the camera's coordinates (x right, y down, z forward).
+class FrameDrawing:
+    """One tracked frame in the camera frame (x right, y down, z forward).
 
     Attributes:
-        frame: Its number.
-        why: What it was chosen for.
-        points: Some of the data, (N, 3) [m].
-        form: The shape model.
-        bones: Lines from segment to segment and on to the markers, (B, 2, 3) [m].
-        markers: The joints found, (M, 3) [m].
-        reference: The reference joints, (J, 3) [m], NaN where they are unknown; J may be 0.
+        frame: Index of the frame.
+        why: Reason for its selection, such as ``worst``.
+        points: A subset of the data, (N, 3) [m].
+        primitives: The shape model.
+        bones: Line segments between segment origins, and to the markers, (B, 2, 3) [m].
+        markers: The markers of the body, (M, 3) [m].
+        reference: The reference joints, (J, 3) [m], NaN where unknown; J may be 0.
     """
 
     frame: int
     why: str
     points: Array
-    form: Form
+    primitives: DrawnPrimitives
     bones: Array
     markers: Array
     reference: Array
@@ -109,7 +108,14 @@ class Look:
         registrar: Registrar,
         reference: Array | None,
     ) -> Self:
-        """A look at a tracked frame."""
+        """Returns the drawing of a tracked frame.
+
+        Args:
+            why: Reason for its selection.
+            snapshot: The tracked frame.
+            registrar: The registrar that registered it.
+            reference: Reference joints, (J, 3) [m], if there are any.
+        """
         body = registrar.body
         placement = body.place(snapshot.pose)
         points = snapshot.points
@@ -117,45 +123,47 @@ class Look:
         return cls(
             frame=snapshot.frame,
             why=why,
-            points=points[:: -(-len(points) // MOST_POINTS)],
-            form=Form.of(registrar.primitives, placement),
+            points=points[:: -(-len(points) // MAX_POINTS)],
+            primitives=DrawnPrimitives.of(registrar.primitives, placement),
             bones=np.array(bones).reshape(-1, 2, 3),
             markers=body.markers.place(placement.transforms),
             reference=np.zeros((0, 3)) if reference is None else reference,
         )
 
     def arrays(self) -> dict[str, np.ndarray[Any, Any]]:
-        """The look as named arrays of single precision."""
-        form = {name: array for name, array in vars(self.form).items() if name != "kind"}
+        """Returns the drawing as named arrays of single precision."""
+        primitives = {
+            name: array for name, array in vars(self.primitives).items() if name != "kind"
+        }
         own = {name: vars(self)[name] for name in ("points", "bones", "markers", "reference")}
-        named = {name: array.astype(np.float32) for name, array in (form | own).items()}
+        named = {name: array.astype(np.float32) for name, array in (primitives | own).items()}
         return named | {
             "frame": np.array(self.frame),
             "why": np.array(self.why),
-            "kind": np.array(self.form.kind),
+            "kind": np.array(self.primitives.kind),
         }
 
     @classmethod
     def from_arrays(cls, named: Mapping[str, np.ndarray[Any, Any]]) -> Self:
-        """The look that was written as ``arrays``.
+        """Returns the drawing of named arrays from ``arrays``.
 
         Raises:
-            KeyError: If one is missing.
+            KeyError: If an array is missing.
         """
         many = {name: np.asarray(array, dtype=float) for name, array in named.items()
                 if array.dtype == np.float32}  # fmt: skip
-        form = ("centres", "axes", "scales", "weights", "halves", "radii", "surfaces")
+        primitives = ("centres", "axes", "scales", "weights", "halves", "radii", "surfaces")
         own = ("points", "bones", "markers", "reference")
         return cls(
             frame=int(named["frame"]),
             why=str(named["why"]),
-            form=Form(str(named["kind"]), *(many[name] for name in form)),
+            primitives=DrawnPrimitives(str(named["kind"]), *(many[name] for name in primitives)),
             **{name: many[name] for name in own},
         )
 
 
 def _bones(body: Body, placement: Placement) -> Iterator[tuple[Array, Array]]:
-    """Lines from each segment's origin to its parent's, and to the markers that it carries."""
+    """Yields the lines from each segment's origin to its parent's and to its markers."""
     origins = placement.transforms[:, :3, 3]
     for segment, parent in enumerate(body.skeleton.parents):
         if parent >= 0:

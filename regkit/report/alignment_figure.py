@@ -1,4 +1,4 @@
-"""Pictures of a rigid cloud before and after it was laid on another."""
+"""A figure of two clouds before and after alignment."""
 
 from __future__ import annotations
 
@@ -10,12 +10,18 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _VIEWS = {"along z": 0, "along x": 2}
-"""The axis that a view shows to the right; y points down, as in a camera's frame."""
+"""The horizontal axis of each view; y points down, as in the camera frame."""
 
 
-def before_after(source: Array, aligned: Array, target: Array) -> Figure:
-    """A source (N, 3) over a target (M, 3), as it was and as it was laid there (N, 3) [m]."""
-    # The object interface needs no display and leaves no global state behind.
+def alignment_figure(source: Array, aligned: Array, target: Array) -> Figure:
+    """Returns a figure of a source over a target before and after alignment, from two views.
+
+    Args:
+        source: Source points, (N, 3) [m].
+        aligned: Source points after alignment, (N, 3) [m].
+        target: Target points, (M, 3) [m].
+    """
+    # The object interface of Matplotlib needs no display and has no global state.
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
