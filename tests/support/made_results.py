@@ -4,11 +4,11 @@ from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
-from regkit.report.frame_drawing import DrawnPrimitives, FrameDrawing
 
 from regkit.metrics import JointErrors, Measure
 from regkit.primitives import SPHERE
 from regkit.report import Record, Run
+from regkit.report.frame_drawing import DrawnPrimitives, FrameDrawing
 
 METHODS = {
     "sog": {"kind": "direct", "shape": {"kind": "sog"}, "solver": {"kind": "lbfgs", "memory": 5}},
