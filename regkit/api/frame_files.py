@@ -6,6 +6,7 @@ from pathlib import Path
 
 from regkit.api.frames import frame_of, load_recording
 from regkit.clouds import read_cloud
+from regkit.geometry.camera import Camera
 from regkit.observation import Frame
 from regkit.observation.depth_image import read_depth
 from regkit.system.errors import DataError
@@ -19,7 +20,8 @@ def load_frame(path: str | Path, *, index: int = 0, depth_scale: float = MILLIME
 
     Args:
         path: The folder of a recording; a 16-bit PNG depth image with its ``camera.json`` beside
-            it, or in the ``depth`` folder of a recording; or a file of a cloud or a mesh.
+            it, or in the ``depth`` folder of a recording; or a file of a cloud or a mesh, whose
+            points are taken for what a camera sees if a ``camera.json`` lies beside it.
         index: Which frame of a recording's folder, from 0.
         depth_scale: Units per metre of a depth image that is in no recording.
 
@@ -29,9 +31,10 @@ def load_frame(path: str | Path, *, index: int = 0, depth_scale: float = MILLIME
     file = Path(path)
     if file.is_dir():
         return _of_recording(file, index)
-    if file.suffix.lower() != ".png":
-        return Frame(read_cloud(file), place=str(file))
     camera = file.with_name("camera.json")
+    if file.suffix.lower() != ".png":
+        seen_by = Camera.read(camera) if camera.is_file() else None
+        return Frame(read_cloud(file), seen_by, place=str(file))
     if camera.is_file():
         return frame_of(read_depth(file) / depth_scale, camera, place=str(file))
     folder = file.absolute().parents[1]
