@@ -1,8 +1,8 @@
 """Long recordings: memory and processor time per frame.
 
-The sample walk is repeated to ``FRAMES`` frames and tracked by the ``best`` method; then a registrar
-that finds at once what it is given is tracked through ``MANY`` frames, so that nothing but the loop
-and the recorder is left.
+The sample walk is repeated to ``FRAMES`` frames and tracked by the ``best`` method; then a
+registrar that finds at once what it is given is tracked through ``MANY`` frames, so that nothing
+but the loop and the recorder is left.
 """
 
 from __future__ import annotations
@@ -152,7 +152,7 @@ def main() -> None:
     """Print the figures of both, each measured in a process of its own."""
     figures = {}
     print(
-        "| | frames | peak memory [MB] | before tracking [MB] | ms per frame, first tenth | last |"
+        "| | frames | peak [MB] | before tracking [MB] | first tenth [ms/frame] | last tenth |"
     )
     print("|---|--:|--:|--:|--:|--:|")
     for name in ("walk", "stub"):
