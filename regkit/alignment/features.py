@@ -44,7 +44,7 @@ def by_features(source: Array, target: Array) -> Array:
     with library.utility.VerbosityContextManager(library.utility.VerbosityLevel.Error):
         transform = _matched(library, clouds, features, 1.5 * voxel)
     if np.array_equal(transform, np.eye(4)):
-        raise DataError("too few features of the clouds match; choose another start")
+        raise DataError("too few features of the clouds match; choose another start", place="start")
     return transform
 
 

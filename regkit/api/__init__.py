@@ -2,6 +2,7 @@
 
 from regkit.api.aligning import CloudAlignment, align
 from regkit.api.choices import load_template
+from regkit.api.frame_files import load_frame
 from regkit.api.frames import load_recording
 from regkit.api.registering import register, track
 from regkit.api.results import Registration, Tracking
@@ -15,6 +16,7 @@ __all__ = [
     "Tracking",
     "Truth",
     "align",
+    "load_frame",
     "load_recording",
     "load_template",
     "register",

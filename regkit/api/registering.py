@@ -26,6 +26,9 @@ POINTS = 900
 WIDTH = 0.5
 """Their standard deviation, as a part of the voxel's side."""
 
+Beginning = Pose | PoseDescription | Mapping[str, Any]
+"""The pose in the first frame: a pose, or what an experiment's ``start`` says."""
+
 
 @renamed_arguments(observer="preprocessor")
 def register(
@@ -35,7 +38,7 @@ def register(
     *,
     camera: Intrinsics | None = None,
     preprocessor: Choice[Preprocessor] | None = None,
-    start: Pose | Mapping[str, Any] | None = None,
+    start: Beginning | None = None,
 ) -> Registration:
     """Find the pose of a body in one frame.
 
@@ -70,7 +73,7 @@ def track(
     fps: float = 30.0,
     preprocessor: Choice[Preprocessor] | None = None,
     tracker: Choice[Tracker] | None = None,
-    start: Pose | Mapping[str, Any] | None = None,
+    start: Beginning | None = None,
 ) -> Tracking:
     """Track a body through a recording.
 
@@ -99,7 +102,7 @@ def _tracked(
     method: Choice[Method] | None,
     preprocessor: Choice[Preprocessor] | None,
     tracker: Choice[Tracker] | None,
-    start: Pose | Mapping[str, Any] | None,
+    start: Beginning | None,
     place: str,
 ) -> Tracking:
     loaded = load_template(template)
@@ -138,9 +141,9 @@ def _first(recording: Recording) -> Frame:
     raise DataError("the recording has no frame", place=recording.name)
 
 
-def _described(start: Pose | Mapping[str, Any] | None, place: str) -> Pose | PoseDescription | None:
+def _described(start: Beginning | None, place: str) -> Pose | PoseDescription | None:
     """A start, whose mapping is that of an experiment's YAML."""
-    if start is None or isinstance(start, Pose):
+    if start is None or isinstance(start, (Pose, PoseDescription)):
         return start
     return Document(dict(start), {(): f"{place}: start"}).validated(PoseDescription)
 

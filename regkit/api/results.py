@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, overload
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from regkit.api.reference import Reference, truth_of
 from regkit.api.tables import Summary
@@ -20,10 +20,13 @@ from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError, DataError
 from regkit.system.files import write_arrays
-from regkit.tracking import Snapshot, Track, TrackRecorder
+from regkit.tracking import Snapshot, Track, TrackRecorder, doubtful, unseen
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+MOST = 0.5
+"""A body is lost if more than this part of the frames is doubtful, or the last frame."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -80,6 +83,41 @@ class Tracking(Summary):
     def segments(self) -> Array:
         """T_camera_segment of each of S segments, (T, S, 4, 4) [m]; their names are ``body``'s."""
         return np.array([self.body.place(pose).transforms for pose in self.poses])
+
+    @cached_property
+    def doubtful(self) -> NDArray[np.bool_]:
+        """Whether the data raise doubts about each frame, (T,): few inliers, or a far surface."""
+        return doubtful(self.track, self.size)
+
+    @property
+    def lost(self) -> bool:
+        """Whether the body was lost: in the last frame, or in most frames."""
+        return bool(self.unseen or self.doubtful[-1] or self.doubtful.mean() > MOST)
+
+    @cached_property
+    def unseen(self) -> bool:
+        """Whether most of the body has no data near it in the last frame."""
+        last = self.snapshot(len(self) - 1)
+        return unseen(self.body, last.pose, last.points)
+
+    @property
+    def doubt(self) -> str | None:
+        """Why the result may not be believed; None if the data raise no doubt."""
+        frames = np.flatnonzero(self.doubtful)
+        if self.unseen:
+            return "most of the body has no data near it; is it this body, of this size?"
+        if not len(frames):
+            return None
+        where = "" if len(self) == 1 else f"{len(frames)} of {len(self)} frames are doubtful: "
+        worst = max(frames, key=lambda at: self.track.surface_distances[at])
+        gap = 1000.0 * self.track.surface_distances[worst]
+        share = 100.0 * self.track.inlier_shares[worst]
+        in_frame = "" if len(self) == 1 else f" in frame {self.indices[worst]}"
+        return (
+            f"{where}half of the points are more than {gap:.0f} mm from the surface{in_frame}, and "
+            f"{share:.0f} % are inliers; is it this body, of this size, and are its surroundings "
+            "cropped?"
+        )
 
     def measure(self, truth: Reference | None = None) -> Measure:
         """The figures of an experiment's report.
@@ -189,6 +227,7 @@ class Tracking(Summary):
             **_rows(self, measure),
             "converged": f"{len(self) - int(measure.unconverged_frames or 0)} of {len(self)}",
             "speed": f"{measure.fps:.3g} frames per second",
+            **_warning(self),
         }
 
 
@@ -265,6 +304,7 @@ class Registration(Summary):
             "frame": self.tracking.name,
             **_rows(self.tracking, self.tracking.measure()),
             "converged": f"{converged}: {self.tracking.message(0)}",
+            **_warning(self.tracking),
         }
 
 
@@ -275,3 +315,7 @@ def _rows(tracking: Tracking, measure: Measure) -> dict[str, str]:
         "body": f"{tracking.body.name}, {tracking.size:.3g} m",
         "surface": "-" if surface is None else f"half of the data within {surface:.3g} mm",
     }
+
+
+def _warning(tracking: Tracking) -> dict[str, str]:
+    return {} if tracking.doubt is None else {"warning": tracking.doubt}

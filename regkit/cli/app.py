@@ -10,14 +10,17 @@ from typing import Any
 import typer
 from typer.core import TyperCommand, TyperGroup
 
-from regkit.cli.console import print_error
+from regkit.cli.console import print_error, tell_compiling
+from regkit.system.compiled import when_compiling
 from regkit.system.errors import RegkitError
 
 COMMANDS = {
     "run": "Run an experiment: register the template to every recording with every method.",
     "report": "Write the report of a results folder anew, also of a run that was interrupted.",
     "export": "Write a tracked motion for other programs: BVH, CSV or glTF.",
-    "register": "Lay a rigid cloud or mesh on another: T_target_source, and how well they agree.",
+    "register": "Register a template to one frame: the body's size and pose, and how well it fits.",
+    "track": "Track a template through a recording, from a start that is found in its first frame.",
+    "align": "Lay a rigid cloud or mesh on another: T_target_source, and how well they agree.",
     "calibrate": "Make a template with the proportions of the person or hand that a recording "
     "shows.",
     "fit": "Make a template in the shape of a skinned mesh.",
@@ -80,6 +83,7 @@ def regkit() -> None:
 
 def main() -> None:
     """Run the command line; what a user can mend ends with a message and the exit code 1."""
+    when_compiling(tell_compiling)
     try:
         app()
     except RegkitError as error:

@@ -6,21 +6,13 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from regkit.calibration import Calibration
-from regkit.config.document import Document
+from regkit.cli.choices import template_named
+from regkit.cli.options import options
 from regkit.config.model import Model
 from regkit.experiment import Experiment
 from regkit.interfaces import Dataset, Preprocessor, Recording, Template
 from regkit.skeleton import PoseDescription
 from regkit.system.errors import ConfigError
-
-SHOWN = 5
-"""So many recordings are named to a user who has to choose one."""
-
-
-class _Named(Model):
-    """A template, as the command line names it."""
-
-    template: Template
 
 
 class Source(Model):
@@ -41,7 +33,7 @@ class Source(Model):
 
         Args:
             path: The folder or the file.
-            template: A name, a file or a YAML mapping; the experiment's or ``human`` without it.
+            template: A name, a file or a YAML mapping; the experiment's or a person without it.
             settings: ``a.b.c=value``, for an experiment.
 
         Raises:
@@ -60,11 +52,13 @@ class Source(Model):
                 f"only an experiment's values can be changed; {path} is a folder",
                 place=f"--set {setting}",
             )
-        data = {"dataset": {"kind": "depth", "root": str(path)}, "template": "human"}
-        source = Document(data, {(): str(path)}).validated(cls)
-        if template is None:
-            return source
-        return source.model_copy(update={"template": template_named(template)})
+        place = str(path)
+        return cls(
+            dataset=Dataset.parse(Dataset.in_folder(path), place=place, field="dataset"),
+            template=Template.parse(Template.default(), place=place, field="template")
+            if template is None
+            else template_named(template),
+        )
 
     def recording(self, name: str | None) -> Recording:
         """The recording called ``name``, or the only one that there is.
@@ -72,39 +66,11 @@ class Source(Model):
         Raises:
             RegkitError: If there is no such recording, or there are several.
         """
-        if name is not None:
-            try:
-                return self.dataset.model_copy(update={"recordings": (name,)}).chosen()[0]
-            except ConfigError as error:
-                raise ConfigError(error.message, place="--recording") from None
-        found = self.dataset.chosen()
-        if len(found) > 1:
-            names = ", ".join(recording.name for recording in found[:SHOWN])
-            more = ", ..." if len(found) > SHOWN else ""
-            raise ConfigError(
-                f"there are {len(found)} recordings ({names}{more}); name one", place="--recording"
-            )
-        return found[0]
+        with options(**{"dataset.recordings": "--recording"}):
+            return self.dataset.only(name)
 
     def calibration(self, frames: int) -> Calibration:
         """How the subject is calibrated, in so many frames."""
         return Calibration(
             template=self.template, preprocessor=self.preprocessor, start=self.start, frames=frames
         )
-
-
-def template_named(text: str) -> Template:
-    """The template that ``--template`` names.
-
-    Raises:
-        ConfigError: If there is none, or its file is wrong.
-    """
-    place = f"--template {text}"
-    if Path(text).suffix in (".yaml", ".yml"):
-        document = Document({"template": {"kind": "file", "path": text}}, {})
-    else:
-        try:
-            document = Document({}, {}).overridden([f"template={text}"])
-        except ConfigError as error:
-            raise ConfigError(error.message, place=place) from None
-    return Document(document.data, {(): place}).validated(_Named).template

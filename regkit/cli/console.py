@@ -15,3 +15,10 @@ def print_error(error: RegkitError) -> None:
     """Print an error, each of its lines as one."""
     for line in str(error).splitlines():
         errors.print(f"error: {line}", style="red", markup=False, highlight=False, soft_wrap=True)
+
+
+def tell_compiling() -> None:
+    """Say why the first run on a machine begins late."""
+    errors.print(
+        "compiling numerical loops (once on this machine) ...", highlight=False, soft_wrap=True
+    )

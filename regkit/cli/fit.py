@@ -10,7 +10,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from regkit.body import BodyDescription
-from regkit.cli.calibration_source import template_named
+from regkit.cli.choices import template_named
 from regkit.cli.console import output
 from regkit.cli.options import PluginFiles, options, run_plugin_files
 from regkit.cli.template_file import check_replaceable, write_template

@@ -2,175 +2,70 @@
 
 from __future__ import annotations
 
-import json
-import math
+from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
-from rich.markup import escape
-from rich.table import Table
 
-from regkit.alignment import Alignment, align
-from regkit.cli.console import errors, output
-from regkit.cli.options import PluginFiles, options, run_plugin_files
-from regkit.clouds import check_writable, read_cloud, write_cloud
-from regkit.config.document import Document
-from regkit.config.model import Model
-from regkit.config.preset import presets_of
-from regkit.geometry.rigid import transformed
-from regkit.interfaces import Method
+from regkit.api import load_frame
+from regkit.api import register as register_frame
+from regkit.cli.choices import Choices
+from regkit.cli.options import (
+    MethodName,
+    Out,
+    PluginFiles,
+    PreprocessorName,
+    Settings,
+    TemplateName,
+    run_plugin_files,
+)
+from regkit.cli.outcome import check_out, finish
 from regkit.system.errors import ConfigError
 
 
 def register(
-    source: Annotated[
+    file: Annotated[
         Path,
         typer.Argument(
-            help="Cloud or mesh to be moved: .ply .pcd .xyz .npz .txt .csv .stl .obj ...",
+            metavar="FILE",
+            help="Cloud or mesh, 16-bit PNG depth image with its camera.json, or the folder of a "
+            "recording.",
             show_default=False,
         ),
     ],
-    target: Annotated[Path, typer.Argument(help="Cloud or mesh that rests.", show_default=False)],
-    method: Annotated[
-        str,
-        typer.Option(
-            metavar="METHOD",
-            help="A preset or kind of method, such as open3d_icp, or a mapping such as "
-            "'{kind: open3d_icp, estimation: generalized}'.",
-        ),
-    ] = "rigid",
-    voxel: Annotated[
-        float | None,
-        typer.Option(
-            min=0.0,
-            help="Side [m] of the cubes to which both clouds are downsampled; 0 for not at all. "
-            "(default: about 5000 points are left)",
-            show_default=False,
-        ),
-    ] = None,
-    start: Annotated[
-        str,
-        typer.Option(
-            metavar="START",
-            help="Where to set out from: nearest (of identity and centroids), identity, centroids, "
-            "rotations or features (both for any orientation), or a file with a 4x4 matrix.",
-        ),
-    ] = "nearest",
-    out: Annotated[
-        Path | None,
-        typer.Option(metavar="FILE", help="Write the source there, laid on the target."),
-    ] = None,
-    min_fitness: Annotated[
+    target: Annotated[Path | None, typer.Argument(hidden=True)] = None,
+    template: TemplateName = None,
+    method: MethodName = None,
+    preprocessor: PreprocessorName = None,
+    frame: Annotated[
+        int, typer.Option(min=0, metavar="N", help="Which frame of a recording's folder, from 0.")
+    ] = 0,
+    depth_scale: Annotated[
         float,
-        typer.Option(
-            min=0.0, max=1.0, help="It counts as failed if less of the source lies on the target."
-        ),
-    ] = 0.3,
+        typer.Option(help="Units per metre of a depth image that is in no recording."),
+    ] = 1000.0,
+    settings: Settings = None,
+    out: Out = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
     plugin: PluginFiles = None,
 ) -> None:
-    """Lay a rigid cloud or mesh on another: T_target_source, and how well they agree."""
+    """Register a template to one frame: the body's size and pose, and how well it fits."""
+    if target is not None:
+        raise ConfigError(
+            "'register SOURCE TARGET' is now called 'align SOURCE TARGET'; 'register FILE' "
+            "registers a template to one frame",
+            place=f"register {file} {target}",
+        )
     run_plugin_files(plugin)
-    if out is not None:
-        check_writable(out, place=f"--out {out}")
-    chosen = named_method(method)
-    points = read_cloud(source)
-    resting = read_cloud(target)
-    with options(start="--start", voxel="--voxel"):
-        found = align(
-            points, resting, chosen, voxel=voxel, start=start, places=(str(source), str(target))
-        )
-    aligned = found.agreement.fitness >= min_fitness
-    if as_json:
-        typer.echo(json.dumps(_figures(found, method, aligned), indent=2, allow_nan=False))
-    else:
-        output.print(_table(found, method))
-    if found.hidden is not None:
-        errors.print(
-            f"warning: {found.hidden} of the source slides its surface along itself: that part of "
-            "the result means little",
-            style="yellow",
-            highlight=False,
-            soft_wrap=True,
-        )
-    if not aligned:
-        errors.print(
-            f"error: no alignment was found: {100.0 * found.agreement.fitness:.0f} % of the source "
-            f"lies within {found.agreement.distance:.3g} of the target, and --min-fitness is "
-            f"{min_fitness:g}; try --start rotations or --start features, and see whether the "
-            "clouds show the same thing",
-            style="red",
-            highlight=False,
-            soft_wrap=True,
-        )
-        raise typer.Exit(1)
-    if out is not None:
-        write_cloud(out, transformed(found.transform, points))
-        errors.print(f"written: {out}", highlight=False, soft_wrap=True)
-
-
-def named_method(text: str) -> Method:
-    """The method that ``--method`` names.
-
-    Raises:
-        ConfigError: If there is none, or a field of it is wrong.
-    """
-
-    class Named(Model):
-        """A method, as the command line names it."""
-
-        method: Method
-
-    place = f"--method {text}"
-    data: dict[str, Any] = {"method": {"preset": text}}
-    if text not in presets_of(Method.group):
-        try:
-            data = Document({}, {}).overridden([f"method={text}"]).data
-        except ConfigError as error:
-            raise ConfigError(error.message, place=place) from None
-    return Document(data, {(): place}).validated(Named).method
-
-
-def _figures(found: Alignment, method: str, aligned: bool) -> dict[str, Any]:
-    agreement = found.agreement
-    rmse = agreement.inlier_rmse
-    return {
-        "T_target_source": found.transform.tolist(),
-        "aligned": aligned,
-        "fitness": agreement.fitness,
-        "inlier_rmse": rmse if math.isfinite(rmse) else None,
-        "overlap": agreement.overlap,
-        "distance": agreement.distance,
-        "fitness_at_start": found.before.fitness,
-        "start": found.start,
-        "hidden_motion": found.hidden,
-        "method": method,
-        "voxel": found.voxel,
-        "points": list(found.points),
-        "seconds": found.seconds,
-        "converged": found.converged,
-        "message": found.message,
-    }
-
-
-def _table(found: Alignment, method: str) -> Table:
-    agreement = found.agreement
-    within = f"within {agreement.distance:.3g}"
-    downsampled = "as they are" if found.voxel is None else f"in voxels of {found.voxel:.3g}"
-    matrix = "\n".join(" ".join(f"{value:11.6f}" for value in row) for row in found.transform)
-    table = Table(show_header=False)
-    for what, told in (
-        ("T_target_source", matrix),
-        ("fitness", f"{100 * agreement.fitness:.1f} % of the source {within} of the target"),
-        ("", f"({100 * found.before.fitness:.1f} % at the start)"),
-        ("inlier RMSE", f"{agreement.inlier_rmse:.4g}"),
-        ("overlap", f"{100 * agreement.overlap:.1f} % of the target {within} of the source"),
-        ("method", method),
-        ("start", found.start),
-        ("points", f"{found.points[0]} and {found.points[1]}, {downsampled}"),
-        ("seconds", f"{found.seconds:.2f}"),
-        ("converged", f"{'yes' if found.converged else 'no'}: {found.message}"),
-    ):
-        table.add_row(what, escape(told))
-    return table
+    check_out(out)
+    options = {"template": template, "method": method, "preprocessor": preprocessor}
+    choices, name = Choices.of(options, settings or ())
+    found = register_frame(
+        load_frame(file, index=frame, depth_scale=depth_scale),
+        choices.template,
+        choices.method,
+        preprocessor=choices.preprocessor,
+        start=choices.start,
+    )
+    finish(replace(found.tracking, name=file.stem, method=name), out, as_json=as_json)

@@ -1,5 +1,6 @@
 """Tracking: the session, the loop from frame to frame, and the track that it records."""
 
+from regkit.tracking.doubt import doubtful, unseen
 from regkit.tracking.loop import SUSPICIOUS, TrackedFrame, tracked
 from regkit.tracking.recorder import Snapshot, TrackRecorder
 from regkit.tracking.session import Session
@@ -12,5 +13,7 @@ __all__ = [
     "Track",
     "TrackRecorder",
     "TrackedFrame",
+    "doubtful",
     "tracked",
+    "unseen",
 ]

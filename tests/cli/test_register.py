@@ -1,186 +1,134 @@
-"""``regkit register``: what it prints and writes, and how it ends."""
+"""``regkit register`` and ``regkit track``: what they find, print and write, and how they end."""
 
+import csv
 import json
+import shutil
 
 import numpy as np
 import pytest
 from places import DATA
 
-from regkit.clouds import read_cloud, write_cloud
-from regkit.geometry.rigid import inverse, rigid, transformed
-from regkit.geometry.rotation import from_matrix, to_vector, vector_to_matrix
+from regkit.clouds import write_cloud
 
-VIEWS = DATA / "mannequin" / "clouds"
-
-
-@pytest.fixture
-def truth():
-    return rigid(vector_to_matrix(np.array([0.2, 0.1, -0.3])), np.array([0.5, 0.0, -0.2]))
+WALK = DATA / "human_walk"
+HUMAN = ("--template", "{kind: human, height: 1.63}")
+START = ("--set", "start={root: {position: [-0.05, -0.05, 3.25], rotation_deg: [180, 0, 0]}}")
+FILES = {"result.json", "markers.csv", "poses.npz", "picture.png"}
 
 
 @pytest.fixture
-def clouds(tmp_path, lump, truth):
-    source, target = tmp_path / "source.npz", tmp_path / "target.txt"
-    write_cloud(source, lump[:1000])
-    write_cloud(target, transformed(truth, lump[500:]))
-    return source, target
+def out(tmp_path):
+    return tmp_path / "out"
 
 
-def near(found, truth, degrees, metres):
-    """Whether a motion is the true one at the lump."""
-    off = inverse(truth) @ np.array(found)
-    assert np.degrees(np.linalg.norm(to_vector(from_matrix(off[:3, :3])))) < degrees
-    centre = np.array([[0.5, -0.2, 1.0]])
-    assert np.linalg.norm(transformed(off, centre) - centre) < metres
+def test_frame_of_a_folder_and_its_image_give_the_same_pose(regkit, out):
+    found = []
+    for file in ((WALK, "--frame", 1), (WALK / "depth" / "000001.png",)):
+        ended = regkit("register", *file, *HUMAN, *START, "--json")
+        assert ended.code == 0, ended.err
+        found.append(json.loads(ended.out))
+    speeds = [one.pop("frames_per_second") for one in found]
+    assert min(speeds) > 0.0
+    assert found[0] == found[1]
+    assert found[0]["lost"] is False
+    assert found[0]["size"] == 1.63
+    assert found[0]["method"] == "best"
+    assert set(found[0]["markers"]) == set(found[0]["marker_names"])
 
 
-def test_table_tells_what_was_found(regkit, clouds):
-    ended = regkit("register", *clouds)
-    assert ended.code == 0
-    assert ended.err == ""
-    for what in ("T_target_source", "fitness", "inlier RMSE", "overlap", "seconds", "converged"):
+def test_image_beside_its_camera_and_a_cloud_file_are_frames(regkit, tmp_path, out):
+    for name in ("depth/000000.png", "camera.json"):
+        shutil.copy(WALK / name, tmp_path)
+    image = regkit("register", tmp_path / "000000.png", *HUMAN, *START, "--json")
+    assert image.code == 0, image.err
+    half = regkit("register", tmp_path / "000000.png", "--depth-scale", 2000, "--json")
+    depths = [json.loads(ended.out)["markers"]["pelvis"][2] for ended in (half, image)]
+    assert depths[0] / depths[1] == pytest.approx(0.5, abs=0.1)
+    cloud = tmp_path / "cloud.npz"
+    write_cloud(cloud, regkit_points())
+    ended = regkit("register", cloud, *HUMAN, *START, "--out", out)
+    assert ended.code == 0, ended.err
+    assert {path.name for path in out.iterdir()} == FILES
+    written = json.loads((out / "result.json").read_text())
+    image_markers = json.loads(image.out)["markers"]
+    gaps = [np.subtract(at, image_markers[name]) for name, at in written["markers"].items()]
+    assert np.linalg.norm(gaps, axis=1).mean() < 0.03
+
+
+def regkit_points():
+    import regkit
+
+    return regkit.load_frame(WALK).points
+
+
+def test_track_writes_the_motion_and_its_summary(regkit, out):
+    ended = regkit("track", WALK, *HUMAN, *START, "--frames", 2, "--out", out)
+    assert ended.code == 0, ended.err
+    for what in ("1.63 m", "surface distance", "inliers", "lost"):
         assert what in ended.out
-    assert "the centroids on one another: half of the source is within" in ended.out
+    assert {path.name for path in out.iterdir()} == FILES
+    with np.load(out / "poses.npz") as arrays:
+        markers, names = arrays["markers"], list(arrays["marker_names"])
+    with (out / "markers.csv").open() as stream:
+        rows = list(csv.DictReader(stream))
+    assert len(rows) == markers.shape[0] * markers.shape[1] == 2 * len(names)
+    last = rows[-1]
+    assert (last["frame"], last["joint"]) == ("1", names[-1])
+    position = [float(last[axis]) for axis in "xyz"]
+    np.testing.assert_allclose(position, markers[-1, -1], atol=1e-6)
 
 
-def test_json_and_the_aligned_cloud_hold_the_motion(regkit, clouds, truth, tmp_path):
-    source, target = clouds
-    out = tmp_path / "aligned.csv"
-    ended = regkit("register", source, target, "--json", "--out", out)
-    assert ended.code == 0
-    found = json.loads(ended.out)
-    near(found["T_target_source"], truth, 0.5, 0.001)
-    assert found["aligned"] is True
-    assert found["fitness"] > 0.95
-    assert found["points"] == [1000, 1000]
-    aligned = transformed(np.array(found["T_target_source"]), read_cloud(source))
-    np.testing.assert_allclose(read_cloud(out), aligned)
-    assert ended.err == f"written: {out}\n"
-
-
-def test_start_is_read_from_a_file(regkit, clouds, truth, tmp_path):
-    start = tmp_path / "start.txt"
-    np.savetxt(start, truth)
-    found = json.loads(regkit("register", *clouds, "--start", start, "--json").out)
-    assert found["start"] == f"the matrix in {start}"
-    near(found["T_target_source"], truth, 0.5, 0.001)
-    assert found["fitness_at_start"] > 0.95
-
-
-def test_shipped_views_are_aligned(regkit):
-    """The figure turns by 36 degrees about the vertical from the first to the fourth cloud."""
-    ended = regkit("register", VIEWS / "000000.npz", VIEWS / "000003.npz", "--json")
-    rotation = np.array(json.loads(ended.out)["T_target_source"])[:3, :3]
-    turn = np.degrees(to_vector(from_matrix(rotation)))
-    np.testing.assert_allclose(turn, [0.0, -36.0, 0.0], atol=2.0)
-
-
-@pytest.mark.parametrize("start", ["rotations", "features"])
-def test_any_orientation_is_found(regkit, tmp_path, lump, start):
-    if start == "features":
-        pytest.importorskip("open3d")
-    turned = rigid(vector_to_matrix(np.array([0.5, 2.5, -1.0])), np.array([1.0, 2.0, 3.0]))
-    files = tmp_path / "a.npz", tmp_path / "b.npz"
-    for file, points in zip(files, (lump, transformed(turned, lump)), strict=True):
-        write_cloud(file, points)
-    found = json.loads(regkit("register", *files, "--start", start, "--json").out)
-    near(found["T_target_source"], turned, 0.5, 0.001)
-
-
-def test_no_alignment_is_an_error_that_says_so(regkit, clouds, tmp_path):
-    far = tmp_path / "far.npz"
-    write_cloud(far, read_cloud(clouds[1]) + 50.0)
-    out = tmp_path / "aligned.npz"
-    ended = regkit("register", clouds[0], far, "--start", "identity", "--json", "--out", out)
+def test_body_that_is_not_there_counts_as_lost(regkit, out):
+    hand = DATA / "hand_gestures"
+    ended = regkit("track", hand, *HUMAN, "--frames", 1, "--out", out)
     assert ended.code == 1
-    found = json.loads(ended.out)
-    assert found["aligned"] is False
-    assert found["fitness"] == 0.0
-    assert found["inlier_rmse"] is None
-    assert "error: no alignment was found: 0 % of the source lies within" in ended.err
-    assert not out.exists()
+    assert "error" in ended.err
+    assert "no data near it" in ended.err
+    assert json.loads((out / "result.json").read_text())["lost"] is True
 
 
-def test_surface_that_slides_along_itself_is_warned_of(regkit, tmp_path, random):
-    ball = random.normal(size=(1500, 3))
-    file = tmp_path / "ball.npz"
-    write_cloud(file, ball / np.linalg.norm(ball, axis=1, keepdims=True))
-    ended = regkit("register", file, file)
-    assert ended.code == 0
-    assert "warning: a rotation about the direction" in ended.err
+def test_settings_change_what_options_name(regkit):
+    ended = regkit(
+        "register", WALK, "--set", "template.height=1.7", "--method", "best",
+        "--set", "method.terms=[]", *START, "--json",
+    )  # fmt: skip
+    assert ended.code == 0, ended.err
+    assert json.loads(ended.out)["size"] == 1.7
 
 
 @pytest.mark.parametrize(
-    ("source", "options", "expected"),
+    ("arguments", "complaints"),
     [
-        ("nothing.ply", [], "nothing.ply: there is no such file"),
-        ("two.txt", [], "two.txt: the cloud has 2 different points of 2; at least 10 are needed"),
-        ("line.txt", [], "line.txt: all points lie on a line"),
-        ("plane.txt", [], "plane.txt: all points lie in a plane"),
-        ("nan.txt", [], "nan.txt: 1 of 1500 points have a NaN or infinite coordinate"),
-        ("mm.txt", [], "the source is 435.9 large and the target 0.4359, a factor of 1e+03"),
-        ("good.txt", ["--start", "centroid"], "--start: there is no file 'centroid'; name one "
-         "with a 4x4 matrix, or one of nearest, identity, centroids, rotations, features; did you "
-         "mean 'centroids'?"),
-        ("good.txt", ["--start", "two.txt"], "two.txt: 6 numbers; a 4x4 matrix has 16"),
-        ("good.txt", ["--start", "scaled.txt"], "scaled.txt: the matrix is no rigid motion"),
-        ("good.txt", ["--method", "ipc"], "--method ipc: method: no plug-in 'ipc'"),
-        ("good.txt", ["--method", "{kind: open3d_icp, distanse: 1}"],
-         "method.distanse: no such field"),
-        ("good.txt", ["--out", "a.doc"], "--out a.doc: the name must end with one of"),
-        ("good.txt", ["--voxel", "3"], "--voxel: "),
+        (("register", "a.ply", "b.ply"), ("now called", "align")),
+        (("register", "none.ply"), ("none.ply", "no such file")),
+        (("register", WALK, "--frame", 999), ("999",)),
+        (("register", WALK, "--template", "humn"), ("--template humn", "did you mean 'human'")),
+        (("register", WALK, "--method", "bst"), ("--method bst", "did you mean 'best'")),
+        (("register", WALK, "--set", "template.heigt=1"), ("template.heigt", "did you mean")),
+        (("register", WALK, "--set", "metod=best"), ("--set metod=best", "did you mean 'method'")),
+        (("register", WALK, "--set", "start={}"), ("start", "size")),
+        (("track", "nowhere"), ("nowhere", "no such folder")),
+        (("track", DATA), ("--recording", "name one")),
+        (("track", DATA, "--recording", "walk"), ("--recording", "no recording")),
+        (("track", WALK, "--tracker", "velocity"), ("--tracker velocity", "did you mean")),
+        (("track", WALK, "--out", __file__), (f"--out {__file__}", "file")),
     ],
-)  # fmt: skip
-def test_mistake_is_told_without_a_traceback(
-    regkit, tmp_path, monkeypatch, lump, source, options, expected
+)
+def test_mistake_is_told_at_the_option_and_nothing_is_written(
+    regkit, tmp_path, monkeypatch, arguments, complaints
 ):
     monkeypatch.chdir(tmp_path)
-    flat, bad = lump.copy(), lump.copy()
-    flat[:, 2] = 0.0
-    bad[7, 1] = np.nan
-    files = {
-        "good": lump, "two": lump[:2], "plane": flat, "nan": bad, "mm": 1000.0 * lump,
-        "line": np.outer(np.arange(30.0), [1, 2, 3]), "scaled": 2.0 * np.eye(4),
-    }  # fmt: skip
-    for name, rows in files.items():
-        np.savetxt(f"{name}.txt", rows)
-    ended = regkit("register", source, "good.txt", *options)
+    ended = regkit(*arguments)
     assert ended.code == 1
-    assert ended.out == ""
     assert ended.err.startswith("error: ")
-    assert expected in ended.err
+    for complaint in complaints:
+        assert complaint in ended.err
+    assert not list(tmp_path.iterdir())
 
 
-def test_rigid_and_jointed_methods_stand_in_one_experiment(regkit, tmp_path):
-    """What a method cannot do is told; the others are run."""
-    pytest.importorskip("open3d")
-    example = VIEWS.parents[2] / "rigid.yaml"
-    direct = "{kind: direct, shape: cloud_gsog, kernel: local_likelihood, solver: gauss_newton}"
-    ended = regkit(
-        "run", example, "--out", tmp_path / "out", "--set", "dataset.frames=3",
-        "--set", f"methods={{rigid: {{preset: rigid}}, icp: open3d_icp, direct: {direct}, "
-        "best: {preset: best}}",
-    )  # fmt: skip
+def test_image_without_a_camera_is_refused(regkit, tmp_path):
+    image = tmp_path / "frame.png"
+    shutil.copy(WALK / "depth" / "000000.png", image)
+    ended = regkit("register", image)
     assert ended.code == 1
-    assert "best on mannequin failed: the template 'model' has neither gaussians.gsog" in ended.err
-    metrics = json.loads((tmp_path / "out" / "metrics.json").read_text())["methods"]
-    errors = {name: one["mean"]["joint_error_raw_cm"] for name, one in metrics.items()}
-    assert errors["rigid"] < 0.5
-    assert errors["direct"] < 3.0
-    assert errors["icp"] is not None
-    assert metrics["rigid"]["mean"]["surface_distance_mm"] < 25.0
-    assert (tmp_path / "out" / "rigid" / "mannequin" / "overlay.png").exists()
-
-
-def test_rigid_method_on_a_jointed_body_is_told(regkit, tmp_path):
-    pytest.importorskip("open3d")
-    example = VIEWS.parents[2] / "demo.yaml"
-    ended = regkit(
-        "run", example, "--out", tmp_path / "out", "--set", "dataset.frames=1",
-        "--set", "methods={icp: open3d_icp}", "--set", "template={kind: human, height: 1.7}",
-        "--set", "start={root: {position: [-0.05, -0.05, 3.25], rotation_deg: [180, 0, 0]}}",
-    )  # fmt: skip
-    assert ended.code == 1
-    assert "method 'open3d_icp' is rigid: the template 'human' has 15 segments" in ended.err
-    report = (tmp_path / "out" / "report.md").read_text()
-    assert "is rigid: the template 'human' has 15 segments" in report
+    assert "camera.json" in ended.err

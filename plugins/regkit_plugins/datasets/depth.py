@@ -7,13 +7,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-import numpy as np
-
 from regkit.config.model import InputPath
 from regkit.geometry.camera import Camera
 from regkit.interfaces import Dataset, Recording
 from regkit.observation import Frame, Truth
-from regkit.system.arrays import Array
+from regkit.observation.depth_image import read_depth
 from regkit.system.errors import DataError
 from regkit_plugins.datasets.formats.folders import (
     RecordingDescription,
@@ -82,27 +80,3 @@ class DepthRecording(Recording):
     def truth(self) -> Truth | None:
         """The joints of ``truth.csv``."""
         return read_truth(self.folder / "truth.csv", self.length)
-
-
-def read_depth(path: Path) -> Array:
-    """The numbers (H, W) of a single-channel 16-bit image.
-
-    Raises:
-        DataError: If the file is missing, damaged, or another kind of image.
-    """
-    from PIL import Image, UnidentifiedImageError
-
-    try:
-        with Image.open(path) as image:
-            mode = image.mode
-            values = np.asarray(image)
-    except FileNotFoundError:
-        raise DataError("there is no such image", place=str(path)) from None
-    except (OSError, SyntaxError, UnidentifiedImageError, Image.DecompressionBombError) as error:
-        raise DataError(f"the image is damaged or cut short: {error}", place=str(path)) from None
-    if not mode.startswith("I"):
-        raise DataError(
-            f"a depth image has one channel of 16 bits; this one is of the mode {mode}",
-            place=str(path),
-        )
-    return values.astype(np.float64)

@@ -1,0 +1,176 @@
+"""Long recordings: memory and processor time per frame.
+
+The sample walk is repeated to ``FRAMES`` frames and tracked by the ``best`` method; then a
+registrar that finds at once what it is given is tracked through ``MANY`` frames, so that nothing
+but the loop and the recorder is left.
+"""
+
+from __future__ import annotations
+
+import json
+import resource
+import subprocess
+import sys
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+import regkit
+from regkit.interfaces import (
+    Evaluation,
+    Method,
+    Preprocessor,
+    Recording,
+    Registrar,
+    RegistrationResult,
+    Template,
+    Tracker,
+)
+from regkit.observation import Frame, Observation
+from regkit.skeleton import Pose
+from regkit.system.optional import one_thread
+from regkit.tracking import Session, TrackRecorder
+
+WALK = Path(__file__).parent.parent / "docs" / "examples" / "data" / "human_walk"
+FRAMES = 3_000
+MANY = 100_000
+START = {"root": {"position": [-0.05, -0.05, 3.25], "rotation_deg": [180, 0, 0]}}
+
+
+@dataclass(frozen=True)
+class Repeated(Recording):
+    """A recording again and again, read anew each time."""
+
+    recording: Recording
+
+    def frames(self) -> Iterator[Frame]:
+        """The frames, from the first one again after the last one."""
+        left = self.length
+        while left:
+            for frame in self.recording.frames():
+                if not left:
+                    return
+                left -= 1
+                yield frame
+
+    def truth(self) -> None:
+        """Not needed."""
+
+
+@dataclass(frozen=True)
+class OneFrame(Recording):
+    """One frame again and again, read once."""
+
+    frame: Frame
+
+    def frames(self) -> Iterator[Frame]:
+        """The frame."""
+        for _ in range(self.length):
+            yield self.frame
+
+    def truth(self) -> None:
+        """Not needed."""
+
+
+class Stub(Registrar):
+    """Finds what it is given."""
+
+    def __init__(self, registrar: Registrar) -> None:
+        self.body, self.primitives = registrar.body, registrar.primitives
+
+    def register(
+        self,
+        observation: Observation,
+        candidates: Sequence[Pose],
+        *,
+        prior: Pose | None = None,
+        warm_start: RegistrationResult | None = None,
+    ) -> RegistrationResult:
+        """The first candidate."""
+        return RegistrationResult(candidates[0], 0.0, 1.0, True, 0, 0, "stub")
+
+    def evaluate(self, observation: Observation, pose: Pose) -> Evaluation:
+        """All points are inliers."""
+        return Evaluation(0.0, np.ones(len(observation.points)))
+
+
+def megabytes() -> float:
+    """The most memory that this process had [MB]."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
+
+
+def tracked(name: str) -> dict[str, float]:
+    """Tracks one of the two recordings in this process."""
+    walk = regkit.load_recording(WALK)
+    template = regkit.load_template("human", height=1.63)
+    voxels = {"voxel": 0.03, "sigma": 0.01}
+    preprocessor = Preprocessor.parse({"kind": "points", **voxels}, place=name, field="data")
+    method = Method.parse("best", place=name, field="method")
+    recording: Recording = Repeated(walk.name, walk.fps, FRAMES, recording=walk)
+    if name == "stub":
+        recording = OneFrame(walk.name, walk.fps, MANY, frame=next(walk.frames()))
+    session = _session(recording, template, preprocessor)
+    start = session.begin()
+    registrar = method.bind(start.body)
+    tracker = method.tracker
+    if name == "stub":
+        registrar = Stub(registrar)
+        tracker = Tracker.parse("constant_pose", place=name, field="tracker")
+    assert tracker is not None
+    recorder = TrackRecorder(session, registrar)
+    ends = np.zeros(recording.length + 1)
+    before = megabytes()
+    with one_thread():
+        ends[0] = time.process_time()
+        for index, frame in enumerate(session.tracked(registrar, tracker, start.pose)):
+            recorder.add(frame)
+            ends[index + 1] = time.process_time()
+    tenth = recording.length // 10
+    seconds = np.diff(ends)
+    return {
+        "frames": len(recorder.track()),
+        "memory_before_mb": round(before, 1),
+        "peak_memory_mb": round(megabytes(), 1),
+        # The first frame loads the compiled loops.
+        "first_tenth_ms": round(1000.0 * float(np.median(seconds[1:tenth])), 3),
+        "last_tenth_ms": round(1000.0 * float(np.median(seconds[-tenth:])), 3),
+    }
+
+
+def _session(recording: Recording, template: Template, preprocessor: Preprocessor) -> Session:
+    from regkit.config.document import Document
+    from regkit.skeleton import PoseDescription
+
+    start = Document(START, {(): "START"}).validated(PoseDescription)
+    return Session(recording, template, preprocessor, start)
+
+
+def main() -> None:
+    """Print the figures of both, each measured in a process of its own."""
+    figures = {}
+    print(
+        "| | frames | peak [MB] | before tracking [MB] | first tenth [ms/frame] | last tenth |"
+    )
+    print("|---|--:|--:|--:|--:|--:|")
+    for name in ("walk", "stub"):
+        command = [sys.executable, __file__, name]
+        told = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
+        one = json.loads(told.splitlines()[-1])
+        one["growth"] = round(one["last_tenth_ms"] / one["first_tenth_ms"], 3)
+        figures[name] = one
+        print(
+            f"| {name} | {one['frames']} | {one['peak_memory_mb']} | {one['memory_before_mb']} | "
+            f"{one['first_tenth_ms']} | {one['last_tenth_ms']} |"
+        )
+        sys.stdout.flush()
+    print(json.dumps(figures))
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 1:
+        print(json.dumps(tracked(sys.argv[1])))
+    else:
+        main()

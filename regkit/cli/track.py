@@ -1,0 +1,75 @@
+"""``regkit track``."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from regkit.api import track as track_frames
+from regkit.cli.choices import Choices
+from regkit.cli.options import (
+    MethodName,
+    Out,
+    PluginFiles,
+    PreprocessorName,
+    Settings,
+    TemplateName,
+    options,
+    run_plugin_files,
+)
+from regkit.cli.outcome import check_out, finish
+from regkit.interfaces import Dataset
+
+
+def track(
+    folder: Annotated[
+        Path,
+        typer.Argument(
+            metavar="FOLDER",
+            help="Folder of a recording: depth/ or clouds/ beside a sequence.yaml.",
+            show_default=False,
+        ),
+    ],
+    template: TemplateName = None,
+    method: MethodName = None,
+    preprocessor: PreprocessorName = None,
+    tracker: Annotated[
+        str | None,
+        typer.Option(
+            metavar="TRACKER",
+            help="How one frame's pose leads to the next, where the method brings no tracker.",
+            show_default=False,
+        ),
+    ] = None,
+    recording: Annotated[
+        str | None,
+        typer.Option(metavar="NAME", help="Which recording of the folder, if it has several."),
+    ] = None,
+    frames: Annotated[
+        int | None, typer.Option(min=1, metavar="N", help="Track only the first N frames.")
+    ] = None,
+    settings: Settings = None,
+    out: Out = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
+    plugin: PluginFiles = None,
+) -> None:
+    """Track a template through a recording, from a start that is found in its first frame."""
+    run_plugin_files(plugin)
+    check_out(out)
+    named = {"template": template, "method": method, "preprocessor": preprocessor}
+    choices, name = Choices.of({**named, "tracker": tracker}, settings or ())
+    data = Dataset.in_folder(folder, frames=frames)
+    with options(**{"dataset.recordings": "--recording"}):
+        chosen = Dataset.parse(data, place="FOLDER", field="dataset").only(recording)
+    found = track_frames(
+        chosen,
+        choices.template,
+        choices.method,
+        preprocessor=choices.preprocessor,
+        tracker=choices.tracker,
+        start=choices.start,
+    )
+    finish(replace(found, method=name), out or Path("tracks") / chosen.name, as_json=as_json)

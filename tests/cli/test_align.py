@@ -1,0 +1,186 @@
+"""``regkit align``: what it prints and writes, and how it ends."""
+
+import json
+
+import numpy as np
+import pytest
+from places import DATA
+
+from regkit.clouds import read_cloud, write_cloud
+from regkit.geometry.rigid import inverse, rigid, transformed
+from regkit.geometry.rotation import from_matrix, to_vector, vector_to_matrix
+
+VIEWS = DATA / "mannequin" / "clouds"
+
+
+@pytest.fixture
+def truth():
+    return rigid(vector_to_matrix(np.array([0.2, 0.1, -0.3])), np.array([0.5, 0.0, -0.2]))
+
+
+@pytest.fixture
+def clouds(tmp_path, lump, truth):
+    source, target = tmp_path / "source.npz", tmp_path / "target.txt"
+    write_cloud(source, lump[:1000])
+    write_cloud(target, transformed(truth, lump[500:]))
+    return source, target
+
+
+def near(found, truth, degrees, metres):
+    """Whether a motion is the true one at the lump."""
+    off = inverse(truth) @ np.array(found)
+    assert np.degrees(np.linalg.norm(to_vector(from_matrix(off[:3, :3])))) < degrees
+    centre = np.array([[0.5, -0.2, 1.0]])
+    assert np.linalg.norm(transformed(off, centre) - centre) < metres
+
+
+def test_table_tells_what_was_found(regkit, clouds):
+    ended = regkit("align", *clouds)
+    assert ended.code == 0
+    assert ended.err == ""
+    for what in ("T_target_source", "fitness", "inlier RMSE", "overlap", "seconds", "converged"):
+        assert what in ended.out
+    assert "the centroids on one another: half of the source is within" in ended.out
+
+
+def test_json_and_the_aligned_cloud_hold_the_motion(regkit, clouds, truth, tmp_path):
+    source, target = clouds
+    out = tmp_path / "aligned.csv"
+    ended = regkit("align", source, target, "--json", "--out", out)
+    assert ended.code == 0
+    found = json.loads(ended.out)
+    near(found["T_target_source"], truth, 0.5, 0.001)
+    assert found["aligned"] is True
+    assert found["fitness"] > 0.95
+    assert found["points"] == [1000, 1000]
+    aligned = transformed(np.array(found["T_target_source"]), read_cloud(source))
+    np.testing.assert_allclose(read_cloud(out), aligned)
+    assert ended.err == f"written: {out}\n"
+
+
+def test_start_is_read_from_a_file(regkit, clouds, truth, tmp_path):
+    start = tmp_path / "start.txt"
+    np.savetxt(start, truth)
+    found = json.loads(regkit("align", *clouds, "--start", start, "--json").out)
+    assert found["start"] == f"the matrix in {start}"
+    near(found["T_target_source"], truth, 0.5, 0.001)
+    assert found["fitness_at_start"] > 0.95
+
+
+def test_shipped_views_are_aligned(regkit):
+    """The figure turns by 36 degrees about the vertical from the first to the fourth cloud."""
+    ended = regkit("align", VIEWS / "000000.npz", VIEWS / "000003.npz", "--json")
+    rotation = np.array(json.loads(ended.out)["T_target_source"])[:3, :3]
+    turn = np.degrees(to_vector(from_matrix(rotation)))
+    np.testing.assert_allclose(turn, [0.0, -36.0, 0.0], atol=2.0)
+
+
+@pytest.mark.parametrize("start", ["rotations", "features"])
+def test_any_orientation_is_found(regkit, tmp_path, lump, start):
+    if start == "features":
+        pytest.importorskip("open3d")
+    turned = rigid(vector_to_matrix(np.array([0.5, 2.5, -1.0])), np.array([1.0, 2.0, 3.0]))
+    files = tmp_path / "a.npz", tmp_path / "b.npz"
+    for file, points in zip(files, (lump, transformed(turned, lump)), strict=True):
+        write_cloud(file, points)
+    found = json.loads(regkit("align", *files, "--start", start, "--json").out)
+    near(found["T_target_source"], turned, 0.5, 0.001)
+
+
+def test_no_alignment_is_an_error_that_says_so(regkit, clouds, tmp_path):
+    far = tmp_path / "far.npz"
+    write_cloud(far, read_cloud(clouds[1]) + 50.0)
+    out = tmp_path / "aligned.npz"
+    ended = regkit("align", clouds[0], far, "--start", "identity", "--json", "--out", out)
+    assert ended.code == 1
+    found = json.loads(ended.out)
+    assert found["aligned"] is False
+    assert found["fitness"] == 0.0
+    assert found["inlier_rmse"] is None
+    assert "error: no alignment was found: 0 % of the source lies within" in ended.err
+    assert not out.exists()
+
+
+def test_surface_that_slides_along_itself_is_warned_of(regkit, tmp_path, random):
+    ball = random.normal(size=(1500, 3))
+    file = tmp_path / "ball.npz"
+    write_cloud(file, ball / np.linalg.norm(ball, axis=1, keepdims=True))
+    ended = regkit("align", file, file)
+    assert ended.code == 0
+    assert "warning: a rotation about the direction" in ended.err
+
+
+@pytest.mark.parametrize(
+    ("source", "options", "expected"),
+    [
+        ("nothing.ply", [], "nothing.ply: there is no such file"),
+        ("two.txt", [], "two.txt: the cloud has 2 different points of 2; at least 10 are needed"),
+        ("line.txt", [], "line.txt: all points lie on a line"),
+        ("plane.txt", [], "plane.txt: all points lie in a plane"),
+        ("nan.txt", [], "nan.txt: 1 of 1500 points have a NaN or infinite coordinate"),
+        ("mm.txt", [], "the source is 435.9 large and the target 0.4359, a factor of 1e+03"),
+        ("good.txt", ["--start", "centroid"], "--start: there is no file 'centroid'; name one "
+         "with a 4x4 matrix, or one of nearest, identity, centroids, rotations, features; did you "
+         "mean 'centroids'?"),
+        ("good.txt", ["--start", "two.txt"], "two.txt: 6 numbers; a 4x4 matrix has 16"),
+        ("good.txt", ["--start", "scaled.txt"], "scaled.txt: the matrix is no rigid motion"),
+        ("good.txt", ["--method", "ipc"], "--method ipc: method: no plug-in 'ipc'"),
+        ("good.txt", ["--method", "{kind: open3d_icp, distanse: 1}"],
+         "method.distanse: no such field"),
+        ("good.txt", ["--out", "a.doc"], "--out a.doc: the name must end with one of"),
+        ("good.txt", ["--voxel", "3"], "--voxel: "),
+    ],
+)  # fmt: skip
+def test_mistake_is_told_without_a_traceback(
+    regkit, tmp_path, monkeypatch, lump, source, options, expected
+):
+    monkeypatch.chdir(tmp_path)
+    flat, bad = lump.copy(), lump.copy()
+    flat[:, 2] = 0.0
+    bad[7, 1] = np.nan
+    files = {
+        "good": lump, "two": lump[:2], "plane": flat, "nan": bad, "mm": 1000.0 * lump,
+        "line": np.outer(np.arange(30.0), [1, 2, 3]), "scaled": 2.0 * np.eye(4),
+    }  # fmt: skip
+    for name, rows in files.items():
+        np.savetxt(f"{name}.txt", rows)
+    ended = regkit("align", source, "good.txt", *options)
+    assert ended.code == 1
+    assert ended.out == ""
+    assert ended.err.startswith("error: ")
+    assert expected in ended.err
+
+
+def test_rigid_and_jointed_methods_stand_in_one_experiment(regkit, tmp_path):
+    """What a method cannot do is told; the others are run."""
+    pytest.importorskip("open3d")
+    example = VIEWS.parents[2] / "rigid.yaml"
+    direct = "{kind: direct, shape: cloud_gsog, kernel: local_likelihood, solver: gauss_newton}"
+    ended = regkit(
+        "run", example, "--out", tmp_path / "out", "--set", "dataset.frames=3",
+        "--set", f"methods={{rigid: {{preset: rigid}}, icp: open3d_icp, direct: {direct}, "
+        "best: {preset: best}}",
+    )  # fmt: skip
+    assert ended.code == 1
+    assert "best on mannequin failed: the template 'model' has neither gaussians.gsog" in ended.err
+    metrics = json.loads((tmp_path / "out" / "metrics.json").read_text())["methods"]
+    errors = {name: one["mean"]["joint_error_raw_cm"] for name, one in metrics.items()}
+    assert errors["rigid"] < 0.5
+    assert errors["direct"] < 3.0
+    assert errors["icp"] is not None
+    assert metrics["rigid"]["mean"]["surface_distance_mm"] < 25.0
+    assert (tmp_path / "out" / "rigid" / "mannequin" / "overlay.png").exists()
+
+
+def test_rigid_method_on_a_jointed_body_is_told(regkit, tmp_path):
+    pytest.importorskip("open3d")
+    example = VIEWS.parents[2] / "demo.yaml"
+    ended = regkit(
+        "run", example, "--out", tmp_path / "out", "--set", "dataset.frames=1",
+        "--set", "methods={icp: open3d_icp}", "--set", "template={kind: human, height: 1.7}",
+        "--set", "start={root: {position: [-0.05, -0.05, 3.25], rotation_deg: [180, 0, 0]}}",
+    )  # fmt: skip
+    assert ended.code == 1
+    assert "method 'open3d_icp' is rigid: the template 'human' has 15 segments" in ended.err
+    report = (tmp_path / "out" / "report.md").read_text()
+    assert "is rigid: the template 'human' has 15 segments" in report
