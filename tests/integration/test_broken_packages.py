@@ -13,6 +13,7 @@ ROOT = Path(__file__).parents[2]
 HEAD = '''
 from typing import Any, ClassVar, Literal
 
+from regkit.body import ellipsoids
 from regkit.interfaces import ShapeModel
 from regkit.primitives import Gaussians, Primitives
 
@@ -24,7 +25,7 @@ class Odd(ShapeModel):
     makes: ClassVar[type[Primitives]] = Gaussians
 
     def bind(self, body):
-        return body.gaussians["gsog"]
+        return Gaussians(*ellipsoids(body.shapes["gsog"]))
 '''
 
 MODULES = {
