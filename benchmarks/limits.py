@@ -24,7 +24,7 @@ from rich.progress import track
 from rich.table import Table
 
 from regkit.body import Body
-from regkit.interfaces import Method, RegistrationResult, Template
+from regkit.interfaces import Method, RegistrationResult, ShapeModel, Template
 from regkit.observation import Observation
 from regkit.skeleton import Pose
 from regkit.system.optional import one_blas_thread
@@ -52,7 +52,7 @@ def problems(body: Body, count: int) -> Iterator[tuple[Observation, Pose]]:
     """Data of random poses, and a start within the limits for each."""
     random = np.random.default_rng(0)
     bones = body.skeleton
-    gaussians = body.gaussians["gsog"]
+    gaussians = ShapeModel.load("gsog")().bind(body)
     root = np.eye(4)
     root[2, 3] = 2.0
     joints = np.arange(bones.dofs) >= bones.ball_dofs.start

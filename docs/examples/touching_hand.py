@@ -11,7 +11,7 @@ import numpy as np
 from regkit.casadi import configuration, correlation, joint_limits, marker_positions, retract
 from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import vector_to_matrix
-from regkit.interfaces import Template
+from regkit.interfaces import ShapeModel, Template
 from regkit.skeleton import PoseDescription
 
 
@@ -19,7 +19,7 @@ def main() -> dict[str, float]:
     """Register the hand with and without the table; the tip's distances to it [m]."""
     random = np.random.default_rng(0)
     hand = Template.load("hand")(side="right", length=0.19).body(0.19)
-    bones, gaussians = hand.skeleton, hand.gaussians["gsog"]
+    bones, gaussians = hand.skeleton, ShapeModel.load("gsog")().bind(hand)
     tip = hand.markers.names.index("index_tip")
 
     # The truth: the index finger points at the table, the others are bent.

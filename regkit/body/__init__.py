@@ -1,6 +1,26 @@
-"""Bodies: skeletons with flesh and markers, and the YAML that describes them."""
+"""Bodies: skeletons with their surface, markers and shapes, and the YAML that describes them."""
 
 from regkit.body.body import Body, Markers, Stance
+from regkit.body.deformation import Deformation, Mirror, Scaling, Stretch
 from regkit.body.description import BodyDescription
+from regkit.body.ellipsoids import BallParameters, EllipsoidParameters
+from regkit.body.listed import ListedShape, ellipsoids
+from regkit.body.shape_parameters import ShapeParameters
+from regkit.body.shapes import ParametricShape
 
-__all__ = ["Body", "BodyDescription", "Markers", "Stance"]
+__all__ = [
+    "BallParameters",
+    "Body",
+    "BodyDescription",
+    "Deformation",
+    "EllipsoidParameters",
+    "ListedShape",
+    "Markers",
+    "Mirror",
+    "ParametricShape",
+    "Scaling",
+    "ShapeParameters",
+    "Stance",
+    "Stretch",
+    "ellipsoids",
+]

@@ -1,15 +1,16 @@
-"""Bodies: a skeleton with its flesh (tapered capsules, Gaussians) and its markers."""
+"""Bodies: a skeleton with its surface, its markers and the parameters of shape models."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
+from regkit.body.listed import ListedShape
 from regkit.geometry.capsules import Capsules
 from regkit.geometry.surface import SkinnedSurface
-from regkit.primitives import Gaussians
 from regkit.skeleton import Placement, Pose, Skeleton
 from regkit.system.arrays import Array, Indices
 
@@ -62,7 +63,7 @@ class Body:
         skeleton: The tree of segments.
         capsules: The surface; also what shape models are made of that the template does not list.
         markers: Points that can be compared with measured ones.
-        gaussians: Gaussians that the template lists for a shape model, by the shape's kind.
+        shapes: The primitives that the template lists, by the kind of shape model.
         stances: Likely poses for the first frame.
         upright: Whether y points up in the first frame, with the front towards the camera.
         surface: Its skinned mesh or cloud, if the template brings one.
@@ -73,7 +74,7 @@ class Body:
     skeleton: Skeleton
     capsules: Capsules
     markers: Markers
-    gaussians: Mapping[str, Gaussians]
+    shapes: Mapping[str, ListedShape[Any]]
     stances: tuple[Stance, ...]
     size: float
     upright: bool

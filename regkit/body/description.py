@@ -1,25 +1,25 @@
-"""What a template's YAML holds beyond its skeleton: a size, stances and Gaussians."""
+"""What a template's YAML holds beyond its skeleton: a size, stances, shapes and a mesh."""
 
 from __future__ import annotations
 
-from typing import Annotated
+from collections.abc import Mapping, Sequence
+from typing import Annotated, ClassVar
 
 import numpy as np
 from pydantic import AfterValidator, Field, model_validator
 
 from regkit.body.body import Body, Markers, Stance
+from regkit.body.deformation import Scaling
+from regkit.body.listed import ListedShape
+from regkit.body.shape_parameters import ShapeParameters, UncheckedParameters
+from regkit.body.shapes import Shapes
 from regkit.config.model import InputPath, Model, did_you_mean, misplaced
 from regkit.geometry.capsules import Capsules
-from regkit.geometry.rotation import vector_to_matrix
 from regkit.geometry.surface import SkinnedSurface, surface_in
-from regkit.primitives import Gaussians
 from regkit.skeleton import PoseDescription, SkeletonDescription
 from regkit.skeleton.compile import compiled
-from regkit.skeleton.joints import Range, Vector
-from regkit.system.arrays import read_only
+from regkit.skeleton.joints import Range
 from regkit.system.errors import ConfigError
-
-Deviation = Annotated[float, Field(gt=1e-6)]
 
 
 def _positive(value: tuple[float, float]) -> tuple[float, float]:
@@ -39,19 +39,10 @@ class SizeDescription(Model):
     """The smallest and the largest that occur [m]; tried where no size is given."""
 
 
-class GaussianDescription(Model):
-    """One Gaussian in a segment's frame."""
-
-    centre: Vector
-    """Mean [m]."""
-    sigma: Deviation | tuple[Deviation, Deviation, Deviation]
-    """Standard deviation [m]: one for a sphere, or three along the Gaussian's own axes."""
-    rotation_deg: Vector = (0.0, 0.0, 0.0)
-    """Rotation vector that turns the Gaussian's own axes in the segment's frame [deg]."""
-
-
 class BodyDescription(SkeletonDescription):
-    """A template: skeleton, surface, markers, and the Gaussians of its shape models."""
+    """A template: skeleton, surface, markers, and the parameters of shape models."""
+
+    renamed: ClassVar[dict[str, str]] = {"gaussians": "shapes"}
 
     title: str
     """What it is, in a line."""
@@ -64,23 +55,23 @@ class BodyDescription(SkeletonDescription):
     upright: bool = False
     """Whether the body's y axis points up in the first frame; without it every turn about the line
     of sight is tried, and the back as well as the front."""
-    gaussians: dict[str, dict[str, tuple[GaussianDescription, ...]]] = Field(default_factory=dict)
-    """By the kind of shape model (sog, gsog), then by segment; others are made from the
-    capsules."""
+    shapes: Shapes = Field(default_factory=dict)
+    """Parameters of shape models, by their kind and then by segment: a list with those of each
+    primitive. A shape model that is not listed makes its primitives from the capsules."""
     mesh: InputPath | None = None
     """A skinned mesh for shape models that take one: an ``.npz`` file whose bones have the names of
     segments."""
 
     @model_validator(mode="after")
-    def _gaussians_are_on_segments(self) -> BodyDescription:
-        for kind, by_segment in self.gaussians.items():
+    def _shapes_are_on_segments(self) -> BodyDescription:
+        for kind, by_segment in self.shapes.items():
             for name in by_segment:
                 if name not in self.segments:
                     raise misplaced(
                         type(self),
                         f"'{name}' is not a segment (there are: {', '.join(self.segments)})"
                         + did_you_mean(name, list(self.segments)),
-                        "gaussians",
+                        "shapes",
                         kind,
                         name,
                     )
@@ -106,6 +97,7 @@ class BodyDescription(SkeletonDescription):
             for segment, description in self.segments.items()
             for marker, point in description.markers.items()
         ]
+        unchecked = self.unchecked()
         stances = [Stance("rest", skeleton.rest())]
         for stance, pose in self.stances.items():
             try:
@@ -125,9 +117,10 @@ class BodyDescription(SkeletonDescription):
                 np.array([segment for _, segment, _ in markers], dtype=np.intp),
                 scale * np.array([point for _, _, point in markers]).reshape(-1, 3),
             ),
-            gaussians={
-                kind: _gaussians(by_segment, order).scaled(scale)
-                for kind, by_segment in self.gaussians.items()
+            shapes={
+                kind: _listed(by_segment, order, Scaling(scale))
+                for kind, by_segment in self.shapes.items()
+                if kind not in unchecked
             },
             stances=tuple(stances),
             size=size,
@@ -135,18 +128,27 @@ class BodyDescription(SkeletonDescription):
             surface=self._surface(skeleton.names, scale),
         )
 
+    def unchecked(self) -> dict[str, str]:
+        """Why shape models that the template lists cannot be loaded, by their kind."""
+        return {
+            kind: one.reason
+            for kind, by_segment in self.shapes.items()
+            for several in by_segment.values()
+            for one in several
+            if isinstance(one, UncheckedParameters)
+        }
+
     def _surface(self, segments: tuple[str, ...], scale: float) -> SkinnedSurface | None:
         return None if self.mesh is None else surface_in(self.mesh, segments).scaled(scale)
 
 
-def _gaussians(
-    by_segment: dict[str, tuple[GaussianDescription, ...]], order: dict[str, int]
-) -> Gaussians:
+def _listed(
+    by_segment: Mapping[str, Sequence[ShapeParameters]],
+    order: Mapping[str, int],
+    scaling: Scaling,
+) -> ListedShape[ShapeParameters]:
     rows = [(order[name], one) for name, several in by_segment.items() for one in several]
-    return Gaussians(
-        segments=np.array([segment for segment, _ in rows], dtype=np.intp),
-        centres=read_only([one.centre for _, one in rows]).reshape(-1, 3),
-        axes=vector_to_matrix(np.radians([one.rotation_deg for _, one in rows]).reshape(-1, 3)),
-        scales=read_only([np.broadcast_to(one.sigma, 3) for _, one in rows]).reshape(-1, 3),
-        weights=np.ones(len(rows)),
+    return ListedShape(
+        np.array([segment for segment, _ in rows], dtype=np.intp),
+        tuple(one if scaling.factor == 1.0 else one.deformed(scaling) for _, one in rows),
     )

@@ -7,13 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from regkit.body import BodyDescription
-from regkit.body.description import GaussianDescription
+from regkit.body.deformation import Stretch
 from regkit.body.groups import Groups
-from regkit.geometry.rotation import vector_to_matrix
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.skeleton import SegmentDescription
 from regkit.skeleton.description import CapsuleDescription, parents_first
-from regkit.skeleton.joints import Vector
 from regkit.system.arrays import Array
 
 
@@ -46,16 +44,14 @@ class Proportions:
             name: _stretched(segment, stretches[name], stretches.get(segment.parent or ""))
             for name, segment in template.segments.items()
         }
-        gaussians = {
+        shapes = {
             kind: {
-                name: tuple(_swollen(one, stretches[name]) for one in several)
+                name: tuple(one.deformed(stretches[name]) for one in several)
                 for name, several in by_segment.items()
             }
-            for kind, by_segment in template.gaussians.items()
+            for kind, by_segment in template.shapes.items()
         }
-        subject = template.model_copy(
-            update={"segments": segments, "gaussians": gaussians, "mesh": None}
-        )
+        subject = template.model_copy(update={"segments": segments, "shapes": shapes, "mesh": None})
         size = template.size.value * height(subject) / height(template)
         return subject.model_copy(
             update={"size": template.size.model_copy(update={"value": size, "range": (size, size)})}
@@ -80,37 +76,20 @@ class Proportions:
             )
         )
 
-    def _stretch(self, segment: int) -> _Stretch:
+    def _stretch(self, segment: int) -> Stretch:
         group = self.groups.of_segments[segment]
-        bone = self.groups.bones[segment]
         length, girth = float(self.lengths[group]), float(self.girths[group])
-        return _Stretch(girth * np.eye(3) + (length - girth) * np.outer(bone, bone), girth)
-
-
-@dataclass(frozen=True)
-class _Stretch:
-    """What happens in a segment's frame: a matrix (3, 3) on positions, a factor on radii."""
-
-    matrix: Array
-    girth: float
-
-    def point(self, point: Vector) -> Vector:
-        return _vector(self.matrix @ point)
-
-    def radius(self, radius: float | tuple[float, float]) -> float | tuple[float, float]:
-        if isinstance(radius, tuple):
-            return (self.girth * radius[0], self.girth * radius[1])
-        return self.girth * radius
+        return Stretch.along(self.groups.bones[segment], length, girth)
 
 
 def _stretched(
-    segment: SegmentDescription, own: _Stretch, parents: _Stretch | None
+    segment: SegmentDescription, own: Stretch, parents: Stretch | None
 ) -> SegmentDescription:
     capsules = tuple(
         CapsuleDescription.model_construct(
             start=own.point(capsule.start),
             end=own.point(capsule.end),
-            radius=own.radius(capsule.radius),
+            radius=_radius(capsule.radius, own),
         )
         for capsule in segment.capsules
     )
@@ -123,14 +102,10 @@ def _stretched(
     )
 
 
-def _swollen(gaussian: GaussianDescription, stretch: _Stretch) -> GaussianDescription:
-    """A Gaussian whose own axes keep their directions; a sphere stays one."""
-    if isinstance(gaussian.sigma, float):
-        sigma: float | Vector = stretch.girth * gaussian.sigma
-    else:
-        axes = vector_to_matrix(np.radians(gaussian.rotation_deg))
-        sigma = _vector(np.linalg.norm(stretch.matrix @ axes, axis=0) * gaussian.sigma)
-    return gaussian.model_copy(update={"centre": stretch.point(gaussian.centre), "sigma": sigma})
+def _radius(radius: float | tuple[float, float], stretch: Stretch) -> float | tuple[float, float]:
+    if isinstance(radius, tuple):
+        return (stretch.radius(radius[0]), stretch.radius(radius[1]))
+    return stretch.radius(radius)
 
 
 def height(description: BodyDescription) -> float:
@@ -140,8 +115,3 @@ def height(description: BodyDescription) -> float:
     capsules = body.capsules.place(placement.transforms)
     heights = capsules.ends[:, :, 1]
     return float((heights + capsules.radii).max() - (heights - capsules.radii).min())
-
-
-def _vector(values: Array) -> Vector:
-    x, y, z = values.tolist()
-    return (x, y, z)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
-import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from regkit.body.description import BodyDescription, GaussianDescription, SizeDescription
+from regkit.body.description import BodyDescription, SizeDescription
+from regkit.body.rows import key, number, row, word
 from regkit.skeleton import PoseDescription, SegmentDescription
 from regkit.skeleton.description import CapsuleDescription
 from regkit.skeleton.joints import (
@@ -29,9 +29,10 @@ _LETTERS = {
 }
 
 
-_RESERVED = ("true", "false", "null")
-
 _UPRIGHT = "In the first frame y points up and the front to the camera; a hand may be anyhow."
+
+_SHAPES = """\
+Primitives of shape models; sigma is a standard deviation [m], and the surface lies at about two."""
 
 _BESIDE = "The skin: vertices that follow the segments, in a file beside this one."
 
@@ -58,7 +59,7 @@ def template_text(body: BodyDescription, opening: str, comments: Mapping[str, st
         "segments:",
     ]
     for name, segment in body.segments.items():
-        lines += ["", f"  {_key(name)}", *_segment(segment, comments.get(name, ""))]
+        lines += ["", f"  {key(name)}", *_segment(segment, comments.get(name, ""))]
     if body.stances:
         lines += [
             "",
@@ -66,18 +67,14 @@ def template_text(body: BodyDescription, opening: str, comments: Mapping[str, st
             "stances:",
         ]
     for name, pose in body.stances.items():
-        lines += [f"  {_key(name)}", *_stance(pose)]
-    if body.gaussians:
-        lines += [
-            "",
-            "# Standard deviations [m]; the surface lies at about twice as much.",
-            "gaussians:",
-        ]
-    for kind, by_segment in body.gaussians.items():
-        lines.append(f"  {_key(kind)} # {sum(map(len, by_segment.values()))} in all")
+        lines += [f"  {key(name)}", *_stance(pose)]
+    if body.shapes:
+        lines += ["", *_comment(_SHAPES), "shapes:"]
+    for kind, by_segment in body.shapes.items():
+        lines.append(f"  {key(kind)} # {sum(map(len, by_segment.values()))} in all")
         for name, several in by_segment.items():
-            lines.append(f"    {_key(name)}")
-            lines += [f"      - {_gaussian(one)}" for one in several]
+            lines.append(f"    {key(name)}")
+            lines += [f"      - {one.yaml()}" for one in several]
     if body.mesh is not None:
         lines += ["", *_comment(_BESIDE), f"mesh: {json.dumps(body.mesh.name)}"]
     return "\n".join(lines) + "\n"
@@ -85,38 +82,38 @@ def template_text(body: BodyDescription, opening: str, comments: Mapping[str, st
 
 def _size(size: SizeDescription) -> str:
     ends = ", ".join(f"{round(end, 4):g}" for end in size.range)
-    return f"{{name: {_word(size.name)}, value: {size.value:.4f}, range: [{ends}]}}"
+    return f"{{name: {word(size.name)}, value: {size.value:.4f}, range: [{ends}]}}"
 
 
 def _stance(pose: PoseDescription) -> list[str]:
     lines = []
     if pose.root != RootDescription():
-        position, rotation = _row(pose.root.position), _row(pose.root.rotation_deg, 1)
+        position, rotation = row(pose.root.position), row(pose.root.rotation_deg, 1)
         lines.append(f"    root: {{position: {position}, rotation_deg: {rotation}}}")
     lines.append("    joints:" if pose.joints else "    joints: {}")
-    width = max((len(_key(joint)) for joint in pose.joints), default=0)
+    width = max((len(key(joint)) for joint in pose.joints), default=0)
     for joint, angles in pose.joints.items():
-        value = _number(angles, 1) if isinstance(angles, float) else _row(angles, 1)
-        lines.append(f"      {_key(joint):<{width}} {value.strip()}")
+        value = number(angles, 1) if isinstance(angles, float) else row(angles, 1)
+        lines.append(f"      {key(joint):<{width}} {value.strip()}")
     return lines
 
 
 def _segment(segment: SegmentDescription, comment: str) -> list[str]:
     lines = _comment(comment, "    ")
     if segment.parent is not None:
-        lines.append(f"    parent: {_word(segment.parent)}")
+        lines.append(f"    parent: {word(segment.parent)}")
     if segment.parent is not None or any(segment.offset):
-        lines.append(f"    offset: {_row(segment.offset)}")
+        lines.append(f"    offset: {row(segment.offset)}")
     if any(segment.rotation_deg):
-        lines.append(f"    rotation_deg: {_row(segment.rotation_deg, 1)}")
+        lines.append(f"    rotation_deg: {row(segment.rotation_deg, 1)}")
     lines.append(f"    joint: {_joint(segment.joint or FixedJoint())}")
     if segment.capsules:
         lines.append("    capsules:")
         lines += [f"      - {_capsule(one)}" for one in segment.capsules]
     if segment.markers:
-        width = max(len(_key(name)) for name in segment.markers)
+        width = max(len(key(name)) for name in segment.markers)
         lines.append("    markers:")
-        lines += [f"      {_key(name):<{width}} {_row(at)}" for name, at in segment.markers.items()]
+        lines += [f"      {key(name):<{width}} {row(at)}" for name, at in segment.markers.items()]
     return lines
 
 
@@ -127,28 +124,28 @@ def _joint(joint: Joint) -> str:
         case HingeJoint():
             fields = [f"axis: {_axis(joint.axis)}"]
             if joint.limits_deg is not None:
-                fields.append(f"limits_deg: {_row(joint.limits_deg, 1)}")
+                fields.append(f"limits_deg: {row(joint.limits_deg, 1)}")
             if joint.coupled is not None:
                 fields.append(f"coupled: {_coupling(joint.coupled)}")
         case UniversalJoint():
             fields = [f"axes: [{', '.join(map(_axis, joint.axes))}]"]
             if joint.limits_deg is not None:
-                ranges = ", ".join(_row(limits, 1) for limits in joint.limits_deg)
+                ranges = ", ".join(row(limits, 1) for limits in joint.limits_deg)
                 fields.append(f"limits_deg: [{ranges}]")
         case BallJoint():
             twist, swing = _axes_at_right_angles(joint)
             fields = [f"twist_axis: {twist}", f"swing_axis: {swing}"]
-            fields.append(f"centre_deg: {_row(joint.centre_deg, 1)}")
+            fields.append(f"centre_deg: {row(joint.centre_deg, 1)}")
             if joint.swing_deg is not None:
-                fields.append(f"swing_deg: {_row(joint.swing_deg, 1)}")
+                fields.append(f"swing_deg: {row(joint.swing_deg, 1)}")
             if joint.twist_deg is not None:
-                fields.append(f"twist_deg: {_row(joint.twist_deg, 1)}")
+                fields.append(f"twist_deg: {row(joint.twist_deg, 1)}")
     return f"{{type: {joint.type}, {', '.join(fields)}}}"
 
 
 def _coupling(coupling: CouplingDescription) -> str:
-    offset = f", offset_deg: {_number(coupling.offset_deg, 1)}" if coupling.offset_deg else ""
-    return f"{{to: {_word(coupling.to)}, ratio: {coupling.ratio:.4g}{offset}}}"
+    offset = f", offset_deg: {number(coupling.offset_deg, 1)}" if coupling.offset_deg else ""
+    return f"{{to: {word(coupling.to)}, ratio: {coupling.ratio:.4g}{offset}}}"
 
 
 def _axes_at_right_angles(joint: BallJoint) -> tuple[str, str]:
@@ -164,43 +161,12 @@ def _axes_at_right_angles(joint: BallJoint) -> tuple[str, str]:
 def _capsule(capsule: CapsuleDescription) -> str:
     radius = capsule.radius
     text = f"{radius:.4f}" if isinstance(radius, float) else f"[{radius[0]:.4f}, {radius[1]:.4f}]"
-    return f"{{start: {_row(capsule.start)}, end: {_row(capsule.end)}, radius: {text}}}"
-
-
-def _gaussian(gaussian: GaussianDescription) -> str:
-    if isinstance(gaussian.sigma, float):
-        return f"{{centre: {_row(gaussian.centre)}, sigma: {gaussian.sigma:.4f}}}"
-    sigma = f"[{', '.join(f'{one:.4f}' for one in gaussian.sigma)}]"
-    return (
-        f"{{centre: {_row(gaussian.centre)}, sigma: {sigma}, "
-        f"rotation_deg: {_row(gaussian.rotation_deg, 1)}}}"
-    )
+    return f"{{start: {row(capsule.start)}, end: {row(capsule.end)}, radius: {text}}}"
 
 
 def _axis(axis: Sequence[float]) -> str:
     """A letter where there is one, else four decimals of the unit vector."""
-    return _LETTERS.get(tuple(axis)) or _row(axis)
-
-
-def _key(name: str) -> str:
-    return f"{_word(name)}:"
-
-
-def _word(text: str) -> str:
-    """A name as it is, if YAML takes it for no number, truth value or structure."""
-    plain = re.fullmatch(r"[A-Za-z_]\w*", text) and text.lower() not in _RESERVED
-    return text if plain else json.dumps(text)
-
-
-def _row(values: Iterable[float], decimals: int = 4) -> str:
-    return f"[{', '.join(_number(value, decimals) for value in values)}]"
-
-
-def _number(value: float, decimals: int) -> str:
-    """A number with a blank where others have a sign; degrees lose their needless decimals."""
-    if decimals == 4:
-        return f"{round(value, 4) + 0.0: .4f}"
-    return f"{round(value, decimals) + 0.0:g}"
+    return _LETTERS.get(tuple(axis)) or row(axis)
 
 
 def _comment(text: str, indent: str = "") -> list[str]:

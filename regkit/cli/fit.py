@@ -90,7 +90,7 @@ def fit(
 
 def _named(description: BodyDescription, mesh: str) -> BodyDescription:
     """The description, which says where its shape comes from."""
-    source = f"Lengths, surface, Gaussians: fitted to the mesh {mesh}"
+    source = f"Lengths, surface, shapes: fitted to the mesh {mesh}"
     title = f"{description.title}; in the shape of {mesh}"
     return description.model_copy(
         update={"title": title, "sources": (*description.sources, source)}
@@ -100,13 +100,13 @@ def _named(description: BodyDescription, mesh: str) -> BodyDescription:
 def _tell(fitted: FittedTemplate) -> None:
     """Print what was made of the mesh."""
     description = fitted.description
-    kinds = list(description.gaussians)
+    kinds = list(description.shapes)
     table = Table("segment", "bones")
     for kind in kinds:
         table.add_column(escape(kind), justify="right")
     for name in description.segments:
         own = [label for label, owner in fitted.owners.items() if owner == name]
-        counts = [str(len(description.gaussians[kind].get(name, ()))) for kind in kinds]
+        counts = [str(len(description.shapes[kind].get(name, ()))) for kind in kinds]
         table.add_row(escape(name), escape(", ".join(own)), *counts)
     output.print(table)
     output.print(

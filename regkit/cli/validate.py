@@ -47,7 +47,7 @@ def _checked(file: Path) -> str:
             "'segments'",
             place=str(file),
         )
-    if {"title", "size", "gaussians", "stances"} & document.data.keys():
+    if {"title", "size", "shapes", "stances"} & document.data.keys():
         document.validated(BodyDescription).body(file.stem, 1.0)
         return "template"
     document.validated(SkeletonDescription)

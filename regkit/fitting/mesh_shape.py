@@ -1,21 +1,21 @@
-"""The shape of a mesh in the terms of a template: proportions, offsets and Gaussians."""
+"""The shape of a mesh in the terms of a template: proportions, offsets and shapes."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from scipy.spatial import cKDTree
 
-from regkit.body import BodyDescription
-from regkit.body.description import GaussianDescription
+from regkit.body import BodyDescription, ShapeParameters
 from regkit.body.groups import Groups
 from regkit.body.proportions import Proportions
+from regkit.body.vectors import rounded
+from regkit.fitting.clusters import clusters
 from regkit.fitting.flesh import Flesh
 from regkit.fitting.layout import Layout
-from regkit.fitting.moments import ball, clusters, gaussian, mixture, vector
 from regkit.skeleton import SegmentDescription
 from regkit.skeleton.description import parents_first
 from regkit.skeleton.joints import FixedJoint
@@ -37,17 +37,17 @@ class MeshShape:
     parts: Mapping[str, Flesh]
 
     def description(self) -> BodyDescription:
-        """The template with the mesh's joints and Gaussians; the rest is stretched with these."""
+        """The template with the mesh's joints and shapes; the rest is stretched with these."""
         stretched = self.proportions().applied(self.template)
         segments = {name: self._segment(name, one) for name, one in stretched.segments.items()}
-        return stretched.model_copy(update={"segments": segments, "gaussians": self.gaussians})
+        return stretched.model_copy(update={"segments": segments, "shapes": self.shapes})
 
     @cached_property
-    def gaussians(self) -> dict[str, dict[str, tuple[GaussianDescription, ...]]]:
-        """The Gaussians of every kind and segment."""
+    def shapes(self) -> dict[str, dict[str, tuple[ShapeParameters, ...]]]:
+        """The primitives of every kind and segment."""
         return {
-            kind: {name: self._gaussians(kind, name, own) for name, own in by_segment.items()}
-            for kind, by_segment in self.template.gaussians.items()
+            kind: {name: self._fitted(kind, name, own) for name, own in by_segment.items()}
+            for kind, by_segment in self.template.shapes.items()
         }
 
     def proportions(self) -> Proportions:
@@ -65,11 +65,11 @@ class MeshShape:
 
     def _factors(self, name: str, bone: Array) -> tuple[float, float]:
         """By how much a segment is longer along its bone, and thicker across it."""
-        kinds = [kind for kind, own in self.template.gaussians.items() if own.get(name)]
+        kinds = [kind for kind, own in self.template.shapes.items() if own.get(name)]
         if not kinds:
             return 1.0, 1.0
-        before = mixture(self.template.gaussians[kinds[0]][name])
-        after = mixture(self.gaussians[kinds[0]][name])
+        before = _mixture(self.template.shapes[kinds[0]][name])
+        after = _mixture(self.shapes[kinds[0]][name])
         across = np.eye(3) - np.outer(bone, bone)
         girth = float(np.sqrt(np.sum(across * after) / np.sum(across * before)))
         children = [own for own, one in self.template.segments.items() if one.parent == name]
@@ -88,36 +88,37 @@ class MeshShape:
         for marker, at in own.markers.items():
             for child, segment in self.template.segments.items():
                 if segment.parent == name and np.allclose(at, segment.offset, atol=1e-6):
-                    markers[marker] = vector(self._offset(child))
-        offset = own.offset if own.parent is None else vector(self._offset(name))
+                    markers[marker] = rounded(self._offset(child))
+        offset = own.offset if own.parent is None else rounded(self._offset(name))
         return stretched.model_copy(update={"offset": offset, "markers": markers})
 
-    def _gaussians(
-        self, kind: str, name: str, before: tuple[GaussianDescription, ...]
-    ) -> tuple[GaussianDescription, ...]:
-        """As many Gaussians as the template has, round where its own are round.
+    def _fitted(
+        self, kind: str, name: str, before: tuple[ShapeParameters, ...]
+    ) -> tuple[ShapeParameters, ...]:
+        """As many primitives as the template lists, each like its own.
 
-        They are those of clusters, which begin where the template's Gaussians lie in its segment.
+        They are fitted to clusters, which begin where the template's lie in its segment.
         """
+        if not before:
+            return ()
         points = self._points(kind, name)
-        centres = np.array([one.centre for one in before])
-        wider = points.std(axis=0) / np.sqrt(np.diag(mixture(before)))
+        centres = np.array([one.moments()[0] for one in before])
+        wider = points.std(axis=0) / np.sqrt(np.diag(_mixture(before)))
         guess = points.mean(axis=0) + wider * (centres - centres.mean(axis=0))
         owners = clusters(points, points[cKDTree(points).query(guess)[1]])
         return tuple(
-            (ball if isinstance(one.sigma, float) else gaussian)(points[owners == index])
-            for index, one in enumerate(before)
+            type(one).fitted(points[owners == index], one) for index, one in enumerate(before)
         )
 
     def _points(self, kind: str, name: str) -> Array:
-        """The points inside a segment and what is fixed to it without Gaussians of its own."""
+        """The points inside a segment and what is fixed to it without primitives of its own."""
         frame = self.layout.frames[name]
         return np.concatenate(
             [frame.local(self.parts[one].interior) for one in self._together(kind, name)]
         )
 
     def _together(self, kind: str, name: str) -> list[str]:
-        """The segment and those that are fixed to it and have no Gaussians of this kind."""
+        """The segment and those that are fixed to it and have no primitives of this kind."""
         names = [name]
         for parent in names:
             names += [
@@ -125,7 +126,7 @@ class MeshShape:
                 for own, one in self.template.segments.items()
                 if one.parent == parent
                 and isinstance(one.joint or FixedJoint(), FixedJoint)
-                and not self.template.gaussians[kind].get(own)
+                and not self.template.shapes[kind].get(own)
             ]
         return names
 
@@ -134,3 +135,9 @@ class MeshShape:
         parent = self.template.segments[name].parent
         assert parent is not None
         return self.layout.frames[parent].local(self.layout.frames[name].origin)
+
+
+def _mixture(primitives: Sequence[ShapeParameters]) -> Array:
+    """The covariance (3, 3) of several primitives together, each of the same weight [m^2]."""
+    means, covariances = zip(*(one.moments() for one in primitives), strict=True)
+    return np.asarray(np.cov(np.array(means).T, bias=True) + np.mean(covariances, axis=0))

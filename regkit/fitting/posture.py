@@ -142,10 +142,10 @@ class Posture:
         return [(sense * np.array(hinge.axis), _unit(bend))]
 
     def _middle(self, name: str) -> Array | None:
-        """The middle of a segment's Gaussians in the template (3,) [m], if they have one."""
-        for by_segment in self.template.gaussians.values():
+        """The middle of a segment's primitives in the template (3,) [m], if they have one."""
+        for by_segment in self.template.shapes.values():
             if by_segment.get(name):
-                middle = np.mean([one.centre for one in by_segment[name]], axis=0)
+                middle = np.mean([one.moments()[0] for one in by_segment[name]], axis=0)
                 return middle if np.linalg.norm(middle) > 1e-6 else None
         return None
 

@@ -10,8 +10,8 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from regkit.body import BodyDescription
+from regkit.fitting.clusters import spread
 from regkit.fitting.layout import Layout
-from regkit.fitting.moments import spread
 from regkit.geometry.rigid import rigid, transformed
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.geometry.surface import vertex_normals

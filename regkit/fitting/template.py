@@ -25,7 +25,7 @@ FINENESS = 150
 """So many points of the grid inside the mesh lie along the template's size."""
 
 FEWEST = 8
-"""Points inside a segment that a Gaussian of it needs."""
+"""Points inside a segment that each primitive of it needs."""
 
 LIKELY = 2.0
 """A mesh so many times larger or smaller than any size of the template has other units."""
@@ -59,8 +59,8 @@ class FittedTemplate:
 
         Args:
             mesh: The mesh, in any pose and in any axes.
-            template: Joints, limits and stances are kept; so is how many Gaussians each segment
-                has.
+            template: Joints, limits and stances are kept; so is how many primitives of each shape
+                model a segment has.
             bones: The segment of each bone; see ``owners_of_bones``.
             vertices: So many of the mesh's vertices are kept.
 
@@ -68,8 +68,8 @@ class FittedTemplate:
             ConfigError: If bones and segments do not fit together.
             DataError: If the mesh is no body like the template's.
         """
-        if not template.gaussians:
-            raise DataError("the template lists no Gaussians, so that none can be fitted")
+        if not template.shapes:
+            raise DataError("the template lists no shapes, so that none can be fitted")
         owners = owners_of_bones(mesh, template, bones)
         starts = mesh.rest[:, :3, 3]
         joints = {name: starts[bone] for name, bone in first_bones(mesh, owners).items()}
@@ -125,13 +125,13 @@ def _sized(
 
 
 def _check_filled(template: BodyDescription, parts: Mapping[str, Flesh]) -> None:
-    """Refuse a mesh that encloses nothing where there should be Gaussians.
+    """Refuse a mesh that encloses nothing where there should be primitives.
 
     Raises:
         DataError: If a segment is empty.
     """
     for name, part in parts.items():
-        most = max(len(by_segment.get(name, ())) for by_segment in template.gaussians.values())
+        most = max(len(by_segment.get(name, ())) for by_segment in template.shapes.values())
         if len(part.interior) < FEWEST * max(most, 1):
             raise DataError(
                 f"the mesh encloses nothing, or too little, at '{name}': its surface must be "

@@ -5,15 +5,18 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from typing import ClassVar
 
-from regkit.body import Body
-from regkit.config.plugin import Plugin
+from regkit.body import Body, ParametricShape
 from regkit.primitives import Primitives
 
 
-class ShapeModel(Plugin, ABC):
-    """Turns a body into primitives that its segments carry; it never sees a joint."""
+class ShapeModel(ParametricShape, ABC):
+    """Turns a body into primitives that its segments carry; it never sees a joint.
 
-    group = "regkit.shapes"
+    One whose ``parameters`` are a class finds what the template lists in ``body.shapes``, scaled to
+    the body's size.
+    """
+
+    group = ParametricShape.group
     declared = ("makes",)
 
     makes: ClassVar[type[Primitives]]

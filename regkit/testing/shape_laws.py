@@ -131,7 +131,7 @@ class ShapeLaws(Laws):
         self, shape: ShapeModel, body: Body
     ) -> None:
         """Attached twice it makes the same, to the last bit, and writes to nothing."""
-        before = copied(body.capsules), copied(body.surface), copied(dict(body.gaussians))
+        before = copied(body.capsules), copied(body.surface), copied(dict(body.shapes))
         first, second = attached(shape, body), attached(shape, body)
         make = type(shape).bind
         require(
@@ -139,7 +139,7 @@ class ShapeLaws(Laws):
             look_at=make,
         )  # fmt: skip
         require(
-            same(before, (body.capsules, body.surface, dict(body.gaussians))), shape,
+            same(before, (body.capsules, body.surface, dict(body.shapes))), shape,
             "changes the body to which it is attached; copy the arrays before writing to them",
             look_at=make,
         )  # fmt: skip

@@ -163,9 +163,10 @@ def same_as(one: Body, other: Body) -> None:
     np.testing.assert_allclose(one.capsules.ends, other.capsules.ends, atol=1e-9)
     np.testing.assert_allclose(one.capsules.radii, other.capsules.radii, atol=1e-9)
     np.testing.assert_allclose(one.markers.points, other.markers.points, atol=1e-9)
-    for kind, gaussians in one.gaussians.items():
-        np.testing.assert_allclose(gaussians.centres, other.gaussians[kind].centres, atol=1e-9)
-        np.testing.assert_allclose(gaussians.scales, other.gaussians[kind].scales, atol=1e-9)
+    for kind, listed in one.shapes.items():
+        for own, its in zip(listed.parameters, other.shapes[kind].parameters, strict=True):
+            for moment, expected in zip(own.moments(), its.moments(), strict=True):
+                np.testing.assert_allclose(moment, expected, atol=1e-9)
 
 
 def test_a_subject_is_written_and_read_again(tmp_path, random, linkage_description):

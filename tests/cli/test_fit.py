@@ -70,7 +70,7 @@ def test_a_fitted_hand_is_like_the_shipped_one_however_the_mesh_stands(regkit, t
     shipped = read(FOLDER / "hand_right.yaml")
     for name, segment in straight.segments.items():
         np.testing.assert_allclose(segment.offset, shipped.segments[name].offset, atol=5e-3)
-    assert len(straight.gaussians["gsog"]["palm"]) == 3
+    assert len(straight.shapes["gsog"]["palm"]) == 3
     mesh = SkinnedMesh.read(HAND)
     turn = np.array([[0.0, -1.0, 0.0, 0.1], [0, 0, -1, 0.2], [1, 0, 0, 0], [0, 0, 0, 1]])
     vertices = mesh.vertices @ turn[:3, :3].T + turn[:3, 3]

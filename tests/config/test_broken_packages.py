@@ -11,6 +11,7 @@ from regkit.interfaces import SLOTS, ShapeModel, Solver
 HEAD = '''
 from typing import Any, ClassVar, Literal
 
+from regkit.body import ellipsoids
 from regkit.interfaces import ShapeModel
 from regkit.primitives import Gaussians, Primitives
 
@@ -22,7 +23,7 @@ class Odd(ShapeModel):
     makes: ClassVar[type[Primitives]] = Gaussians
 
     def bind(self, body):
-        return body.gaussians["gsog"]
+        return Gaussians(*ellipsoids(body.shapes["gsog"]))
 '''
 
 MODULES = {

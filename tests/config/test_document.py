@@ -164,10 +164,10 @@ def test_skeleton_error_names_the_place(file, old, new, expected):
 @pytest.mark.parametrize(
     ("more", "expected"),
     [
-        ("gaussians: {gsog: {base: [{centre: [0, 0, 0], sigma: [0.1, 0, 0.1]}]}}",
-         "gaussians.gsog.base[0].sigma"),
-        ("gaussians: {sog: {nothing: [{centre: [0, 0, 0], sigma: 0.1}]}}",
-         "gaussians.sog.nothing: 'nothing' is not a segment (there are: base, arm,"),
+        ("shapes: {gsog: {base: [{centre: [0, 0, 0], sigma: [0.1, 0, 0.1]}]}}",
+         "shapes.gsog.base[0].sigma"),
+        ("shapes: {sog: {nothing: [{centre: [0, 0, 0], sigma: 0.1}]}}",
+         "shapes.sog.nothing: 'nothing' is not a segment (there are: base, arm,"),
     ],
 )  # fmt: skip
 def test_template_error_names_the_place(file, linkage_text, more, expected):

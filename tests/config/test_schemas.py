@@ -74,11 +74,11 @@ def shortened(template: dict[str, Any]) -> dict[str, Any]:
     segments = dict(list(template["segments"].items())[:5])
     for segment in segments.values():
         segment["capsules"] = segment["capsules"][:2]
-    gaussians = {
+    shapes = {
         kind: {name: rows[:2] for name, rows in by_segment.items() if name in segments}
-        for kind, by_segment in template["gaussians"].items()
+        for kind, by_segment in template["shapes"].items()
     }
-    return {**template, "segments": segments, "gaussians": gaussians}
+    return {**template, "segments": segments, "shapes": shapes}
 
 
 def complaints(model: type[BaseModel], data: Any) -> list[str]:

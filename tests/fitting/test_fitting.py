@@ -8,12 +8,12 @@ import pytest
 from regkit.body import BodyDescription
 from regkit.config.document import Document
 from regkit.fitting.flesh import Flesh, closed, interior_points
-from regkit.fitting.moments import balls, gaussian
 from regkit.geometry.rotation import vector_to_matrix
+from regkit.interfaces import ShapeModel
 from regkit_plugins.templates.reading import FOLDER
 from regkit_synthesis.templates.__main__ import templates
 from regkit_synthesis.templates.capsules import Piece, fitted
-from regkit_synthesis.templates.mirror import symmetric_balls
+from regkit_synthesis.templates.gaussians import balls, gaussian, symmetric_balls
 from regkit_synthesis.templates.texts import human_text
 
 CUBE = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
@@ -112,7 +112,8 @@ def test_templates_can_be_made_again(tmp_path: Path) -> None:
             Document.read(folder / name).validated(BodyDescription) for folder in (tmp_path, FOLDER)
         )
         for kind in ("sog", "gsog"):
-            own, other = (body.body(name, 1.0).gaussians[kind] for body in (made, shipped))
+            shape = ShapeModel.load(kind)()
+            own, other = (shape.bind(body.body(name, 1.0)) for body in (made, shipped))
             np.testing.assert_array_equal(own.segments, other.segments)
             np.testing.assert_allclose(own.centres, other.centres, atol=1e-3)
             np.testing.assert_allclose(own.scales, other.scales, atol=1e-3)

@@ -6,7 +6,7 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from regkit.body import Body
+from regkit.body import Body, EllipsoidParameters, ShapeParameters, ellipsoids
 from regkit.interfaces import ShapeModel
 from regkit.primitives import Gaussians, Primitives
 from regkit.system.arrays import Array
@@ -23,21 +23,23 @@ class GeneralizedSumOfGaussians(ShapeModel):
 
     kind: Literal["gsog"] = "gsog"
     makes: ClassVar[type[Primitives]] = Gaussians
+    parameters: ClassVar[type[ShapeParameters] | None] = EllipsoidParameters
 
     surface: Surface = "volume"
     """Whether data are compared with the whole Gaussian, or with the side that the camera sees."""
 
     def bind(self, body: Body) -> Gaussians:
         """The template's own Gaussians, or the moments of its capsules."""
-        own = body.gaussians.get(self.kind)
-        return shown(_moments_of(body) if own is None else own, self.surface)
+        listed = body.shapes.get(self.kind)
+        gaussians = _moments_of(body) if listed is None else Gaussians(*ellipsoids(listed))
+        return shown(gaussians, self.surface)
 
 
 def _moments_of(body: Body) -> Gaussians:
     capsules = body.capsules
     if not len(capsules):
         raise ConfigError(
-            f"the template '{body.name}' has neither gaussians.gsog nor capsules to make them from"
+            f"the template '{body.name}' has neither shapes.gsog nor capsules to make them from"
         )
     moments = [
         _moments(ends, radii) for ends, radii in zip(capsules.ends, capsules.radii, strict=True)

@@ -6,7 +6,7 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from regkit.body import Body
+from regkit.body import BallParameters, Body, ShapeParameters, ellipsoids
 from regkit.geometry.capsules import Capsules
 from regkit.interfaces import ShapeModel
 from regkit.primitives import Gaussians, Primitives
@@ -23,28 +23,24 @@ class SumOfGaussians(ShapeModel):
 
     kind: Literal["sog"] = "sog"
     makes: ClassVar[type[Primitives]] = Gaussians
+    parameters: ClassVar[type[ShapeParameters] | None] = BallParameters
 
     surface: Surface = "volume"
     """Whether data are compared with the whole Gaussian, or with the side that the camera sees."""
 
     def bind(self, body: Body) -> Gaussians:
         """The template's own isotropic Gaussians, or some made from its capsules."""
-        own = body.gaussians.get(self.kind)
-        if own is None:
+        listed = body.shapes.get(self.kind)
+        if listed is None:
             return shown(_strung_along(body.capsules, body.name), self.surface)
-        if (own.scales != own.scales[:, :1]).any():
-            raise ConfigError(
-                f"gaussians.sog of '{body.name}' has a Gaussian with three sigmas; those of a SoG "
-                "have one"
-            )
-        return shown(own, self.surface)
+        return shown(Gaussians(*ellipsoids(listed)), self.surface)
 
 
 def _strung_along(capsules: Capsules, name: str) -> Gaussians:
     """Gaussians about one mean radius apart on the axes of capsules."""
     if not len(capsules):
         raise ConfigError(
-            f"the template '{name}' has neither gaussians.sog nor capsules to make them from"
+            f"the template '{name}' has neither shapes.sog nor capsules to make them from"
         )
     segments, centres, radii = [], [], []
     for segment, (start, end), (first, last) in zip(

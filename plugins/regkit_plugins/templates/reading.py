@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import lru_cache
 from pathlib import Path
 
-from regkit.body import BodyDescription
+from regkit.body import BodyDescription, ParametricShape
 from regkit.config.document import Document
 
 FOLDER = Path(__file__).resolve().parent
@@ -13,14 +13,17 @@ FOLDER = Path(__file__).resolve().parent
 
 
 def description_in(path: Path) -> BodyDescription:
-    """The template in a YAML file, which is read again only if it has changed.
+    """The template in a YAML file.
+
+    It is read again only if it has changed, or other shape models are installed to check it.
 
     Raises:
         RegkitError: If the file is missing or wrong.
     """
-    return _read(path, path.stat().st_mtime_ns if path.is_file() else 0)
+    changed = path.stat().st_mtime_ns if path.is_file() else 0
+    return _read(path, changed, tuple(ParametricShape.available().items()))
 
 
 @lru_cache(maxsize=32)
-def _read(path: Path, changed: int) -> BodyDescription:
+def _read(path: Path, changed: int, shapes: tuple[object, ...]) -> BodyDescription:
     return Document.read(path).validated(BodyDescription)

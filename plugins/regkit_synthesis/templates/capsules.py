@@ -9,12 +9,12 @@ from typing import Literal
 import numpy as np
 from scipy.optimize import least_squares
 
+from regkit.body.deformation import REFLECT
+from regkit.body.vectors import rounded
 from regkit.fitting.flesh import Flesh
-from regkit.fitting.moments import vector
 from regkit.geometry.capsules import Capsules
 from regkit.skeleton.description import CapsuleDescription
 from regkit.system.arrays import Array
-from regkit_synthesis.templates.mirror import REFLECT
 
 
 @dataclass(frozen=True)
@@ -99,7 +99,7 @@ def _capsules(pieces: Sequence[Piece], parameters: Array) -> Capsules:
 def _described(ends: Array, radii: Array) -> CapsuleDescription:
     first, second = (round(float(radius), 4) for radius in radii)
     return CapsuleDescription(
-        start=vector(ends[0]),
-        end=vector(ends[1]),
+        start=rounded(ends[0]),
+        end=rounded(ends[1]),
         radius=first if first == second else (first, second),
     )

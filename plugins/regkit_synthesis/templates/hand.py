@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from regkit.body import BodyDescription
-from regkit.body.description import GaussianDescription, SizeDescription
+from regkit.body import BodyDescription, EllipsoidParameters
+from regkit.body.description import SizeDescription
+from regkit.body.vectors import rounded
+from regkit.fitting.clusters import clusters
 from regkit.fitting.flesh import Flesh, flesh_of
-from regkit.fitting.moments import balls, clusters, gaussian, vector
 from regkit.geometry.rigid import transformed
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.skeleton import PoseDescription, SegmentDescription
@@ -15,6 +16,7 @@ from regkit.system.arrays import Array
 from regkit_synthesis.bodies.landmarks import hand_landmarks
 from regkit_synthesis.templates import mirror
 from regkit_synthesis.templates.capsules import Piece, fitted
+from regkit_synthesis.templates.gaussians import balls, gaussian
 from regkit_synthesis.templates.hand_layout import FINGERS, PALM, HandLayout, hand_layout
 from regkit_synthesis.templates.hand_limits import SOURCES, STANCES, hand_joints
 
@@ -60,7 +62,7 @@ def right_hand(
         size=SizeDescription(name="length", value=round(length, 4), range=(SHORTEST, LONGEST)),
         segments=segments,
         stances={name: PoseDescription(joints=joints) for name, joints in STANCES.items()},
-        gaussians={"gsog": gsog, "sog": sog},
+        shapes={"gsog": gsog, "sog": sog},
     )
 
 
@@ -72,9 +74,9 @@ def left_hand(right: BodyDescription) -> BodyDescription:
         size=right.size,
         segments={name: mirror.segment(one, str) for name, one in right.segments.items()},
         stances=right.stances,
-        gaussians={
-            kind: {name: tuple(map(mirror.gaussian, several)) for name, several in own.items()}
-            for kind, own in right.gaussians.items()
+        shapes={
+            kind: {name: tuple(map(mirror.primitive, several)) for name, several in own.items()}
+            for kind, own in right.shapes.items()
         },
     )
 
@@ -94,11 +96,11 @@ def _segments(
         offset = np.zeros(3) if parent is None else layout.frames[parent].local(frame.origin)
         segments[name] = SegmentDescription(
             parent=parent,
-            offset=vector(offset),
+            offset=rounded(offset),
             joint=joints[name],
             capsules=fitted(_pieces(name, layout), flesh[name], scale=0.002),
             markers={
-                marker: vector(frame.local(transformed(layout.T_template_mesh, position[None]))[0])
+                marker: rounded(frame.local(transformed(layout.T_template_mesh, position[None]))[0])
                 for marker, (owner, position) in landmarks.items()
                 if owner == name
             },
@@ -109,16 +111,16 @@ def _segments(
 def _pieces(name: str, layout: HandLayout) -> tuple[Piece, ...]:
     """First guesses: one capsule along each phalanx, and one along each metacarpal of the palm."""
     if name != PALM:
-        return (Piece((0.0, 0.0, 0.0), vector(layout.phalanges[name]), 0.008),)
+        return (Piece((0.0, 0.0, 0.0), rounded(layout.phalanges[name]), 0.008),)
     knuckles = [layout.frames[f"{finger}_1"].origin for finger in FINGERS[1:]]
     ball_of_thumb = Piece((0.015, 0.015, 0.008), (0.02, 0.04, 0.01), 0.012)
     return (
         ball_of_thumb,
-        *(Piece(vector(0.3 * at), vector(0.9 * at), 0.012) for at in knuckles),
+        *(Piece(rounded(0.3 * at), rounded(0.9 * at), 0.012) for at in knuckles),
     )
 
 
-def _palm(points: Array) -> tuple[GaussianDescription, ...]:
+def _palm(points: Array) -> tuple[EllipsoidParameters, ...]:
     """Three Gaussians: two below the four fingers, one at the wrist."""
     across = np.quantile(points[:, 0], [5.0 / 6.0, 0.5, 1.0 / 6.0])
     centres = np.tile(points.mean(axis=0), (3, 1))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from regkit.fitting.moments import vector
+from regkit.body.vectors import rounded
 from regkit.skeleton.joints import FreeJoint, HingeJoint, Joint, Range, UniversalJoint, Vector
 from regkit_synthesis.templates.hand_layout import FINGERS, PALM, HandLayout
 from regkit_synthesis.templates.straight import FORWARD, unit
@@ -77,10 +77,10 @@ def hand_joints(layout: HandLayout) -> dict[str, Joint]:
     """The joint of each segment of a right hand: fingers splay about z and bend towards z."""
     joints: dict[str, Joint] = {PALM: FreeJoint()}
     for finger in FINGERS[1:]:
-        bends = {part: vector(layout.bends[f"{finger}_{part}"]) for part in "123"}
+        bends = {part: rounded(layout.bends[f"{finger}_{part}"]) for part in "123"}
         joints[f"{finger}_1"] = UniversalJoint(
             type="universal",
-            axes=(vector(FORWARD), bends["1"]),
+            axes=(rounded(FORWARD), bends["1"]),
             limits_deg=(_SPLAY, _FLEXION["1"]),
         )
         for part in ("2", "3"):
@@ -106,16 +106,16 @@ def _thumb(layout: HandLayout) -> dict[str, Joint]:
     return {
         "thumb_1": UniversalJoint(
             type="universal",
-            axes=(vector(abduct), vector(sweep)),
+            axes=(rounded(abduct), rounded(sweep)),
             limits_deg=(
                 (round(-palmar, 1), round(_PALMAR_ABDUCTION - palmar, 1)),
                 (round(radial - _RADIAL_ABDUCTION, 1), round(radial + _ADDUCTION, 1)),
             ),
         ),
         "thumb_2": HingeJoint(
-            type="hinge", axis=vector(layout.bends["thumb_2"]), limits_deg=_THUMB_MCP
+            type="hinge", axis=rounded(layout.bends["thumb_2"]), limits_deg=_THUMB_MCP
         ),
         "thumb_3": HingeJoint(
-            type="hinge", axis=vector(layout.bends["thumb_3"]), limits_deg=_THUMB_IP
+            type="hinge", axis=rounded(layout.bends["thumb_3"]), limits_deg=_THUMB_IP
         ),
     }

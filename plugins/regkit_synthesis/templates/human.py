@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from regkit.body import BodyDescription
-from regkit.body.description import GaussianDescription, SizeDescription
+from regkit.body import BodyDescription, EllipsoidParameters
+from regkit.body.deformation import REFLECT
+from regkit.body.description import SizeDescription
+from regkit.body.vectors import rounded
 from regkit.fitting.flesh import Flesh, flesh_of
 from regkit.fitting.layout import Layout
-from regkit.fitting.moments import balls, gaussian, vector
 from regkit.geometry.rigid import transformed
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.skeleton import PoseDescription, SegmentDescription
@@ -17,6 +18,7 @@ from regkit.system.arrays import Array
 from regkit_synthesis.bodies.bodies import human_landmarks
 from regkit_synthesis.templates import mirror
 from regkit_synthesis.templates.capsules import fitted
+from regkit_synthesis.templates.gaussians import balls, gaussian, symmetric_balls
 from regkit_synthesis.templates.human_layout import (
     BALLS,
     BONES,
@@ -56,7 +58,7 @@ def human(
     heights = layout.neutral(mesh)[:, 1]
     left = {name: _segment(name, mesh, layout, flesh[name]) for name in BONES}
     sog = {name: _balls(name, flesh[name]) for name in BONES}
-    gsog: dict[str, tuple[GaussianDescription, ...]] = {
+    gsog: dict[str, tuple[EllipsoidParameters, ...]] = {
         name: (gaussian(flesh[name].interior),) for name in BONES if name != "left_hand"
     }
     # The hand is fixed to the forearm, and one Gaussian stands for both.
@@ -72,7 +74,7 @@ def human(
         upright=True,
         segments=_both_segments(left),
         stances={name: PoseDescription(joints=joints) for name, joints in STANCES.items()},
-        gaussians={"gsog": _both_gaussians(gsog), "sog": _both_gaussians(sog)},
+        shapes={"gsog": _both_gaussians(gsog), "sog": _both_gaussians(sog)},
     )
 
 
@@ -80,8 +82,8 @@ def both_sides(flesh: Flesh) -> Flesh:
     """The flesh of a segment in the middle, and its mirror image."""
     left = flesh.interior[flesh.interior[:, 0] > 0.0]
     return Flesh(
-        np.concatenate([left, left * mirror.REFLECT]),
-        np.concatenate([flesh.surface, flesh.surface * mirror.REFLECT]),
+        np.concatenate([left, left * REFLECT]),
+        np.concatenate([flesh.surface, flesh.surface * REFLECT]),
         np.concatenate([flesh.areas, flesh.areas]),
     )
 
@@ -97,25 +99,25 @@ def _segment(name: str, mesh: SkinnedMesh, layout: Layout, flesh: Flesh) -> Segm
     for marker, landmark in human_landmarks(mesh).items():
         if MARKERS.get(marker) == name:
             place = frame.local(transformed(layout.T_template_mesh, landmark.position[None]))[0]
-            markers[marker] = vector(place if "left" in marker else place * [0.0, 1.0, 1.0])
+            markers[marker] = rounded(place if "left" in marker else place * [0.0, 1.0, 1.0])
     for marker, (landmark_name, away) in KINECT.items():
         if MARKERS[landmark_name] == name:
-            markers[marker] = vector(np.array(markers[landmark_name]) + away)
+            markers[marker] = rounded(np.array(markers[landmark_name]) + away)
     offset = np.zeros(3) if parent is None else layout.frames[parent].local(frame.origin)
     return SegmentDescription(
         parent=parent,
-        offset=vector(offset),
+        offset=rounded(offset),
         joint=JOINTS.get(name, FixedJoint()),
         capsules=fitted(PIECES[name], flesh, scale=0.01),
         markers=markers,
     )
 
 
-def _balls(name: str, flesh: Flesh) -> tuple[GaussianDescription, ...]:
+def _balls(name: str, flesh: Flesh) -> tuple[EllipsoidParameters, ...]:
     pairs, single = BALLS[name]
     if name.startswith("left_"):
         return balls(flesh.interior, single)
-    return mirror.symmetric_balls(flesh.interior, pairs, single)
+    return symmetric_balls(flesh.interior, pairs, single)
 
 
 def _forearm_and_hand(layout: Layout, flesh: dict[str, Flesh]) -> Array:
@@ -134,11 +136,11 @@ def _both_segments(left: dict[str, SegmentDescription]) -> dict[str, SegmentDesc
 
 
 def _both_gaussians(
-    left: dict[str, tuple[GaussianDescription, ...]],
-) -> dict[str, tuple[GaussianDescription, ...]]:
+    left: dict[str, tuple[EllipsoidParameters, ...]],
+) -> dict[str, tuple[EllipsoidParameters, ...]]:
     both = {}
     for name, several in left.items():
         both[name] = several
         if name.startswith("left_"):
-            both[right_of(name)] = tuple(mirror.gaussian(one) for one in several)
+            both[right_of(name)] = tuple(map(mirror.primitive, several))
     return both

@@ -4,44 +4,31 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import TypeVar
 
 import numpy as np
 
-from regkit.body.description import GaussianDescription
-from regkit.fitting.moments import ball, clusters, spread, vector
+from regkit.body import Mirror, ShapeParameters
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.skeleton import SegmentDescription
 from regkit.skeleton.description import CapsuleDescription
-from regkit.skeleton.joints import BallJoint, HingeJoint, Joint, UniversalJoint, Vector
-from regkit.system.arrays import Array
+from regkit.skeleton.joints import BallJoint, HingeJoint, Joint, UniversalJoint
 
-REFLECT = np.array([-1.0, 1.0, 1.0])
-"""What a point is multiplied by."""
+_MIRROR = Mirror()
+point, turn = _MIRROR.point, _MIRROR.rotation
+"""The mirror images of a point [m], and of an axis or a rotation vector."""
 
-_TURN = np.array([1.0, -1.0, -1.0])
-"""What an axis or a rotation vector is multiplied by: its sense of turning is reflected, too."""
-
-
-def point(value: Vector) -> Vector:
-    """The mirror image of a point [m]."""
-    return vector(REFLECT * value, 15)
+P = TypeVar("P", bound=ShapeParameters)
 
 
-def turn(value: Vector) -> Vector:
-    """The mirror image of an axis or of a rotation vector."""
-    return vector(_TURN * value, 15)
+def primitive(value: P) -> P:
+    """The mirror image of a primitive of a shape model."""
+    return value.deformed(_MIRROR)
 
 
 def capsule(value: CapsuleDescription) -> CapsuleDescription:
     """The mirror image of a capsule."""
     return CapsuleDescription(start=point(value.start), end=point(value.end), radius=value.radius)
-
-
-def gaussian(value: GaussianDescription) -> GaussianDescription:
-    """The mirror image of a Gaussian."""
-    return GaussianDescription(
-        centre=point(value.centre), sigma=value.sigma, rotation_deg=turn(value.rotation_deg)
-    )
 
 
 def joint(value: Joint, rename: Callable[[str], str]) -> Joint:
@@ -58,7 +45,9 @@ def joint(value: Joint, rename: Callable[[str], str]) -> Joint:
             return HingeJoint(type="hinge", axis=turn(axis), limits_deg=limits, coupled=coupled)
         case UniversalJoint(axes=(first, second), limits_deg=both):
             return UniversalJoint(
-                type="universal", axes=(turn(first), turn(second)), limits_deg=both
+                type="universal",
+                axes=(turn(first), turn(second)),
+                limits_deg=both,
             )
         case BallJoint(twist_deg=twist):
             return BallJoint(
@@ -92,25 +81,3 @@ def reflected(mesh: SkinnedMesh) -> SkinnedMesh:
         faces=mesh.faces[:, ::-1],
         rest=mirror @ mesh.rest @ mirror,
     )
-
-
-def symmetric_balls(points: Array, pairs: int, middle: int) -> tuple[GaussianDescription, ...]:
-    """Isotropic Gaussians that are their own mirror image in the plane x = 0.
-
-    Args:
-        points: (N, 3) points that are symmetric about that plane [m].
-        pairs: How many pairs there are, left first.
-        middle: How many lie in the plane.
-    """
-    half = points[points[:, 0] > 0.0]
-    start = half[spread(half, pairs + middle)]
-    start = start[np.argsort(-start[:, 0], kind="stable")]
-    owners = clusters(half, start, in_plane=middle)
-    balls: list[GaussianDescription] = []
-    for index in range(pairs):
-        own = half[owners == index]
-        balls += [ball(own), ball(own * REFLECT)]
-    for index in range(pairs, pairs + middle):
-        own = half[owners == index]
-        balls.append(ball(np.concatenate([own, own * REFLECT])))
-    return tuple(balls)

@@ -7,7 +7,7 @@ import pytest
 from pydantic import ValidationError
 
 from regkit.body import Body
-from regkit.interfaces import Method, Multipliers, Solver, Template
+from regkit.interfaces import Method, Multipliers, ShapeModel, Solver, Template
 from regkit.observation import Observation
 from regkit.registration.coordinates import COORDINATES
 from regkit.registration.problem import RegistrationProblem
@@ -35,7 +35,7 @@ def test_derivatives_of_constraints_are_exact(linkage, random, name):
 
 def beyond_limits(body: Body, random: np.random.Generator) -> tuple[Observation, Pose]:
     """Data of a pose that may be beyond the limits, and a start within them."""
-    bones, gaussians = body.skeleton, body.gaussians["gsog"]
+    bones, gaussians = body.skeleton, ShapeModel.load("gsog")().bind(body)
     joints = np.arange(bones.dofs) >= bones.ball_dofs.start
     step = random.uniform(0.2, 1.0) * joints * random.normal(size=bones.dofs)
     target = bones.retract(bones.rest(), step)
@@ -172,4 +172,5 @@ def test_hard_limits_refuse_a_solver_that_cannot_keep_them():
 def test_body_without_ball_limits_has_no_constraints(linkage):
     body = Template.load("hand")().body(0.186)
     coordinates = COORDINATES["tangent"](body.skeleton, body.skeleton.rest())
-    assert RegistrationProblem(coordinates, body.gaussians["gsog"], {}).constraints() is None
+    gaussians = ShapeModel.load("gsog")().bind(body)
+    assert RegistrationProblem(coordinates, gaussians, {}).constraints() is None

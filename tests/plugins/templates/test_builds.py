@@ -54,7 +54,7 @@ def test_build_has_the_height_and_the_surface_of_its_body(build):
 
 @pytest.mark.parametrize("build", FILES)
 def test_build_has_as_many_gaussians_as_the_paper(build):
-    gaussians = _template(build).gaussians
+    gaussians = _template(build).shapes
     assert (len(gaussians["sog"]), len(gaussians["gsog"])) == (58, 13)
 
 

@@ -13,6 +13,7 @@ from regkit.fitting.layout import Layout
 from regkit.geometry.capsules import Capsules
 from regkit.geometry.rotation import from_vector
 from regkit.geometry.skinned_mesh import SkinnedMesh
+from regkit.interfaces import ShapeModel
 from regkit.interfaces.template import Template
 from regkit.primitives import Gaussians
 from regkit.skeleton import PoseDescription
@@ -49,7 +50,7 @@ def test_template_file_validates(name: str) -> None:
 
 @pytest.mark.parametrize("name", TEMPLATES)
 def test_template_counts_are_those_of_the_paper(name: str) -> None:
-    gaussians = own_size(name).gaussians
+    gaussians = own_size(name).shapes
     assert (len(gaussians["sog"]), len(gaussians["gsog"])) == COUNTS[name]
 
 
@@ -63,8 +64,12 @@ def test_human_has_the_markers_of_the_mesh() -> None:
 
 @pytest.mark.parametrize("name", TEMPLATES)
 def test_sog_is_isotropic(name: str) -> None:
-    scales = own_size(name).gaussians["sog"].scales
+    scales = gaussians_of(own_size(name), "sog").scales
     assert np.all(scales == scales[:, :1])
+
+
+def gaussians_of(body: Body, kind: str) -> Gaussians:
+    return ShapeModel.load(kind)().bind(body)
 
 
 def reflected(points: Array) -> Array:
@@ -86,8 +91,8 @@ def rows(gaussians: Gaussians, transforms: Array, *, mirror: bool) -> Array:
 def test_left_hand_mirrors_the_right_gaussians(kind: str) -> None:
     left, right = own_size("hand_left"), own_size("hand_right")
     for stance, mirrored in zip(right.stances, left.stances, strict=True):
-        own = rows(right.gaussians[kind], right.place(stance.pose).transforms, mirror=True)
-        other = rows(left.gaussians[kind], left.place(mirrored.pose).transforms, mirror=False)
+        own = rows(gaussians_of(right, kind), right.place(stance.pose).transforms, mirror=True)
+        other = rows(gaussians_of(left, kind), left.place(mirrored.pose).transforms, mirror=False)
         np.testing.assert_allclose(own, other, atol=1e-9)
 
 
@@ -106,7 +111,7 @@ def test_left_hand_mirrors_the_right_markers() -> None:
 def test_human_gaussians_are_their_own_mirror_image(kind: str) -> None:
     body = own_size("human")
     transforms = body.place(body.skeleton.rest()).transforms
-    gaussians = body.gaussians[kind]
+    gaussians = gaussians_of(body, kind)
     np.testing.assert_allclose(
         rows(gaussians, transforms, mirror=True),
         rows(gaussians, transforms, mirror=False),
@@ -161,9 +166,10 @@ def test_human_right_limits_mirror_the_left() -> None:
 def test_gaussians_lie_on_their_segments(name: str, kind: str) -> None:
     body = own_size(name)
     transforms = body.place(body.skeleton.rest()).transforms
-    centres = body.gaussians[kind].place(transforms).centres
+    gaussians = gaussians_of(body, kind)
+    centres = gaussians.place(transforms).centres
     surface = body.capsules.place(transforms)
-    for segment, centre in zip(body.gaussians[kind].segments, centres, strict=True):
+    for segment, centre in zip(gaussians.segments, centres, strict=True):
         own = surface.segments == segment
         capsules = Capsules(surface.segments[own], surface.ends[own], surface.radii[own])
         assert capsules.surface_distance(centre[None])[0] < 0.0

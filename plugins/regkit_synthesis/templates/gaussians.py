@@ -1,0 +1,41 @@
+"""Gaussians that fill a segment."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from regkit.body import BallParameters, EllipsoidParameters
+from regkit.body.deformation import REFLECT
+from regkit.fitting.clusters import clusters, spread
+from regkit.system.arrays import Array
+
+gaussian, ball = EllipsoidParameters.fitted, BallParameters.fitted
+"""The Gaussian with the moments of points (N, 3) [m], and the isotropic one."""
+
+
+def balls(points: Array, count: int) -> tuple[BallParameters, ...]:
+    """``count`` isotropic Gaussians with the moments of clusters of ``points`` (N, 3) [m]."""
+    owners = clusters(points, points[spread(points, count)])
+    return tuple(ball(points[owners == index]) for index in range(count))
+
+
+def symmetric_balls(points: Array, pairs: int, middle: int) -> tuple[BallParameters, ...]:
+    """Isotropic Gaussians that are their own mirror image in the plane x = 0.
+
+    Args:
+        points: (N, 3) points that are symmetric about that plane [m].
+        pairs: How many pairs there are, left first.
+        middle: How many lie in the plane.
+    """
+    half = points[points[:, 0] > 0.0]
+    start = half[spread(half, pairs + middle)]
+    start = start[np.argsort(-start[:, 0], kind="stable")]
+    owners = clusters(half, start, in_plane=middle)
+    found: list[BallParameters] = []
+    for index in range(pairs):
+        own = half[owners == index]
+        found += [ball(own), ball(own * REFLECT)]
+    for index in range(pairs, pairs + middle):
+        own = half[owners == index]
+        found.append(ball(np.concatenate([own, own * REFLECT])))
+    return tuple(found)

@@ -1,0 +1,82 @@
+"""Solids by their mean and standard deviations: parameters that many shape models have."""
+
+from __future__ import annotations
+
+from typing import Annotated, Self
+
+import numpy as np
+from pydantic import Field
+
+from regkit.body.deformation import Deformation
+from regkit.body.shape_parameters import ShapeParameters
+from regkit.body.vectors import rounded
+from regkit.geometry.principal_axes import principal_axes
+from regkit.geometry.rotation import from_matrix, to_vector, vector_to_matrix
+from regkit.skeleton.joints import Vector
+from regkit.system.arrays import Array
+
+Deviation = Annotated[float, Field(gt=1e-6)]
+
+
+class EllipsoidParameters(ShapeParameters):
+    """A solid in a segment's frame, such as a Gaussian; a subclass may add parameters."""
+
+    centre: Vector
+    """Mean [m]."""
+    sigma: Deviation | tuple[Deviation, Deviation, Deviation]
+    """Standard deviation [m]: one for a sphere, or three along the solid's own axes."""
+    rotation_deg: Vector = (0.0, 0.0, 0.0)
+    """Rotation vector of the solid's own axes in the segment's frame [deg]."""
+
+    def deformed(self, deformation: Deformation) -> Self:
+        """The solid's own axes follow the deformation; a sphere stays one."""
+        return self.model_copy(
+            update={
+                "centre": deformation.point(self.centre),
+                "sigma": deformation.radius(self.sigma)
+                if isinstance(self.sigma, float)
+                else deformation.extents(self.sigma, self.rotation_deg),
+                "rotation_deg": deformation.rotation(self.rotation_deg),
+            }
+        )
+
+    def moments(self) -> tuple[Array, Array]:
+        """The mean (3,) [m] and ``R diag(sigma^2) R^T`` (3, 3) [m^2]."""
+        axes = vector_to_matrix(np.radians(self.rotation_deg)) * np.broadcast_to(self.sigma, 3)
+        return np.array(self.centre), axes @ axes.T
+
+    @classmethod
+    def fitted(cls, points: Array, like: Self | None = None) -> Self:
+        """The solid with the moments of points (N, 3) [m], a sphere if ``like`` is one.
+
+        Its axes are named so that it is rotated as little as possible.
+        """
+        centre = points.mean(axis=0)
+        if like is not None and isinstance(like.sigma, float):
+            return like.model_copy(update={"centre": rounded(centre), "sigma": _radius(points)})
+        axes, deviations = principal_axes(points)
+        found = {
+            "centre": rounded(centre),
+            "sigma": rounded(deviations),
+            "rotation_deg": rounded(np.degrees(to_vector(from_matrix(axes))), 1),
+        }
+        return cls.model_validate(found) if like is None else like.model_copy(update=found)
+
+
+class BallParameters(EllipsoidParameters):
+    """A solid that is as large in all directions, such as an isotropic Gaussian."""
+
+    sigma: Deviation
+    """Standard deviation [m]."""
+
+    @classmethod
+    def fitted(cls, points: Array, like: Self | None = None) -> Self:
+        """The ball with the mean and the total variance of points (N, 3) [m]."""
+        found = {"centre": rounded(points.mean(axis=0)), "sigma": _radius(points)}
+        return cls.model_validate(found) if like is None else like.model_copy(update=found)
+
+
+def _radius(points: Array) -> float:
+    """The root mean square of the deviations along three axes, rounded as ``rounded`` does."""
+    square = ((points - points.mean(axis=0)) ** 2).sum(axis=1).mean() / 3.0
+    return round(float(np.sqrt(square)), 4)

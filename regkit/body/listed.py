@@ -1,0 +1,46 @@
+"""The primitives of a shape model that a template lists, on the segments of a body."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Generic, TypeVar
+
+import numpy as np
+
+from regkit.body.ellipsoids import EllipsoidParameters
+from regkit.body.shape_parameters import ShapeParameters
+from regkit.geometry.rotation import vector_to_matrix
+from regkit.system.arrays import Array, Indices, read_only
+
+P_co = TypeVar("P_co", bound=ShapeParameters, covariant=True)
+
+
+@dataclass(frozen=True)
+class ListedShape(Generic[P_co]):
+    """K primitives in the frames of their segments, at the body's size.
+
+    Attributes:
+        segments: The segment that carries each, (K,).
+        parameters: Their parameters, (K,).
+    """
+
+    segments: Indices
+    parameters: tuple[P_co, ...]
+
+    def __len__(self) -> int:
+        """Number K of primitives."""
+        return len(self.parameters)
+
+
+def ellipsoids(
+    listed: ListedShape[EllipsoidParameters],
+) -> tuple[Indices, Array, Array, Array, Array]:
+    """Segments (K,), centres (K, 3), axes (K, 3, 3), scales (K, 3) and weights of one (K,)."""
+    solids = listed.parameters
+    return (
+        listed.segments,
+        read_only([one.centre for one in solids]).reshape(-1, 3),
+        vector_to_matrix(np.radians([one.rotation_deg for one in solids]).reshape(-1, 3)),
+        read_only([np.broadcast_to(one.sigma, 3) for one in solids]).reshape(-1, 3),
+        np.ones(len(solids)),
+    )

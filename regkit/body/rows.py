@@ -1,0 +1,65 @@
+"""Numbers and names as a template's YAML writes them."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterable
+from typing import Any
+
+from pydantic import BaseModel
+
+from regkit.skeleton.joints import Vector
+
+_RESERVED = ("true", "false", "null")
+
+_VECTOR: Any = Vector
+"""The type of fields whose numbers may be negative."""
+
+
+def key(name: str) -> str:
+    """The key of a mapping."""
+    return f"{word(name)}:"
+
+
+def word(text: str) -> str:
+    """A name as it is, if YAML takes it for no number, truth value or structure."""
+    plain = re.fullmatch(r"[A-Za-z_]\w*", text) and text.lower() not in _RESERVED
+    return text if plain else json.dumps(text)
+
+
+def row(values: Iterable[float], decimals: int = 4) -> str:
+    """Several numbers."""
+    return f"[{', '.join(number(value, decimals) for value in values)}]"
+
+
+def number(value: float, decimals: int) -> str:
+    """A number with a blank where others have a sign; degrees lose their needless decimals."""
+    if decimals == 4:
+        return f"{round(value, 4) + 0.0: .4f}"
+    return f"{round(value, decimals) + 0.0:g}"
+
+
+def fields_row(model: BaseModel) -> str:
+    """A model in one line: four decimals of lengths, one of degrees; defaults are left out."""
+    fields = [
+        f"{word(name)}: {_field(name, getattr(model, name), signed=field.annotation == _VECTOR)}"
+        for name, field in type(model).model_fields.items()
+        if getattr(model, name) != field.default
+    ]
+    return f"{{{', '.join(fields)}}}"
+
+
+def _field(name: str, value: Any, *, signed: bool) -> str:
+    match value:
+        case float() if name.endswith("_deg"):
+            return number(value, 1)
+        case float():
+            return f"{value:.4f}"
+        case (float(), *_) if name.endswith("_deg"):
+            return row(value, 1)
+        case (float(), *_):
+            return row(value) if signed else f"[{', '.join(f'{one:.4f}' for one in value)}]"
+        case BaseModel():
+            return fields_row(value)
+    return json.dumps(value, ensure_ascii=False)

@@ -1,0 +1,18 @@
+"""Vectors as YAML holds them: three numbers."""
+
+from __future__ import annotations
+
+from regkit.skeleton.joints import Vector
+from regkit.system.arrays import Array
+
+
+def vector(values: Array) -> Vector:
+    """An array (3,) as three numbers."""
+    x, y, z = values.tolist()
+    return (x, y, z)
+
+
+def rounded(values: Array, decimals: int = 4) -> Vector:
+    """Three rounded numbers; four decimals are a tenth of a millimetre."""
+    x, y, z = (round(float(value), decimals) + 0.0 for value in values)
+    return (x, y, z)
