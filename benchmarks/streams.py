@@ -151,9 +151,7 @@ def _session(recording: Recording, template: Template, preprocessor: Preprocesso
 def main() -> None:
     """Print the figures of both, each measured in a process of its own."""
     figures = {}
-    print(
-        "| | frames | peak [MB] | before tracking [MB] | first tenth [ms/frame] | last tenth |"
-    )
+    print("| | frames | peak [MB] | before tracking [MB] | first tenth [ms/frame] | last tenth |")
     print("|---|--:|--:|--:|--:|--:|")
     for name in ("walk", "stub"):
         command = [sys.executable, __file__, name]
