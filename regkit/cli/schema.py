@@ -25,7 +25,9 @@ from regkit.system.files import write_text
 
 
 def schema(
-    folder: Annotated[Path, typer.Argument(help="Where the schemas are.")] = Path(FOLDER),
+    folder: Annotated[
+        Path, typer.Argument(help="Where the schemas are written, or checked.")
+    ] = Path(FOLDER),
     check: Annotated[
         bool,
         typer.Option(
@@ -76,7 +78,8 @@ def _check(folder: Path, texts: dict[str, str]) -> None:
         own = _texts()
     stale = [files[name] for name, text in found.items() if text not in (texts[name], own[name])]
     for file in stale:
-        errors.print(f"{file} is not up to date; run: regkit schema {folder}", soft_wrap=True)
+        state = "not up to date" if file.exists() else "missing"
+        errors.print(f"{file} is {state}; run: regkit schema {folder}", soft_wrap=True)
     if stale:
         raise typer.Exit(1)
 
