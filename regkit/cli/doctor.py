@@ -10,6 +10,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from regkit.cli.console import output
+from regkit.config.former import left_behind
 from regkit.config.preset import preset, presets_of
 from regkit.interfaces import SLOTS
 from regkit.system.cache import cache_folder
@@ -68,7 +69,7 @@ def _plugins() -> tuple[str, str, str]:
                 slot.load(kind)
             except RegkitError as error:
                 broken.append(str(error))
-        broken += slot.left_behind()
+        broken += left_behind(slot)
         for name in presets_of(slot.group):
             try:
                 preset(slot.group, name)

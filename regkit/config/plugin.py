@@ -8,24 +8,24 @@ until it is named, so a broken third-party plug-in can only harm those who name 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, ClassVar, Self, TypeVar, cast
 
 from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler, TypeAdapter
 from pydantic.json_schema import JsonSchemaValue
-from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+from pydantic_core import CoreSchema, core_schema
 
-from regkit.config.changes import with_changes
 from regkit.config.complete import check_complete
 from regkit.config.defaults import default_name
 from regkit.config.document import Document
+from regkit.config.former import check_former
 from regkit.config.installed import Installed, installed
 from regkit.config.model import Model, did_you_mean
-from regkit.config.preset import YAML, preset, presets_of
+from regkit.config.preset import YAML, presets_of
 from regkit.config.registry import add, registered
+from regkit.config.slot import plugin_of
 from regkit.config.slot_schema import slot_schema
-from regkit.system.errors import PluginError, RegkitError
+from regkit.system.errors import PluginError
 
 
 class Plugin(Model):
@@ -63,9 +63,7 @@ class Plugin(Model):
         available = cls.available()
         found = available.get(kind)
         if found is None:
-            cls._check_renamed(kind)
-            for message in cls.left_behind(kind):
-                raise PluginError(message)
+            check_former(cls, kind)
             presets = list(presets_of(cls.group))
             told = f"; presets: {', '.join(presets)}" if presets else ""
             raise PluginError(
@@ -130,28 +128,6 @@ class Plugin(Model):
         return {**cls.named(default_name(cls.group, purpose)), **fields}
 
     @classmethod
-    def left_behind(cls, kind: str | None = None) -> Iterator[str]:
-        """Messages about plug-ins, or the one of a kind, that stand in the group's former name."""
-        for name, found in installed(cls.former_group or "").items():
-            if kind in (None, name):
-                yield (
-                    f"plug-in '{name}' of {found.versions} is in the entry-point group "
-                    f"'{cls.former_group}', which is now called '{cls.group}'; install a version "
-                    "of it for this version of regkit"
-                )
-
-    @classmethod
-    def _check_renamed(cls, kind: str) -> None:
-        """Refuse a name that a plug-in had before, with the name that it has now."""
-        for name in cls.available():
-            try:
-                plugin = cls.load(name)
-            except PluginError:
-                continue
-            if kind in plugin.formerly:
-                raise PluginError(f"'{kind}' is now called '{name}'")
-
-    @classmethod
     def __get_pydantic_core_schema__(
         cls, source: type[Any], handler: GetCoreSchemaHandler
     ) -> CoreSchema:
@@ -166,50 +142,7 @@ class Plugin(Model):
 
     @classmethod
     def _resolved(cls, value: Any) -> Self:
-        if isinstance(value, cls):
-            return value
-        if isinstance(value, str):
-            value = {"kind": value}
-        if isinstance(value, dict) and isinstance(value.get("preset"), str):
-            try:
-                value = cls._changed(value["preset"], value)
-            except RegkitError as error:
-                raise PydanticCustomError(
-                    "plugin_error", "{error}", {"error": str(error)}
-                ) from error
-        kind = value.get("kind") if isinstance(value, dict) else None
-        if not isinstance(kind, str):
-            raise PydanticCustomError(
-                "plugin_kind",
-                "expected a name or a mapping with a 'kind' (installed: {names})",
-                {"names": ", ".join(cls.available())},
-            )
-        try:
-            plugin = cls.load(kind)
-        except PluginError as error:
-            raise PydanticCustomError("plugin_error", "{error}", {"error": str(error)}) from error
-        return plugin.model_validate(value)
-
-    @classmethod
-    def _changed(cls, name: str, changes: dict[str, Any]) -> dict[str, Any]:
-        """A preset with changes in it, whose kind stays."""
-        base = cls._preset(name)
-        if changes.get("kind", base["kind"]) != base["kind"]:
-            raise PluginError(
-                f"the preset '{name}' is of the kind '{base['kind']}', which cannot be changed in "
-                "it; leave 'kind' out"
-            )
-        return with_changes(base, {k: part for k, part in changes.items() if k != "preset"})
-
-    @classmethod
-    def _preset(cls, name: str) -> dict[str, Any]:
-        """What a preset says, which is a whole configuration: its mistakes are told in its file."""
-        document = preset(cls.group, name)
-        kind = document.data.get("kind")
-        if not isinstance(kind, str):
-            raise PluginError("a preset must name its kind", place=document.place(()))
-        document.validated(cls.load(kind))
-        return document.data
+        return value if isinstance(value, cls) else cast(Self, plugin_of(cls, value))
 
     @classmethod
     def _slot_json_schema(cls, _: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:

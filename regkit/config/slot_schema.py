@@ -6,13 +6,14 @@ import inspect
 import json
 from collections.abc import Mapping
 from contextvars import ContextVar
-from typing import Any, Protocol, cast, get_args
+from typing import Any, cast, get_args
 
 from pydantic import BaseModel, GetJsonSchemaHandler
 from pydantic.errors import PydanticInvalidForJsonSchema
 from pydantic.json_schema import JsonSchemaValue
 
 from regkit.config.preset import preset, presets_of
+from regkit.config.slot import Slot
 from regkit.system.errors import PluginError, RegkitError
 
 PRESET_FILE = r"\.ya?ml$"
@@ -20,18 +21,6 @@ PRESET_FILE = r"\.ya?ml$"
 
 _BEGUN: ContextVar[frozenset[str]] = ContextVar("begun", default=frozenset())
 """The groups whose schemas are being made, for a plug-in may hold another of its own group."""
-
-
-class Slot(Protocol):
-    """What is asked of a slot here."""
-
-    group: str
-
-    def available(self) -> Mapping[str, object]:
-        """The kinds by name."""
-
-    def load(self, kind: str) -> type[BaseModel]:
-        """The plug-in of a kind."""
 
 
 def slot_schema(slot: Slot, handler: GetJsonSchemaHandler) -> JsonSchemaValue:

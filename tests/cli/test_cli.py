@@ -136,6 +136,15 @@ def test_schema_check_passes_on_the_committed_files(regkit):
     assert ended.code == 0
 
 
+def test_schema_check_tells_missing_files_and_what_writes_them(regkit, tmp_path):
+    ended = regkit("schema", tmp_path, "--check")
+    assert ended.code == 1
+    lines = ended.err.splitlines()
+    assert len(lines) == len(list((ROOT / "schemas").glob("*.json")))
+    assert f"{tmp_path / 'experiment.json'} is missing; run: regkit schema {tmp_path}" in lines
+    assert list(tmp_path.iterdir()) == []
+
+
 @pytest.mark.parametrize("name", ["experiment.json", "template.json", "skeleton.json"])
 def test_schema_check_fails_on_a_changed_copy(regkit, tmp_path, name):
     folder = tmp_path / "schemas"

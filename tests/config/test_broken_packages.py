@@ -37,7 +37,7 @@ MODULES = {
     "no_makes": HEAD.replace("    makes: ClassVar[type[Primitives]] = Gaussians\n", ""),
     "makes_text": HEAD.replace("] = Gaussians\n", "] = 'Gaussians'\n"),
     "advised": "raise TypeError('nothing\\n\\nHow to mend it: not here')\n",
-    "abstract": HEAD.replace("def attach", "def attached"),
+    "abstract": HEAD.replace("def bind", "def bound"),
     "syntax": "class Odd(\n",
 }
 

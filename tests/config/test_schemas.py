@@ -18,11 +18,11 @@ from pydantic import BaseModel, TypeAdapter, ValidationError
 import regkit.config.installed
 import regkit.config.registry
 from regkit.body import BodyDescription
-from regkit.cli.schema import schemas
 from regkit.cli.template_file import write_template
 from regkit.config.document import Document
 from regkit.config.plugin import register
 from regkit.config.schema_line import MARK, schema_line
+from regkit.experiment.schemas import schemas
 from regkit.experiment.sweeps.sweep import SweptExperiment
 from regkit.interfaces import Dataset, Method, Problem, Solution, Solver
 from regkit.skeleton import SkeletonDescription

@@ -123,7 +123,7 @@ def test_folder_of_another_configuration_is_refused(regkit, files):
     )
     assert ended.code == 1
     assert ended.err.startswith(
-        f"error: --out {files.out}: the folder holds the results of another configuration"
+        f"error: {files.out}: the folder holds the results of another configuration"
     )
     assert files.written() == before
 
@@ -134,7 +134,7 @@ def test_folder_with_other_files_is_refused_and_left_alone(regkit, files):
     ended = regkit("run", files.experiment, "--out", files.out)
     assert ended.code == 1
     assert ended.err == (
-        f"error: --out {files.out}: the folder holds other files; choose a new or an empty one\n"
+        f"error: {files.out}: the folder holds other files; choose a new or an empty one\n"
     )
     assert [path.name for path in files.out.iterdir()] == ["thesis.tex"]
 

@@ -1,0 +1,72 @@
+"""How the value of a field becomes the plug-in that it describes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Protocol
+
+from pydantic import BaseModel
+from pydantic_core import PydanticCustomError
+
+from regkit.config.changes import with_changes
+from regkit.config.preset import preset
+from regkit.system.errors import PluginError, RegkitError
+
+
+class Slot(Protocol):
+    """An abstract plug-in, as the type of a field."""
+
+    group: str
+    former_group: str | None
+
+    def available(self) -> Mapping[str, object]:
+        """The kinds by name."""
+
+    def load(self, kind: str) -> type[BaseModel]:
+        """The plug-in of a kind."""
+
+
+def plugin_of(slot: Slot, value: Any) -> BaseModel:
+    """The plug-in that data describe: a kind, or a mapping with a ``kind`` or a ``preset``.
+
+    Raises:
+        PydanticCustomError: If there is no such plug-in or preset.
+        ValidationError: If a field of it is wrong.
+    """
+    if isinstance(value, str):
+        value = {"kind": value}
+    try:
+        if isinstance(value, dict) and isinstance(value.get("preset"), str):
+            value = _changed(slot, value["preset"], value)
+        kind = value.get("kind") if isinstance(value, dict) else None
+        if not isinstance(kind, str):
+            raise PydanticCustomError(
+                "plugin_kind",
+                "expected a name or a mapping with a 'kind' (installed: {names})",
+                {"names": ", ".join(slot.available())},
+            )
+        plugin = slot.load(kind)
+    except RegkitError as error:
+        raise PydanticCustomError("plugin_error", "{error}", {"error": str(error)}) from error
+    return plugin.model_validate(value)
+
+
+def _changed(slot: Slot, name: str, changes: Mapping[str, Any]) -> dict[str, Any]:
+    """A preset with changes in it, whose kind stays."""
+    base = _whole(slot, name)
+    if changes.get("kind", base["kind"]) != base["kind"]:
+        raise PluginError(
+            f"the preset '{name}' is of the kind '{base['kind']}', which cannot be changed in it; "
+            "leave 'kind' out"
+        )
+    return with_changes(base, {key: part for key, part in changes.items() if key != "preset"})
+
+
+def _whole(slot: Slot, name: str) -> dict[str, Any]:
+    """The configuration in a preset, which is valid as it is: mistakes are told in its file."""
+    document = preset(slot.group, name)
+    kind = document.data.get("kind")
+    if not isinstance(kind, str):
+        raise PluginError("a preset must name its kind", place=document.place(()))
+    document.validated(slot.load(kind))
+    return document.data

@@ -1,0 +1,72 @@
+"""The JSON Schemas of everything that a user writes in YAML."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pydantic import BaseModel, TypeAdapter
+from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue
+from pydantic_core import core_schema
+
+from regkit.body import BodyDescription
+from regkit.experiment.sweeps.sweep import SweptExperiment
+from regkit.interfaces import Dataset, Method
+from regkit.skeleton import SkeletonDescription
+
+
+def schemas() -> dict[str, dict[str, Any]]:
+    """Each schema by the name of its file."""
+    return {
+        "experiment": schema_of(SweptExperiment),
+        "template": schema_of(BodyDescription),
+        "skeleton": schema_of(SkeletonDescription),
+        "method": _whole(schema_of(Method), "A method as a file: a preset."),
+        "dataset": _whole(schema_of(Dataset), "A dataset as a file: a preset."),
+    }
+
+
+def schema_of(model: type[BaseModel]) -> dict[str, Any]:
+    """The JSON Schema of one model.
+
+    Raises:
+        PydanticInvalidForJsonSchema: If a field has a type that JSON does not have.
+    """
+    schema = TypeAdapter(model).json_schema(schema_generator=_ForEditors)
+    return {"$schema": _ForEditors.schema_dialect, **schema}
+
+
+def _whole(schema: dict[str, Any], description: str) -> dict[str, Any]:
+    """The schema of a file that must name its kind, made of that of a slot."""
+    definitions = schema["$defs"]
+    # pydantic sets a slot among the definitions only if it is used more than once.
+    slot = definitions[schema["$ref"].rpartition("/")[2]] if "$ref" in schema else schema
+    (named,) = (form for form in slot["anyOf"] if "oneOf" in form)
+    return {
+        "$schema": schema["$schema"],
+        "description": description,
+        **named,
+        "$defs": definitions,
+    }
+
+
+class _ForEditors(GenerateJsonSchema):
+    """Schemas whose fields have descriptions, but no titles, which only repeat the names."""
+
+    def field_title_should_be_set(self, schema: Any) -> bool:
+        """Never."""
+        return False
+
+    def tagged_union_schema(self, schema: core_schema.TaggedUnionSchema) -> JsonSchemaValue:
+        """The alternatives, which must say what they are even if that is also their default."""
+        union = super().tagged_union_schema(schema)
+        tag = schema["discriminator"]
+        return {**union, "type": "object", "required": [tag]} if isinstance(tag, str) else union
+
+    def dict_schema(self, schema: core_schema.DictSchema) -> JsonSchemaValue:
+        """A mapping, which has no other keys than those that are right."""
+        mapping = super().dict_schema(schema)
+        return (
+            {**mapping, "additionalProperties": False}
+            if "patternProperties" in mapping
+            else mapping
+        )
