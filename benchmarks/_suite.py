@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import json
-import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -13,32 +12,54 @@ from tempfile import TemporaryDirectory
 from regkit.config.document import Document
 from regkit.experiment import Experiment, Outcome, run
 from regkit.metrics import Measure
+from regkit.system.optional import one_blas_thread
+from regkit_plugins.datasets.synthetic import Synthetic, SyntheticRecording
+from regkit_plugins.presets import HANDS, PEOPLE
+from regkit_synthesis.assets import slim_hand
+from regkit_synthesis.templates import right_hand_template
 
-FOLDER = Path("results/suite")
-"""Where the recordings are, made when they are not there (two minutes)."""
+PRESETS = {"human": PEOPLE, "hand": HANDS}
+"""The dataset of each kind of body."""
+
+TEMPLATES = {
+    "human_average": "{kind: human, height: 1.6327}",
+    "human_small": "{kind: human, build: small, height: 1.4901}",
+    "hand_average": "{kind: hand, length: 0.1858}",
+    "hand_slim": "{kind: file, path: SLIM_HAND, size: 0.1938}",
+}
+"""The template of each subject, with the right lengths."""
+
+SLIM_HAND = Path("results/slim_hand.yaml")
+"""The template of the slim hand, which is made when it is not there (half a minute)."""
 
 UTD = Path(__file__).parent.parent / "docs" / "examples" / "utd.yaml"
 """The experiment on real data."""
 
-OBSERVERS = {
+PREPROCESSORS = {
     "human": "{kind: points, voxel: 0.03, sigma: 0.01}",
     "hand": "{kind: points, voxel: 0.008, sigma: 0.003}",
 }
 EXPERIMENT = """\
 name: suite
-dataset: {{kind: depth, root: {folder}}}
+dataset: {{preset: {preset}}}
 template: {template}
 preprocessor: {preprocessor}
 methods: {{method: {method}}}
 """
 
 
-def bodies(kind: str) -> list[Path]:
-    """The folders of the recordings of each ``human`` or ``hand``, or of one; made if need be."""
-    if not FOLDER.is_dir():
-        command = [sys.executable, "-m", "regkit_synthesis", str(FOLDER), "--suite"]
-        subprocess.run(command, check=True, stdout=sys.stderr)
-    return sorted(folder for folder in FOLDER.absolute().glob(f"{kind}*") if folder.is_dir())
+def recordings(kind: str) -> list[SyntheticRecording]:
+    """The recordings of a kind, ``human`` or ``hand``, or of one of its subjects, ``human_small``.
+
+    They are rendered when they are first needed (two minutes for all), and kept in the cache.
+    """
+    kind, _, subject = kind.partition("_")
+    dataset = Document.read(PRESETS[kind]).validated(Synthetic)
+    return [
+        recording
+        for recording in dataset.chosen()
+        if isinstance(recording, SyntheticRecording) and subject in ("", recording.subject)
+    ]
 
 
 def tracked(
@@ -46,40 +67,45 @@ def tracked(
 ) -> dict[str, Measure]:
     """The figures of a method, written as in YAML, on all recordings of a kind, by name.
 
-    Without another template each body's own is taken, which has the right lengths.
+    Without another template each subject's own is taken, which has the right lengths.
     """
+    body = kind.partition("_")[0]
     jobs = [
-        (folder, recording.name, OBSERVERS[kind.split("_")[0]], method, tuple(settings), template)
-        for folder in bodies(kind)
-        for recording in sorted(folder.iterdir())
-        if recording.is_dir()
+        (body, recording.name, template or own_template(f"{body}_{recording.subject}"), method)
+        for recording in recordings(kind)
     ]
     with ProcessPoolExecutor() as pool:
-        return dict(pool.map(_tracked, jobs))
+        return dict(pool.map(_tracked, jobs, [tuple(settings)] * len(jobs)))
 
 
-def _tracked(
-    job: tuple[Path, str, str, str, tuple[str, ...], str | None],
-) -> tuple[str, Measure]:
-    folder, recording, preprocessor, method, settings, template = job
-    own = folder.with_suffix(".yaml")
-    size = Document.read(own).data["size"]["value"]
-    template = template or f"{{kind: file, path: {own}, size: {size}}}"
-    with TemporaryDirectory() as temporary:
+def own_template(subject: str) -> str:
+    """The template of a subject, as in YAML."""
+    if subject == "hand_slim" and not SLIM_HAND.is_file():
+        SLIM_HAND.parent.mkdir(parents=True, exist_ok=True)
+        right_hand_template(slim_hand(), "A slim right hand", "a slim hand").write(SLIM_HAND)
+    return TEMPLATES[subject].replace("SLIM_HAND", str(SLIM_HAND.absolute()))
+
+
+def _tracked(job: tuple[str, str, str, str], settings: tuple[str, ...]) -> tuple[str, Measure]:
+    body, recording, template, method = job
+    with TemporaryDirectory() as temporary, one_blas_thread():
         file = Path(temporary) / "experiment.yaml"
         file.write_text(
             EXPERIMENT.format(
-                folder=folder, template=template, preprocessor=preprocessor, method=method
+                preset=PRESETS[body],
+                template=template,
+                preprocessor=PREPROCESSORS[body],
+                method=method,
             )
         )
         experiment = Experiment.read(file, (*settings, f"dataset.recordings=[{recording}]"))
         measures = _measures(run(experiment, Path(temporary) / "out", figures=False))
-    return f"{folder.name}/{recording}", measures[recording]
+    return recording, measures[recording]
 
 
 def tracked_utd(folder: Path, method: str) -> dict[str, Measure]:
     """The figures of a method on the recordings of UTD-MHAD in a folder, by name."""
-    with TemporaryDirectory() as temporary:
+    with TemporaryDirectory() as temporary, one_blas_thread():
         settings = (f"dataset.root={folder.absolute()}", f"methods={{method: {method}}}")
         experiment = Experiment.read(UTD, settings)
         return _measures(run(experiment, Path(temporary) / "out", figures=False))
@@ -115,6 +141,6 @@ HEADER = """\
 |---|--:|--:|--:|--:|--:|"""
 
 
-def last_line(figures: object) -> None:
-    """Prints the figures as one JSON object, the last line of every benchmark."""
-    print(json.dumps(figures))
+def last_line(figures: Mapping[str, object]) -> None:
+    """Prints the figures as one JSON object, the last line; every process had one thread."""
+    print(json.dumps({"threads": 1, **figures}))

@@ -1,6 +1,8 @@
-"""What each part of the methods ``best`` and ``paper`` is worth, on synthetic recordings of people.
+"""What each part of the methods ``best`` and ``paper`` is worth, on synthetic recordings.
 
-python benchmarks/ablations.py
+    python benchmarks/ablations.py
+
+The presets ``people`` and ``hands``, one part changed at a time. One thread in each process.
 """
 
 from __future__ import annotations
@@ -24,7 +26,7 @@ ROWS: dict[str, tuple[str, ...]] = {
     **{f"without {term}": (without(term),) for term in TERMS},
     "without any term": ("methods.method.terms=[]",),
     "without recovery": ("methods.method.tracker.recovery=null",),
-    "tracker hold": ("methods.method.tracker={kind: constant_pose}",),
+    "tracker constant_pose": ("methods.method.tracker={kind: constant_pose}",),
     "4 iterations": ("methods.method.solver.max_iterations=4",),
     "10 iterations": ("methods.method.solver.max_iterations=10",),
     "L-BFGS": ("methods.method.solver={kind: lbfgs}",),
@@ -34,8 +36,6 @@ ROWS: dict[str, tuple[str, ...]] = {
     },
 }
 
-
-VISIBLE = "surface: visible"
 PAPER = {
     "paper, SoG": "{preset: paper, shape: sog}",
     "paper, G-SoG": "{preset: paper}",

@@ -13,7 +13,7 @@ import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from _suite import HEADER, bodies, last_line, row, tracked
+from _suite import HEADER, last_line, recordings, row, tracked
 
 BODY, METHOD = "human_small", "{preset: best}"
 CALIBRATED_ON = ("walk_fast", "walk_above", "punch_side")
@@ -26,11 +26,17 @@ def main() -> None:
         "right lengths": row("right lengths", tracked(BODY, METHOD)),
         "generic": row("generic", tracked(BODY, METHOD, template="human")),
     }
-    (folder,) = bodies(BODY)
+    folders = {recording.name: recording.folder() for recording in recordings(BODY)}
     with TemporaryDirectory() as temporary:
         for recording in CALIBRATED_ON:
             file = Path(temporary) / f"{recording}.yaml"
-            command = [sys.executable, "-m", "regkit", "calibrate", str(folder / recording)]
+            command = [
+                sys.executable,
+                "-m",
+                "regkit",
+                "calibrate",
+                str(folders[f"small_{recording}"]),
+            ]
             subprocess.run([*command, "--out", str(file)], check=True, stdout=sys.stderr)
             template = f"{{kind: file, path: {file}}}"
             name = f"calibrated on {recording}"

@@ -108,7 +108,8 @@ def limited_table(body: Body, given: list[tuple[Observation, Pose]]) -> dict[str
         worst = np.array([body.skeleton.limits.violation(one.pose).max() for one in found])
         # A term's energy is no part of it.
         energies = [
-            plain.fit(data, one.pose).energy for (data, _), one in zip(given, found, strict=True)
+            plain.evaluate(data, one.pose).energy
+            for (data, _), one in zip(given, found, strict=True)
         ]
         values = (
             float(worst.max()),

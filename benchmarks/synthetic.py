@@ -2,8 +2,9 @@
 
     python benchmarks/synthetic.py
 
-13 recordings of two bodies and 6 of two hands (other motions, views, noise and speeds than the
-shipped samples), templates with the right lengths, the start found in each first frame.
+13 recordings of two bodies and 6 of two hands (the presets ``people`` and ``hands``: other motions,
+views, noise and speeds than the shipped samples), templates with the right lengths, the start found
+in each first frame. One thread in each process.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ def main() -> None:
                 f"{m[name].joint_error_raw_cm:.1f} / {m[name].joint_error_adjusted_cm:.1f}"
                 for m in measures.values()
             ]
-            print(f"| {name.split('_', 1)[1]} | " + " | ".join(cells) + " |")
+            print(f"| {name.replace('_', ' ', 1)} | " + " | ".join(cells) + " |")
     last_line(figures)
 
 

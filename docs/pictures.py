@@ -7,12 +7,19 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from animation import write_animation
 from matplotlib.figure import Figure
 
 import regkit
 
 DOCS = Path(__file__).parent
 DATA = DOCS / "examples" / "data"
+
+
+def track() -> None:
+    """The sample walk as the README shows it."""
+    write_animation(DATA / "human_walk", DOCS / "images" / "track.webp")
+    print("docs/images/track.webp")
 
 
 def notebook() -> None:
@@ -41,6 +48,7 @@ def _save(name: str, figure: Figure) -> None:
 
 
 if __name__ == "__main__":
+    track()
     notebook()
     hand()
     clouds()

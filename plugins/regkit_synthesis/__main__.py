@@ -1,4 +1,4 @@
-"""Makes depth recordings: ``python -m regkit_synthesis OUT [--suite]``."""
+"""Makes depth recordings: ``python -m regkit_synthesis OUT``."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from pathlib import Path
 
 from regkit.system.errors import RegkitError
 from regkit_synthesis.recordings.recording import DepthRecording
-from regkit_synthesis.recordings.suite import SUITE, rendered
 from regkit_synthesis.samples.depth import hand_gestures, human_walk
 
 
@@ -16,39 +15,23 @@ def main() -> int:
     """Make the recordings that the command line asks for, and print what was written."""
     parser = argparse.ArgumentParser(
         prog="python -m regkit_synthesis",
-        description="Make the sample depth recordings human_walk and hand_gestures, or a suite.",
+        description="Make the sample depth recordings human_walk and hand_gestures.",
     )
     parser.add_argument("out", type=Path, help="folder that the recordings go into")
     parser.add_argument("--seed", type=int, default=0, help="seed of the noise (default: 0)")
-    parser.add_argument(
-        "--suite",
-        action="store_true",
-        help="make the evaluation suite instead: recordings of several bodies, and their templates",
-    )
     arguments = parser.parse_args()
     out: Path = arguments.out
     try:
         print(
             f"{'recording':<32}{'frames':>8}{'joints':>8}{'pixels/frame':>14}{'kB':>8}", flush=True
         )
-        if arguments.suite:
-            _write_suite(out, arguments.seed)
-        else:
-            for make in (human_walk, hand_gestures):
-                recording = make(arguments.seed)
-                _write(recording, out / recording.name)
+        for make in (human_walk, hand_gestures):
+            recording = make(arguments.seed)
+            _write(recording, out / recording.name)
     except RegkitError as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
     return 0
-
-
-def _write_suite(out: Path, seed: int) -> None:
-    for name, body in SUITE.items():
-        for take in body.takes:
-            _write(rendered(name, take, seed), out / name / take)
-        for path in body.template(body.mesh()).write(out / f"{name}.yaml"):
-            print(path, flush=True)
 
 
 def _write(recording: DepthRecording, folder: Path) -> None:

@@ -32,7 +32,6 @@ def track_of(body: Body, poses: list[Pose]) -> Track:
         hinges=np.array([pose.hinges for pose in poses]),
         markers=np.array([body.markers.place(placed.transforms) for placed in placements]),
         surface_distances=np.linspace(0.001, 0.003, len(poses)),
-        inlier_shares=np.ones(len(poses)),
         energies=np.zeros(len(poses)),
         inlier_shares=np.ones(len(poses)),
         evaluations=np.arange(1.0, len(poses) + 1.0),

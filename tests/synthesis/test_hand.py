@@ -10,21 +10,29 @@ import pytest
 from regkit.system.errors import DataError
 from regkit_synthesis.assets import average_hand, slim_hand
 from regkit_synthesis.bodies.landmarks import hand_landmarks, placed
-from regkit_synthesis.hands import hand_moves
+from regkit_synthesis.hands.config import GESTURES, GesturesConfig
 from regkit_synthesis.hands.gestures import Gestures
 from regkit_synthesis.hands.handywork import read_handywork
 from regkit_synthesis.hands.iwer import read_iwer
 from regkit_synthesis.hands.pose import CHAINS, PARENTS, WRIST
-from regkit_synthesis.hands.retarget import HandMotion
-from regkit_synthesis.hands.shipped import handywork, iwer
+from regkit_synthesis.hands.retarget import HandRetarget
+from regkit_synthesis.hands.shipped import pose_names, shipped_pose
 
 POSES = ("relaxed", "point", "pinch")
 HANDYWORK = ("fist", "flat", "horns", "point", "relax", "shaka", "vulcan")
 
 
+def iwer(name):
+    return shipped_pose(f"iwer/{name}")
+
+
+def handywork(name):
+    return shipped_pose(f"handywork/{name}")
+
+
 @pytest.fixture(scope="module")
 def hand():
-    return HandMotion.of(average_hand(), iwer("relaxed"))
+    return HandRetarget.of(average_hand(), iwer("relaxed"))
 
 
 def _angle(first, second):
@@ -160,12 +168,12 @@ def test_changed_poses_change_what_they_say():
 
 
 @pytest.mark.parametrize("make", [average_hand, slim_hand])
-@pytest.mark.parametrize("move", [hand_moves.gestures, hand_moves.fists, hand_moves.signs])
-def test_fingers_of_the_suite_keep_out_of_each_other(make, move):
+@pytest.mark.parametrize("name", GESTURES.names)
+def test_fingers_of_shipped_gestures_keep_out_of_each_other(make, name):
     """Bones of fingers touch at some 14 mm; of fingertips that pinch at half of that."""
-    mesh, gestures = make(), move()
+    mesh, gestures = make(), GesturesConfig(name=name).motion().gestures
     landmarks = hand_landmarks(mesh)
-    motion = HandMotion.of(mesh, gestures.poses[0])
+    motion = HandRetarget.of(mesh, gestures.poses[0])
     for time in np.arange(0.0, gestures.times[-1], 0.1):
         positions = placed(landmarks, mesh, motion.bone_poses(gestures.at(time), np.eye(4)))
         # Points along the two last bones of each finger; the wrist comes first.
@@ -175,4 +183,48 @@ def test_fingers_of_the_suite_keep_out_of_each_other(make, move):
         points = np.moveaxis(along, 0, 1).reshape(5, -1, 3)
         for one, other in itertools.combinations(points, 2):
             gap = np.linalg.norm(one[:, None] - other[None], axis=-1).min()
-            assert gap > (0.006 if move is hand_moves.gestures else 0.008)
+            assert gap > (0.006 if name == "point_and_pinch" else 0.008)
+
+
+def test_every_pose_that_ships_is_named():
+    assert pose_names() == [
+        *(f"handywork/{name}" for name in HANDYWORK),
+        *(f"iwer/{name}" for name in sorted(POSES)),
+    ]
+
+
+def test_palm_that_does_not_sway_is_held_before_the_camera():
+    motion = GesturesConfig(name="signs", sway=0.0).motion()
+    assert np.array_equal(motion.palm(0.0), motion.palm(0.7))
+    assert motion.palm(0.0)[:3, 2] == pytest.approx([0.0, 0.0, -1.0])  # The fingers point up.
+    swaying = GesturesConfig(name="signs").motion()
+    middles = np.array([swaying.palm(t) @ [0, 0, -0.08, 1] for t in np.linspace(0.0, 2.0, 50)])
+    assert np.abs(middles[:, :3]).max() < 0.031
+
+
+def test_poses_written_out_are_those_that_they_say():
+    fist, flat = handywork("fist"), handywork("flat")
+    poses = [
+        {"time": 0, "pose": "handywork/fist", "opened": 0.5, "thumb": "handywork/flat"},
+        {"time": 1, "pose": "handywork/fist", "thumb_lift_deg": 10},
+    ]
+    first, second = GesturesConfig(poses=poses).motion().gestures.poses
+    assert np.array_equal(
+        first.joints, fist.with_fingers_towards(flat, 0.5).with_thumb_of(flat).joints
+    )
+    assert np.array_equal(second.joints, fist.with_thumb_lifted(np.radians(10.0)).joints)
+
+
+@pytest.mark.parametrize(
+    ("config", "words"),
+    [
+        ({"name": "fits"}, "fists"),
+        ({}, "path or a name"),
+        ({"poses": [{"time": 0, "pose": "iwer/piont"}] * 2}, "iwer/point"),
+        ({"poses": [{"time": 1, "pose": "iwer/point"}] * 2}, "must increase"),
+        ({"name": "fists", "path": "a.yaml"}, "path or a name"),
+    ],
+)
+def test_mistake_about_gestures_is_answered(config, words):
+    with pytest.raises(ValueError, match=words):
+        GesturesConfig.model_validate(config)

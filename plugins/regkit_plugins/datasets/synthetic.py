@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
@@ -16,7 +16,9 @@ from regkit.interfaces import Dataset, Recording
 from regkit.observation import Frame, Truth
 from regkit.system.errors import DataError, RegkitError
 from regkit_plugins.datasets.depth import DepthFolders
+from regkit_synthesis.bodies.hand import ShippedHand
 from regkit_synthesis.cameras.cameras import CameraChoice, camera_of
+from regkit_synthesis.hands.config import GesturesConfig
 from regkit_synthesis.noise import NOISES, DepthNoise, NoiseChoice, noise_of
 from regkit_synthesis.recordings.cache import RecordingCache
 from regkit_synthesis.recordings.digest import digest
@@ -32,7 +34,7 @@ class Synthetic(Dataset):
 
     Each take becomes a recording. It is rendered when it is first needed, and kept in the user's
     cache folder, which ``regkit doctor`` names, until that is deleted. The noise of a frame depends
-    on the seed, the take's name and the frame's number only.
+    on the seed, the take's name or ``noise_stream``, and the frame's number only.
     """
 
     kind: Literal["synthetic"] = "synthetic"
@@ -71,6 +73,9 @@ class Synthetic(Dataset):
         for name, take in self.takes.items():
             if take.motion is None:
                 message = "it has no motion of its own, and there is none among the defaults"
+                raise misplaced(type(self), message, "takes", name)
+            if isinstance(take.body, ShippedHand) != isinstance(take.motion, GesturesConfig):
+                message = "gestures are the motion of a hand, and of nothing else"
                 raise misplaced(type(self), message, "takes", name)
         return self
 
@@ -118,11 +123,11 @@ class SyntheticRecording(Recording):
 
     def prepare(self) -> None:
         """Render the images, unless they are in the cache."""
-        self._folder()
+        self.folder()
 
     def frames(self) -> Iterator[Frame]:
         """The images of the cache, which are rendered if they are not there."""
-        (recorded,) = DepthFolders(root=self._folder()).found()
+        (recorded,) = DepthFolders(root=self.folder()).found()
         yield from recorded.frames()
 
     def truth(self) -> Truth:
@@ -130,18 +135,38 @@ class SyntheticRecording(Recording):
         scene = self._scene()
         return Truth(scene.joints, scene.truth())
 
-    def _folder(self) -> Path:
+    def folder(self) -> Path:
+        """The depth folder of the cache, which is rendered if it is not there."""
         scene, seed = self._scene(), self.dataset.seed
         try:
-            return RecordingCache.of_user().entry(digest(scene, seed), lambda: _seen(scene, seed))
+            key = digest(scene, seed, self.take.noise_stream)
+            return RecordingCache.of_user().entry(key, lambda: self._rendered(scene))
         except RegkitError as error:
             raise self._located(error) from None
 
     def _scene(self) -> Scene:
         try:
-            return self.take.scene(self.name, self.dataset.sensor(), self.fps, self.length)
+            sensor = self.dataset.sensor()
+            if self.take.noise is not None:
+                sensor = replace(sensor, noise=noise_of(self.take.noise))
+            return self.take.scene(self.name, sensor, self.fps, self.length)
         except RegkitError as error:
             raise self._located(error) from None
+
+    def _rendered(self, scene: Scene) -> DepthRecording:
+        """The rendered scene.
+
+        Raises:
+            DataError: If a frame shows nothing.
+        """
+        recording = scene.rendered(self.take.random(self.name, self.dataset.seed))
+        empty = np.flatnonzero(~recording.depth.any(axis=(1, 2)))
+        if len(empty):
+            raise DataError(
+                f"nothing of the body is in the image of frame {empty[0]}; give another "
+                "view.distance, or none"
+            )
+        return recording
 
     def _located(self, error: RegkitError) -> RegkitError:
         return type(error)(
@@ -163,25 +188,6 @@ def _over(defaults: Mapping[str, Any], take: Mapping[str, Any]) -> dict[str, Any
             if isinstance(own[field], dict) and not _SOURCES.isdisjoint(own[field]):
                 # Only one of them can say where it comes from.
                 common[field] = {k: v for k, v in common[field].items() if k not in _SOURCES}
-    return with_changes(common, own)
-
-
-def _seen(scene: Scene, seed: int) -> DepthRecording:
-    """The rendered scene.
-
-    Raises:
-        DataError: If a frame shows nothing.
-    """
-    recording = scene.rendered(_random(scene.name, seed))
-    empty = np.flatnonzero(~recording.depth.any(axis=(1, 2)))
-    if len(empty):
-        raise DataError(
-            f"nothing of the body is in the image of frame {empty[0]}; give another view.distance, "
-            "or none"
-        )
-    return recording
-
-
-def _random(name: str, seed: int) -> Callable[[int], np.random.Generator]:
-    """Where the noise of a frame comes from: of each frame of each recording, from elsewhere."""
-    return lambda frame: np.random.default_rng([seed, frame, *name.encode()])
+    # A preset's name has no place in a take, and is kept here only to be refused.
+    preset = {"preset": own["preset"]} if "preset" in own else {}
+    return {**with_changes(common, own), **preset}

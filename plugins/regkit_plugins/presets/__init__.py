@@ -10,4 +10,6 @@ PAPER = _FOLDER / "paper.yaml"
 RIGID = _FOLDER / "rigid.yaml"
 SPHERES = _FOLDER / "spheres.yaml"
 
+HANDS = _FOLDER / "hands.yaml"
+PEOPLE = _FOLDER / "people.yaml"
 SMMC_LIKE = _FOLDER / "smmc_like.yaml"

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
 from pydantic import Field
 
-from regkit.config.model import InputPath, Model
+from regkit.config.model import InputPath
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.interchange.gltf.file import SUFFIXES
 from regkit.interchange.gltf.gltf import RiggedBody
@@ -18,23 +17,24 @@ from regkit.system.errors import ConfigError, DataError, RegkitError
 from regkit_synthesis import assets
 from regkit_synthesis.bodies.body_files import read_npz_body, turned_mesh
 from regkit_synthesis.bodies.body_map import BodyMap, body_map, bone_of, fitting_body_map
+from regkit_synthesis.bodies.hand import ShippedHand
 from regkit_synthesis.bodies.landmarks import Landmark
+from regkit_synthesis.bodies.movable import BodyConfig, MovableBody
 from regkit_synthesis.bodies.retarget import retargeted
 from regkit_synthesis.figure.figure import figure_axes
 from regkit_synthesis.figure.map_files import MapName
-from regkit_synthesis.motion.motion import Motion
+from regkit_synthesis.hands.config import GesturesConfig
+from regkit_synthesis.motion.config import MotionConfig
 
 
 @dataclass(frozen=True)
-class HumanBody:
+class HumanBody(MovableBody):
     """A body whose bones are those of a human figure.
 
     Attributes:
-        mesh: The body at rest; x to its left, y backward, z up.
         map: Which of its bones follow which joints of a figure.
     """
 
-    mesh: SkinnedMesh
     map: BodyMap
 
     @classmethod
@@ -55,30 +55,21 @@ class HumanBody:
         """The joints whose truth is known, by name."""
         return self.map.landmarks(self.mesh)
 
-    def moved(self, motion: Motion) -> Callable[[float], Array]:
-        """The bone poses ``T_ground_bone`` (J, 4, 4) at a time [s] of a motion, on the ground.
+    def moved(self, motion: MotionConfig | GesturesConfig) -> Callable[[float], Array]:
+        """The bone poses ``T_ground_bone`` (J, 4, 4) at a time [s] of a motion.
 
         Raises:
-            ConfigError: If the map names a joint that the source of the motion lacks.
+            ConfigError: If it is a motion of hands, or the map names a joint that the source of the
+                motion lacks.
         """
-        return retargeted(motion, self.mesh, self.map, grounded=True)
+        if isinstance(motion, GesturesConfig):
+            raise ConfigError("gestures are a motion of a hand, and this body is a person")
+        return retargeted(motion.motion(), self.mesh, self.map, grounded=motion.grounded)
 
 
 def human_landmarks(mesh: SkinnedMesh) -> dict[str, Landmark]:
     """The 20 joints of a human body with the CMU rig, by name; left is the person's own left."""
     return body_map("anny_cmu").landmarks(mesh)
-
-
-class BodyConfig(Model, ABC):
-    """A body that is to be moved."""
-
-    @abstractmethod
-    def body(self) -> HumanBody:
-        """The body.
-
-        Raises:
-            RegkitError: If its file is missing or wrong, or its map names a bone that it lacks.
-        """
 
 
 BodyName = Literal["average", "small", "tall"]
@@ -142,5 +133,5 @@ class BodyFile(BodyConfig):
         return RiggedBody.read(self.path).mesh
 
 
-AnyBody = Annotated[ShippedBody | BodyFile, Field(discriminator="kind")]
+AnyBody = Annotated[ShippedBody | BodyFile | ShippedHand, Field(discriminator="kind")]
 """A body, by its ``kind``."""

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import radians
 from typing import Annotated
 
 import numpy as np
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from regkit.config.model import Model
 from regkit.geometry.camera import Camera
@@ -23,7 +24,7 @@ _MARGIN = 0.03
 
 
 class Viewpoint(Model):
-    """A camera that looks at the middle of where the body moves."""
+    """A camera that looks at the middle of where the body moves, or stands at a given place."""
 
     heading_deg: float = 0.0
     """How far the motion is turned from the direction to the camera, to the image's right [deg]."""
@@ -32,20 +33,34 @@ class Viewpoint(Model):
     distance: Annotated[float, Field(gt=0.0)] | None = None
     """From the camera to the middle of where the body moves [m]; without it, the shortest from
     which the whole body stays in the image."""
+    place: tuple[float, float, float] | None = None
+    """Where the origin of the motion is, in place of a ``distance``: to the right of the camera,
+    below it and before it, along the axes of a level camera [m]; one that looks down is tilted
+    where it stands."""
 
-    def placed(self, camera: Camera, points: Array) -> Array:
+    @model_validator(mode="after")
+    def _one_of_them(self) -> Viewpoint:
+        if self.place is not None and self.distance is not None:
+            raise ValueError("give a distance or a place, not both")
+        return self
+
+    def placed(self, camera: Camera, surface: Callable[[], Array]) -> Array:
         """``T_camera_ground`` (4, 4).
 
         Args:
             camera: The camera.
-            points: (N, 3) where the body's surface is in the course of time, in ground axes [m].
+            surface: Gives (N, 3) where the body's surface is in the course of time, in ground axes
+                [m]; it is not asked if the place is given.
 
         Raises:
             ConfigError: If no distance is given, and from none the whole body is in the image.
         """
         tilt = vector_to_matrix(np.array([radians(self.elevation_deg), 0.0, 0.0]))
         turn = vector_to_matrix(np.array([0.0, 0.0, radians(self.heading_deg)]))
-        rotation = tilt @ _R_CAMERA_GROUND @ turn
+        if self.place is not None:
+            level = rigid(_R_CAMERA_GROUND @ turn, np.array(self.place))
+            return np.asarray(rigid(tilt, np.zeros(3)) @ level)
+        rotation, points = tilt @ _R_CAMERA_GROUND @ turn, surface()
         middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
         distance = self.distance or _shortest(camera, (points - middle) @ rotation.T)
         return rigid(rotation, np.array([0.0, 0.0, distance]) - rotation @ middle)

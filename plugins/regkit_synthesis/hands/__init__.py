@@ -1,8 +1,22 @@
 """Hands: recorded poses (WebXR), the files that hold them, and gestures that run through them."""
 
+from regkit_synthesis.hands.config import GESTURES, GesturesConfig
 from regkit_synthesis.hands.gestures import Gestures
-from regkit_synthesis.hands.handywork import read_handywork
-from regkit_synthesis.hands.iwer import read_iwer
+from regkit_synthesis.hands.motion import HandMotion
 from regkit_synthesis.hands.pose import CHAINS, PARENTS, WRIST, HandPose
+from regkit_synthesis.hands.retarget import HandRetarget
+from regkit_synthesis.hands.shipped import pose_names, shipped_pose
 
-__all__ = ["CHAINS", "PARENTS", "WRIST", "Gestures", "HandPose", "read_handywork", "read_iwer"]
+__all__ = [
+    "CHAINS",
+    "GESTURES",
+    "PARENTS",
+    "WRIST",
+    "Gestures",
+    "GesturesConfig",
+    "HandMotion",
+    "HandPose",
+    "HandRetarget",
+    "pose_names",
+    "shipped_pose",
+]

@@ -18,7 +18,7 @@ to those of a WebXR joint (x to the little finger, y out of the back of the hand
 
 
 @dataclass(frozen=True)
-class HandMotion:
+class HandRetarget:
     """Turns WebXR poses of a right hand into bone poses of a mesh.
 
     Attributes:
@@ -33,7 +33,7 @@ class HandMotion:
     T_body_palm: Array
 
     @classmethod
-    def of(cls, mesh: SkinnedMesh, pose: HandPose) -> HandMotion:
+    def of(cls, mesh: SkinnedMesh, pose: HandPose) -> HandRetarget:
         """Measure a mesh and a recorded hand, whose palm is the same in all poses."""
         recorded = _palm(
             pose.origins["wrist"],

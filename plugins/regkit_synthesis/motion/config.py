@@ -38,6 +38,10 @@ class MotionConfig(Model, ABC):
     """Whether it is placed so that at its beginning the hips are above the origin and face forward;
     otherwise it takes place where it was recorded."""
 
+    grounded: bool = True
+    """Whether the lowest point that the body's skin reaches in the whole motion is put on the
+    ground; otherwise the hips are as high as those of the source, by the length of their legs."""
+
     def motion(self) -> Motion:
         """The motion as it is to be played.
 

