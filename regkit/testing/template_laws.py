@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from regkit.body import Body, ListedShape, Mirror, Scaling, ShapeParameters, Stretch
-from regkit.config.document import yaml_data
+from regkit.config.yaml import yaml_data
 from regkit.geometry.rigid import rigid
 from regkit.interfaces import Template
 from regkit.testing.laws import Laws
@@ -125,7 +125,7 @@ class TemplateLaws(Laws):
         """To the decimals of a template's file."""
         for kind, one in _listed(template):
             text = one.yaml()
-            read = type(one).model_validate(yaml_data(text))
+            read = type(one).model_validate(yaml_data(text, "yaml"))
             for before, after in zip(one.moments(), read.moments(), strict=True):
                 by = float(np.abs(before - after).max())
                 require(
