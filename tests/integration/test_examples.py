@@ -7,6 +7,10 @@ from places import EXAMPLES
 from small_experiment import FRAMES
 
 
+SOME = {"paper": "[02_walk]", "paper_why": "[05_bow]"}
+"""One of their 28 recordings for each, of two of the three people."""
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.yaml")), ids=lambda path: path.stem)
 def test_example_runs_on_two_frames(regkit, tmp_path, request, path):
@@ -15,10 +19,9 @@ def test_example_runs_on_two_frames(regkit, tmp_path, request, path):
     if path.stem == "utd":
         data = request.getfixturevalue("reference_data") / "utd_mhad"
         settings += ["--set", f"dataset.root={data}", "--set", "dataset.recordings=[a1_s1_t1]"]
-    if path.stem == "paper":
-        # Three of its 28, one of each subject.
-        settings += ["--set", "dataset.recordings=[01_arms_crossed, 02_walk, 05_bow]"]
-    ended = regkit("run", path, "--out", tmp_path / "out", *settings)
+    if path.stem in SOME:
+        settings += ["--set", f"dataset.recordings={SOME[path.stem]}"]
+    ended = regkit("run", path, "--out", tmp_path / "out", "--no-figures", *settings)
     assert ended.code == 0
     assert ended.err == ""
     methods = json.loads((tmp_path / "out" / "metrics.json").read_text())["methods"]

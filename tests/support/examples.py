@@ -103,7 +103,8 @@ class Runner:
                 assert (ROOT / script).is_file(), command
             case ["regkit", *arguments]:
                 if arguments[0] == "run":
-                    arguments += shlex.split(block.markers.get("with", ""))
+                    # The figures of a report are drawn by tests of their own.
+                    arguments += ["--no-figures", *shlex.split(block.markers.get("with", ""))]
                 ended = self.command(*arguments)
                 told = f"{block.place}: {command}\n{ended.out}{ended.err}"
                 assert ended.code == (1 if "fails" in block.markers else 0), told
