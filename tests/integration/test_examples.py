@@ -6,7 +6,6 @@ import pytest
 from places import EXAMPLES
 from small_experiment import FRAMES
 
-
 SOME = {"paper": "[02_walk]", "paper_why": "[05_bow]"}
 """One of their 28 recordings for each, of two of the three people."""
 
