@@ -40,5 +40,5 @@ class BioCPD(RigidMethod):
         _, (_, rotation, translation) = registration.register()
         step = normalization.transform(np.asarray(rotation).T, np.asarray(translation).reshape(3))
         converged = registration.iteration < self.max_iterations
-        message = "the objective settled" if converged else "max_iterations were taken"
+        message = "the objective converged" if converged else "max_iterations reached"
         return Aligned(step @ start, converged, int(registration.iteration), message)
