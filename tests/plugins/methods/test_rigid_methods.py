@@ -109,7 +109,7 @@ def test_exchanged_clouds_give_the_inverse_motion(lump, truth):
 @pytest.mark.parametrize("name", ["open3d_icp", "small_gicp"])
 def test_method_without_joints_refuses_a_body_that_has_some(name):
     pytest.importorskip(METHODS[name])
-    with pytest.raises(ConfigError, match=f"'{name}' is rigid: the template 'human' has 15 segm"):
+    with pytest.raises(ConfigError, match=f"'{name}' is rigid, .* 'human' has 15 segm"):
         named_method(name).bind(Human(height=1.7).body(1.7))
 
 
