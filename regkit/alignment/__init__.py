@@ -1,4 +1,7 @@
-"""Rigid alignment: one cloud laid on another, by any method that registers a rigid body."""
+"""Rigid alignment of two clouds, with any method that registers a rigid body.
+
+The base class of methods of other libraries is in ``rigid_method``.
+"""
 
 from regkit.alignment.alignment import Alignment, align
 from regkit.alignment.starts import STARTS, read_transform

@@ -1,4 +1,4 @@
-"""Aligning one cloud to another with any method that registers a rigid body."""
+"""Alignment of a source cloud to a target cloud with any method that registers a rigid body."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from regkit.alignment.determined import hidden_motion
-from regkit.alignment.starts import beginning
+from regkit.alignment.starts import initial_alignment
+from regkit.alignment.weak_motion import weak_motion
 from regkit.body.cloud import cloud_body
 from regkit.clouds import spacing, voxel_downsampled, voxel_for
 from regkit.clouds.agreement import Agreement, agreement
@@ -21,27 +21,31 @@ from regkit.system.errors import DataError
 from regkit.system.optional import one_blas_thread
 
 POINTS = 5000
-"""Without a voxel, clouds are downsampled to about so many points."""
+"""Approximate number of points to which clouds are downsampled by default."""
 
-WITHIN = 1.5
-"""A point agrees with a cloud within so many distances of its neighbouring points."""
+MAX_DISTANCE = 1.5
+"""Maximum correspondence distance, in units of the point spacing."""
+
+MIN_POINTS = 10
+"""Minimum number of points of each cloud after downsampling."""
 
 
 @dataclass(frozen=True)
 class Alignment:
-    """What became of a source.
+    """The result of an alignment.
 
     Attributes:
         transform: T_target_source, (4, 4).
-        agreement: How well the source lies on the target then.
-        before: How well it did at the start.
-        start: How the start was found.
-        voxel: Side of the cubes to which both clouds were downsampled [m]; None if they were not.
-        points: How many points of the source and of the target were compared.
-        hidden: A motion of the source that its surface hardly shows, in words, if there is one.
-        seconds: Time to thin, to find the start and to register.
-        converged: Whether the method met a tolerance.
-        message: Why it ended.
+        agreement: Registration quality after the alignment.
+        before: Registration quality of the initial alignment.
+        start: Description of the initial alignment.
+        voxel: Voxel size to which both clouds were downsampled [m]; None if they were not.
+        points: Number of source points and target points that were aligned.
+        hidden: Description of a motion of the source that is weakly constrained by its surface;
+            None if all motions are constrained.
+        seconds: Time for downsampling, initial alignment and registration [s].
+        converged: Whether the method converged.
+        message: Reason of termination.
     """
 
     transform: Array
@@ -65,18 +69,19 @@ def align(
     start: str = "nearest",
     places: tuple[str, str] = ("source", "target"),
 ) -> Alignment:
-    """Find T_target_source of two clouds.
+    """Estimates T_target_source of two clouds.
 
     Args:
-        source: Points (N, 3) [m] to be moved.
-        target: Points (M, 3) [m] that rest.
-        method: What registers them.
-        voxel: Side of the cubes to which both are downsampled [m]; 0 for not at all.
-        start: Where to set out from, as ``beginning`` takes it.
-        places: What source and target are called in messages.
+        source: Points to align, (N, 3) [m].
+        target: Fixed points, (M, 3) [m].
+        method: The registration method.
+        voxel: Voxel size for downsampling both clouds [m]; by default about ``POINTS`` points
+            remain, and 0 disables downsampling.
+        start: Initial alignment, see ``initial_alignment``.
+        places: Names of source and target in error messages.
 
     Raises:
-        RegkitError: If the clouds cannot be aligned, the start is wrong, or the method fails.
+        RegkitError: If the clouds cannot be aligned, the start is invalid, or the method fails.
     """
     for points, place in zip((source, target), places, strict=True):
         check_shape(points, place=place)
@@ -86,30 +91,31 @@ def align(
         if voxel is None:
             voxel = max((voxel_for(points, POINTS) or 0.0) for points in (source, target))
         few, seen = (voxel_downsampled(p, voxel) if voxel else p for p in (source, target))
-        if min(len(few), len(seen)) < 10:
+        if min(len(few), len(seen)) < MIN_POINTS:
             raise DataError(
-                f"{len(few)} points of the source and {len(seen)} of the target are left in "
-                f"voxels of {voxel:g} m; choose smaller ones",
+                f"downsampling to voxels of {voxel:g} m leaves {len(few)} points of the source and "
+                f"{len(seen)} of the target; at least {MIN_POINTS} are needed, choose a smaller "
+                "voxel",
                 place="voxel",
             )
-        begin = beginning(start, few, seen, method)
-        # About its own centre a body's rotation does not pull at its translation.
+        initial = initial_alignment(start, few, seen, method)
+        # With the origin at the centroid, rotation and translation are decoupled.
         centre = few.mean(axis=0)
         body = cloud_body("source", few - centre)
         observation = Observation(seen, np.ones(len(seen)), np.full(len(seen), spacing(seen) ** 2))
-        pose = body.skeleton.rest(begin.transform @ rigid(np.eye(3), centre))
+        pose = body.skeleton.rest(initial.transform @ rigid(np.eye(3), centre))
         found = method.bind(body).register(observation, [pose])
         transform = found.pose.root @ rigid(np.eye(3), -centre)
         seconds = time.perf_counter() - begun
-    distance = WITHIN * max(spacing(few), spacing(seen))
+    distance = MAX_DISTANCE * max(spacing(few), spacing(seen))
     return Alignment(
         transform=transform,
         agreement=agreement(few, seen, transform, distance),
-        before=agreement(few, seen, begin.transform, distance),
-        start=begin.told,
+        before=agreement(few, seen, initial.transform, distance),
+        start=initial.description,
         voxel=voxel or None,
         points=(len(few), len(seen)),
-        hidden=hidden_motion(few),
+        hidden=weak_motion(few),
         seconds=seconds,
         converged=found.converged,
         message=found.message,

@@ -1,4 +1,4 @@
-"""A start in any orientation: features of the surface, matched between the clouds."""
+"""Initial alignment in any orientation by matching local surface features."""
 
 from __future__ import annotations
 
@@ -11,21 +11,26 @@ from regkit.system.arrays import Array
 from regkit.system.errors import DataError
 from regkit.system.optional import load_library
 
-SKETCH = 3000
-"""So many points have features."""
+FEATURE_POINTS = 3000
+"""Approximate number of points for which features are computed."""
 
 
 def by_features(source: Array, target: Array) -> Array:
-    """T_target_source (4, 4) by matching FPFH features with RANSAC, as Open3D does it.
+    """Estimates T_target_source (4, 4) by RANSAC on FPFH correspondences, with Open3D.
 
-    The radii and thresholds are those of Open3D's tutorial on global registration, in voxels.
+    Radii and thresholds are those of Open3D's tutorial on global registration, in voxels.
+
+    Args:
+        source: Source points, (N, 3) [m].
+        target: Target points, (M, 3) [m].
 
     Raises:
         DataError: If too few features match.
         DependencyError: If Open3D is missing.
     """
     library = load_library("open3d")
-    voxels = [voxel_for(points, SKETCH) or _typical(points) for points in (source, target)]
+    # The spacing as voxel size leaves a sparse cloud almost as it is.
+    voxels = [voxel_for(points, FEATURE_POINTS) or spacing(points) for points in (source, target)]
     voxel = max(voxels)
     clouds, features = [], []
     for points in (source, target):
@@ -40,7 +45,7 @@ def by_features(source: Array, target: Array) -> Array:
                 cloud, search(radius=5.0 * voxel, max_nn=100)
             )
         )
-    # Its warnings go to standard output, where results belong.
+    # Open3D prints warnings to standard output, which is for results.
     with library.utility.VerbosityContextManager(library.utility.VerbosityLevel.Error):
         transform = _matched(library, clouds, features, 1.5 * voxel)
     if np.array_equal(transform, np.eye(4)):
@@ -50,7 +55,7 @@ def by_features(source: Array, target: Array) -> Array:
 
 def _matched(library: Any, clouds: list[Any], features: list[Any], distance: float) -> Array:
     registration = library.pipelines.registration
-    # The same start at each call.
+    # A fixed seed makes the result reproducible.
     library.utility.random.seed(0)
     result = registration.registration_ransac_based_on_feature_matching(
         *clouds,
@@ -66,8 +71,3 @@ def _matched(library: Any, clouds: list[Any], features: list[Any], distance: flo
         registration.RANSACConvergenceCriteria(100_000, 0.999),
     )
     return np.asarray(result.transformation)
-
-
-def _typical(points: Array) -> float:
-    """A voxel [m] that leaves a sparse cloud as it is."""
-    return spacing(points)

@@ -1,4 +1,4 @@
-"""What the methods of other libraries for rigid clouds have in common."""
+"""Base class of methods that call another library to register rigid clouds."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ from regkit.system.errors import ConfigError, DataError, RegkitError
 
 @dataclass(frozen=True)
 class Aligned:
-    """What a library found.
+    """The result of a library.
 
     Attributes:
         transform: T_target_source, (4, 4).
-        converged: Whether it says that it met a tolerance; true if it does not tell.
-        iterations: Its steps; 0 if it does not tell.
-        message: Why it ended.
+        converged: Whether it converged; true if the library does not report it.
+        iterations: Number of iterations; 0 if the library does not report it.
+        message: Reason of termination.
     """
 
     transform: Array
@@ -39,38 +39,43 @@ class Aligned:
 
 
 @dataclass(frozen=True)
-class Frame:
-    """Coordinates in which a cloud is about one long: thresholds of libraries are meant there.
+class Normalization:
+    """Coordinates in which a cloud has about unit size, as the thresholds of libraries assume.
 
     Attributes:
-        origin: Where they begin, (3,) [m].
-        unit: Their unit [m].
+        origin: Origin of the normalised coordinates, (3,) [m].
+        unit: Unit of the normalised coordinates [m].
     """
 
     origin: Array
     unit: float
 
     @classmethod
-    def around(cls, points: Array, unit: float) -> Frame:
-        """Coordinates that begin at the centre of points (N, 3)."""
+    def around(cls, points: Array, unit: float) -> Normalization:
+        """Returns coordinates with the origin at the centroid of points (N, 3) [m]."""
         return cls(points.mean(axis=0), unit)
 
-    def inside(self, points: Array) -> Array:
-        """Points (N, 3) [m] in these coordinates."""
+    def normalized(self, points: Array) -> Array:
+        """Returns points (N, 3) [m] in normalised coordinates."""
         return (points - self.origin) / self.unit
 
-    def outside(self, rotation: Array, translation: Array) -> Array:
-        """The motion (4, 4) [m] of one that is given in these coordinates."""
+    def transform(self, rotation: Array, translation: Array) -> Array:
+        """Returns the motion (4, 4) [m] of a motion in normalised coordinates.
+
+        Args:
+            rotation: Rotation matrix, (3, 3).
+            translation: Translation in normalised coordinates, (3,).
+        """
         shift = self.unit * translation + self.origin - rotation @ self.origin
         return rigid(rotation, shift)
 
 
 class RigidMethod(Method, ABC):
-    """A library's method, which aligns a source cloud to a target cloud."""
+    """A method of another library that aligns a source cloud to a target cloud."""
 
     @abstractmethod
     def library(self) -> object:
-        """The library.
+        """Imports the library.
 
         Raises:
             DependencyError: If it is missing.
@@ -78,35 +83,37 @@ class RigidMethod(Method, ABC):
 
     @abstractmethod
     def aligned(self, source: Array, target: Array, start: Array, size: float) -> Aligned:
-        """Align a source (N, 3) to a target (M, 3) [m].
+        """Aligns a source to a target.
 
         Args:
-            source: Points to be moved.
-            target: Points that rest.
-            start: T_target_source to set out from, (4, 4).
-            size: Of the source [m], by which lengths are scaled.
+            source: Points to align, (N, 3) [m].
+            target: Fixed points, (M, 3) [m].
+            start: Initial T_target_source, (4, 4).
+            size: Size of the source [m], the scale of all lengths.
         """
 
     def bind(self, body: Body) -> BoundRigidMethod:
-        """Nothing is done once, but what cannot be is told.
+        """Binds the method to a body of one segment.
 
         Raises:
-            ConfigError: If the body has joints, or no surface.
+            ConfigError: If the body has joints, a fixed root, or no surface.
             DependencyError: If the library is missing.
         """
         segments = len(body.skeleton.names)
         if segments > 1:
             raise ConfigError(
-                f"method '{self.kind}' is rigid: the template '{body.name}' has {segments} "
-                "segments; take a method that moves joints, such as direct"
+                f"method '{self.kind}' is rigid, but the template '{body.name}' has {segments} "
+                "segments; choose a method for articulated bodies"
             )
         if not body.skeleton.free:
             raise ConfigError(
-                f"method '{self.kind}' moves a free body: that of '{body.name}' rests"
+                f"method '{self.kind}' needs a free root, but that of the template '{body.name}' "
+                "is fixed"
             )
         if body.surface is None:
             raise ConfigError(
-                f"method '{self.kind}' aligns clouds: the template '{body.name}' has no surface"
+                f"the template '{body.name}' has no surface, which method '{self.kind}' aligns; "
+                "choose a template with a mesh or a cloud"
             )
         self.library()
         points = body.surface.points[:, 0]
@@ -122,12 +129,12 @@ class RigidMethod(Method, ABC):
 
 @dataclass(frozen=True)
 class BoundRigidMethod(Registrar):
-    """A library's method for one body of one segment.
+    """A library's method bound to a body of one segment.
 
     Attributes:
-        method: Its configuration.
+        method: The method.
         body: The body.
-        primitives: The points of its surface.
+        primitives: The points of the body's surface.
     """
 
     method: RigidMethod
@@ -142,10 +149,10 @@ class BoundRigidMethod(Registrar):
         prior: Pose | None = None,
         warm_start: RegistrationResult | None = None,
     ) -> RegistrationResult:
-        """What the library finds from the best candidate; priors and warm starts are not used.
+        """Registers from the best candidate; priors and warm starts are not used.
 
         Raises:
-            DataError: If the library fails, or finds no rigid motion.
+            DataError: If the library fails, or its result is not a rigid motion.
         """
         start = candidates[0]
         if len(candidates) > 1:
@@ -173,7 +180,7 @@ class BoundRigidMethod(Registrar):
         )
 
     def evaluate(self, observation: Observation, pose: Pose) -> Evaluation:
-        """How far the points of the data are from those of the body, against their own spacing."""
+        """Evaluates the distances of the data to the body's points, in units of their spacing."""
         tree = KDTree(transformed(pose.root, self.primitives.centres))
         distances = tree.query(observation.points)[0] / self._spacing
         inliers = np.exp(-0.5 * distances**2)
@@ -189,5 +196,6 @@ def _check_rigid(transform: Array, kind: str) -> None:
     rotation = np.asarray(transform)[:3, :3]
     if not finite or np.abs(rotation.T @ rotation - np.eye(3)).max() > 1e-4:
         raise DataError(
-            f"method '{kind}' found no rigid motion, but {np.round(transform, 4).tolist()}"
+            f"method '{kind}' returned a transform that is not a rigid motion: "
+            f"{np.round(transform, 4).tolist()}"
         )

@@ -1,4 +1,4 @@
-"""Where an alignment sets out from."""
+"""Initial alignment of two clouds."""
 
 from __future__ import annotations
 
@@ -17,76 +17,87 @@ from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError, DataError
 
 STARTS = ("nearest", "identity", "centroids", "rotations", "features")
-"""The names of the ways to begin; anything else is a file."""
+"""Names of the initial alignments; any other name is a file."""
 
-SKETCH = 500
-"""So many points tell which of two starts is nearer."""
+COMPARED_POINTS = 500
+"""Approximate number of points by which two initial alignments are compared."""
 
 
 @dataclass(frozen=True)
-class Beginning:
-    """Where an alignment sets out from.
+class InitialAlignment:
+    """An initial alignment.
 
     Attributes:
         transform: T_target_source, (4, 4).
-        told: How it was found, for the user.
+        description: How it was found, for the user.
     """
 
     transform: Array
-    told: str
+    description: str
 
 
-def beginning(start: str, source: Array, target: Array, method: Method) -> Beginning:
-    """The start that a user names.
+def initial_alignment(start: str, source: Array, target: Array, method: Method) -> InitialAlignment:
+    """Computes the initial alignment that ``start`` names.
 
     Args:
-        start: One of ``STARTS``, or a file with a 4x4 matrix T_target_source.
-        source: Points (N, 3) to be moved.
-        target: Points (M, 3) that rest.
-        method: What aligns them; rotations are tried with it.
+        start: One of ``STARTS``, or a text file with a 4x4 matrix T_target_source.
+        source: Points to align, (N, 3) [m].
+        target: Fixed points, (M, 3) [m].
+        method: The registration method, with which ``rotations`` tries rotations.
 
     Raises:
-        RegkitError: If there is no such way or file, or it finds nothing.
+        RegkitError: If there is no such name or file, or no initial alignment is found.
     """
     match start:
         case "nearest":
             return nearest(source, target)
         case "identity":
-            return Beginning(np.eye(4), "identity, as asked for")
+            return InitialAlignment(np.eye(4), "identity")
         case "centroids":
-            return Beginning(_centroids(source, target), "the clouds' centroids on one another")
+            return InitialAlignment(_centroids(source, target), "alignment of the centroids")
         case "rotations":
-            transform, told = by_rotations(source, target, method)
-            return Beginning(transform, told)
+            transform, description = by_rotations(source, target, method)
+            return InitialAlignment(transform, description)
         case "features":
-            return Beginning(by_features(source, target), "matched features, by Open3D's RANSAC")
+            return InitialAlignment(
+                by_features(source, target), "matched features, by Open3D's RANSAC"
+            )
         case _:
-            return Beginning(read_transform(start), f"the matrix in {start}")
+            return InitialAlignment(read_transform(start), f"the matrix in {start}")
 
 
-def nearest(source: Array, target: Array) -> Beginning:
-    """As the files are, or the centroids on one another, whichever brings the clouds nearer."""
+def nearest(source: Array, target: Array) -> InitialAlignment:
+    """Returns the identity or the alignment of the centroids, whichever is closer.
+
+    Args:
+        source: Points to align, (N, 3) [m].
+        target: Fixed points, (M, 3) [m].
+    """
     from scipy.spatial import KDTree
 
-    few, tree = _sketch(source), KDTree(_sketch(target))
-    gaps = [
+    few, tree = _downsampled(source), KDTree(_downsampled(target))
+    identity, centroids = np.eye(4), _centroids(source, target)
+    unmoved, moved = (
         float(np.median(tree.query(transformed(transform, few))[0]))
-        for transform in (np.eye(4), _centroids(source, target))
-    ]
-    told = "half of the source is within {:.3g} m of the target, {:.3g} m {} are"
-    if gaps[0] <= gaps[1]:
-        told = told.format(*gaps, "when the centroids")
-        return Beginning(np.eye(4), f"as the files are: {told} on one another")
-    told = told.format(*reversed(gaps), "as the files")
-    return Beginning(_centroids(source, target), f"the centroids on one another: {told}")
+        for transform in (identity, centroids)
+    )
+    if unmoved <= moved:
+        return InitialAlignment(
+            identity,
+            f"identity (median distance {unmoved:.3g} m, {moved:.3g} m with aligned centroids)",
+        )
+    return InitialAlignment(
+        centroids,
+        f"alignment of the centroids (median distance {moved:.3g} m, {unmoved:.3g} m without)",
+    )
 
 
 def read_transform(name: str) -> Array:
-    """The rigid motion (4, 4) in a text file.
+    """Reads a rigid motion (4, 4) from a text file of 16 numbers.
 
     Raises:
         ConfigError: If there is no such file.
-        DataError: If it holds no 4x4 matrix of a rigid motion.
+        DataError: If it does not contain the 4x4 matrix of a rigid motion.
     """
     path = Path(name)
     if not path.is_file():
@@ -101,11 +112,11 @@ def read_transform(name: str) -> Array:
     except ValueError as error:
         raise DataError(f"not a matrix of numbers: {error}", place=name) from None
     if matrix.size != 16:
-        raise DataError(f"{matrix.size} numbers; a 4x4 matrix has 16", place=name)
+        raise DataError(f"{matrix.size} numbers; a 4x4 matrix has 16 numbers", place=name)
     matrix = matrix.reshape(4, 4)
     rotation = matrix[:3, :3]
-    straight = np.abs(rotation.T @ rotation - np.eye(3)).max() < 1e-3
-    if not (straight and np.linalg.det(rotation) > 0.0 and np.allclose(matrix[3], [0, 0, 0, 1])):
+    orthogonal = np.abs(rotation.T @ rotation - np.eye(3)).max() < 1e-3
+    if not (orthogonal and np.linalg.det(rotation) > 0.0 and np.allclose(matrix[3], [0, 0, 0, 1])):
         raise DataError(
             "the matrix is no rigid motion: its first three rows and columns must be a rotation, "
             "its last row 0 0 0 1",
@@ -122,6 +133,6 @@ def _centroids(source: Array, target: Array) -> Array:
     return transform
 
 
-def _sketch(points: Array) -> Array:
-    voxel = voxel_for(points, SKETCH)
+def _downsampled(points: Array) -> Array:
+    voxel = voxel_for(points, COMPARED_POINTS)
     return points if voxel is None else voxel_downsampled(points, voxel)

@@ -1,8 +1,8 @@
 """Kinematics, joint limits and the Gaussian correlation as CasADi functions.
 
-They are for those who write an optimal control problem or a nonlinear program of their own, and for
-solvers that hold limits as constraints. All take a *configuration*, which holds what a pose does:
-``configuration`` tells its numbers.
+Use them in your own optimal control problems or nonlinear programs, or in solvers that treat joint
+limits as constraints. All functions take a *configuration*, a pose as one vector; see
+``configuration`` for its layout. CasADi is imported when a function is called.
 """
 
 from regkit.casadi.configuration import configuration, pose_of, retract

@@ -1,4 +1,4 @@
-"""Configurations: the numbers of a pose in one vector, and the step that retracts it."""
+"""Configurations: poses as vectors, and their retraction."""
 
 from __future__ import annotations
 
@@ -18,27 +18,32 @@ from regkit.system.optional import load_library
 
 
 def configuration(skeleton: Skeleton, pose: Pose) -> Array:
-    """The numbers (Q,) of a pose.
+    """Returns the configuration (Q,) of a pose.
 
-    They are the root's position [m] and quaternion (x, y, z, w) if it is free, a quaternion for
-    each ball joint, and all hinge angles [rad]. A function of a configuration normalises the
-    quaternions.
+    It is the concatenation of the position [m] and quaternion (x, y, z, w) of a free root, the
+    quaternions of all ball joints, and all hinge angles [rad]. Functions of a configuration
+    normalise the quaternions.
     """
     root = [pose.root[:3, 3], from_matrix(pose.root[:3, :3])] if skeleton.free else []
     return np.concatenate([*root, pose.balls.ravel(), pose.hinges])
 
 
 def pose_of(skeleton: Skeleton, numbers: Array, root: Array | None = None) -> Pose:
-    """The pose of a configuration (Q,); ``root`` is T_world_root (4, 4) where it is not free.
+    """Returns the pose of a configuration.
+
+    Args:
+        skeleton: The skeleton.
+        numbers: The configuration, (Q,).
+        root: T_world_root (4, 4) of a skeleton whose root is fixed; the identity by default.
 
     Raises:
-        ConfigError: If there are not Q numbers, or one is not finite.
+        ConfigError: If the configuration does not have Q finite numbers.
     """
     numbers = np.asarray(numbers, dtype=float).ravel()
     if len(numbers) != length(skeleton) or not np.isfinite(numbers).all():
         raise ConfigError(
-            f"a configuration of this skeleton is {length(skeleton)} finite numbers; there are "
-            f"{int(np.isfinite(numbers).sum())} of {len(numbers)}"
+            f"a configuration of this skeleton has {length(skeleton)} finite numbers; the given "
+            f"one has {len(numbers)} numbers, of which {int(np.isfinite(numbers).sum())} are finite"
         )
     parts = split(skeleton, numbers)
     if parts.rotation is not None:
@@ -49,13 +54,13 @@ def pose_of(skeleton: Skeleton, numbers: Array, root: Array | None = None) -> Po
 
 @dataclass(frozen=True)
 class Parts:
-    """What a configuration holds, as numbers or CasADi expressions.
+    """The parts of a configuration, as numbers or CasADi expressions.
 
     Attributes:
-        position: Of the root, (3,) [m]; None where the root is fixed.
-        rotation: Its quaternion (4,); None where the root is fixed.
-        balls: A quaternion (4,) for each ball joint.
-        hinges: All hinge angles (n_hinge,) [rad].
+        position: Position of the root, (3,) [m]; None if the root is fixed.
+        rotation: Quaternion of the root, (4,); None if the root is fixed.
+        balls: Quaternion (4,) of each ball joint.
+        hinges: Hinge angles, (n_hinge,) [rad].
     """
 
     position: Any
@@ -65,13 +70,13 @@ class Parts:
 
 
 def length(skeleton: Skeleton) -> int:
-    """How many numbers Q a configuration of a skeleton has."""
+    """Returns the length Q of a skeleton's configuration."""
     root = 7 if skeleton.free else 0
     return root + 4 * len(skeleton.ball_links) + len(skeleton.hinge_links)
 
 
 def split(skeleton: Skeleton, numbers: Any) -> Parts:
-    """The parts of a configuration (Q,)."""
+    """Splits a configuration (Q,) into its parts."""
     first = 7 if skeleton.free else 0
     last = first + 4 * len(skeleton.ball_links)
     return Parts(
@@ -84,10 +89,13 @@ def split(skeleton: Skeleton, numbers: Any) -> Parts:
 
 @lru_cache(maxsize=16)
 def retract(skeleton: Skeleton) -> Any:
-    """The CasADi function (configuration (Q,), step (n,)) -> configuration (Q,).
+    """Returns the CasADi function (configuration (Q,), step (n,)) -> configuration (Q,).
 
-    The same steps as ``Skeleton.retract`` takes: a translation in the world, rotation vectors in
-    the frames that they turn, hinge angles. A step knows of no coupling; ``joint_limits`` does.
+    The step is that of ``Skeleton.retract``: a translation in the world, rotation vectors in the
+    rotated frames, and hinge angles. It does not enforce couplings; ``joint_limits`` does.
+
+    Raises:
+        DependencyError: If CasADi is missing.
     """
     ca = load_library("casadi")
     numbers = ca.SX.sym("configuration", length(skeleton))

@@ -1,4 +1,4 @@
-"""Rows of constraints: named functions of a configuration, and the bounds that they keep."""
+"""Constraint rows: named, bounded functions of a configuration."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from regkit.system.optional import load_library
 
 @dataclass(frozen=True)
 class ConstraintRows:
-    """``lower <= g(configuration) <= upper``, in R rows.
+    """R constraints ``lower <= g(configuration) <= upper``.
 
     Attributes:
-        names: What each row limits, such as ``left_shin`` or ``left_upper_arm.swing``, (R).
+        names: Name of each row, such as ``left_shin`` or ``left_upper_arm.swing``, (R,).
         function: The CasADi function configuration (Q,) -> g (R,).
-        lower: (R,); -inf where there is no bound.
-        upper: (R,); inf where there is no bound.
+        lower: Lower bounds, (R,); -inf for no bound.
+        upper: Upper bounds, (R,); inf for no bound.
     """
 
     names: tuple[str, ...]
@@ -34,7 +34,14 @@ class ConstraintRows:
 
 @dataclass(frozen=True)
 class Row:
-    """One row: its name, its CasADi expression and its bounds."""
+    """One constraint row.
+
+    Attributes:
+        name: Name of the row.
+        expression: Scalar CasADi expression.
+        lower: Lower bound; -inf for none.
+        upper: Upper bound; inf for none.
+    """
 
     name: str
     expression: Any
@@ -43,7 +50,13 @@ class Row:
 
 
 def accumulated(name: str, numbers: Any, rows: list[Row]) -> ConstraintRows:
-    """Rows as one function, called ``name``, of the configuration ``numbers``."""
+    """Combines rows into one CasADi function of a configuration.
+
+    Args:
+        name: Name of the function.
+        numbers: The symbol of the configuration, (Q,).
+        rows: The rows, expressions of ``numbers``.
+    """
     ca = load_library("casadi")
     function = ca.Function(
         name, [numbers], [ca.vertcat(ca.SX(0, 1), *(row.expression for row in rows))],

@@ -1,4 +1,4 @@
-"""The paper's similarity as a CasADi function."""
+"""The paper's similarity, the Gaussian correlation, as a CasADi function."""
 
 from __future__ import annotations
 
@@ -15,26 +15,29 @@ from regkit.system.optional import load_library
 
 
 def correlation(skeleton: Skeleton, gaussians: Gaussians, count: int) -> Any:
-    """The correlation of a body's Gaussians with N data points, eqs. 5 and 8, to be made small.
+    """Returns the negative correlation of a body's Gaussians with data, eqs. 5 and 8.
 
     With S = C_i + sigma_j^2 I it is the energy of the kernel ``correlation``::
 
         - sum_ij w_i w_j sigma_j^3 sqrt(|C_i| / |S|) exp(-1/2 q^T S^-1 q) / sum_j w_j sigma_j^3,
 
     as the CasADi function (configuration (Q,), points (3, N) [m], weights (N,), variances (N,)
-    [m^2]) -> energy. A Gaussian's covariance turns with its segment.
+    [m^2]) -> energy. Covariances rotate with their segments.
 
     Args:
-        skeleton: The body's skeleton.
-        gaussians: In the frames of its segments.
-        count: The number N of points.
+        skeleton: The skeleton.
+        gaussians: Gaussians in segment frames.
+        count: Number N of points.
+
+    Raises:
+        DependencyError: If CasADi is missing.
     """
     ca = load_library("casadi")
     numbers = ca.MX.sym("configuration", length(skeleton))
     points = ca.MX.sym("points", 3, count)
     weights, variances = ca.MX.sym("weights", count), ca.MX.sym("variances", count)
     transforms = forward_kinematics(skeleton)(numbers)
-    # One point at a time, mapped over all: the expression does not grow with the data.
+    # Mapping the expression of one point keeps its size independent of the data.
     density = _density(skeleton, gaussians).map(count)
     densities = density(ca.repmat(ca.vec(transforms), 1, count), points, variances.T)
     masses = weights * variances**1.5
@@ -46,7 +49,7 @@ def correlation(skeleton: Skeleton, gaussians: Gaussians, count: int) -> Any:
 
 
 def _density(skeleton: Skeleton, gaussians: Gaussians) -> Any:
-    """The function (transforms (16 S,), point (3,), variance) -> density of all Gaussians there."""
+    """Returns the function (transforms (16 S,), point (3,), variance) -> density at the point."""
     ca = load_library("casadi")
     transforms = ca.SX.sym("transforms", 16 * len(skeleton.names))
     point, variance = ca.SX.sym("point", 3), ca.SX.sym("variance")
@@ -57,7 +60,7 @@ def _density(skeleton: Skeleton, gaussians: Gaussians) -> Any:
         strict=True,
     ):  # fmt: skip
         placed = by_segment[:3, 4 * segment : 4 * segment + 4]
-        # In the Gaussian's own axes S is diagonal.
+        # S is diagonal in the axes of the Gaussian.
         local = placed[:, :3].T @ (point - placed[:, 3]) - centre
         squares = _squares(scales) + variance
         exponent = ca.sum1((axes.T @ local) ** 2 / squares)

@@ -1,13 +1,13 @@
 """Joint limits as smooth CasADi constraints.
 
-With the rotation q of a ball joint relative to the middle of its cone, split into swing * twist:
+For the rotation q of a ball joint relative to the centre of its cone, q = swing * twist:
 
-- The twist's deviation from the middle of its interval, an angle in (-pi, pi), is bounded by half
-  the interval. It is the angle itself, so that its gradient never vanishes, and it jumps only where
-  it is farthest from the interval.
+- The deviation of the twist from the centre of its interval, an angle in (-pi, pi), is bounded by
+  half the interval. The row is the angle itself, so its gradient never vanishes; its discontinuity
+  is opposite to the interval.
 - The swing (s_1, s_2) with the half angles a_1, a_2 has the row
-  ``max(a) / 2 ((s_1 / a_1)^2 + (s_2 / a_2)^2 - 1) <= 0``, smooth at no rotation too. Outside the
-  cone it is at least as large as the violation in radians.
+  ``max(a) / 2 ((s_1 / a_1)^2 + (s_2 / a_2)^2 - 1) <= 0``, which is smooth at the identity, too.
+  Outside the cone it is at least as large as the violation in radians.
 """
 
 from __future__ import annotations
@@ -27,19 +27,19 @@ from regkit.system.arrays import Array
 from regkit.system.optional import load_library
 
 NOWHERE = 1e-30
-"""Added to squares that vanish at a swing of half a turn, where the twist is not defined."""
+"""Added to squares that vanish for a swing by pi, where the twist is undefined."""
 
 
 @lru_cache(maxsize=16)
 def ball_limits(skeleton: Skeleton) -> ConstraintRows:
-    """The rows of all ball joints that have a limit: swing, then twist, joint by joint."""
+    """Returns the constraints of all limited ball joints: swing, then twist, joint by joint."""
     numbers = load_library("casadi").SX.sym("configuration", length(skeleton))
     return accumulated("ball_limits", numbers, list(_ball_rows(skeleton, numbers)))
 
 
 @lru_cache(maxsize=16)
 def joint_limits(skeleton: Skeleton) -> ConstraintRows:
-    """All limits of a skeleton: those of its ball joints, of its hinges, and couplings."""
+    """Returns all limits of a skeleton: ball joints, then hinges, then couplings."""
     numbers = load_library("casadi").SX.sym("configuration", length(skeleton))
     rows = [*_ball_rows(skeleton, numbers), *_hinge_rows(skeleton, numbers)]
     return accumulated("joint_limits", numbers, rows)
@@ -67,7 +67,7 @@ def _ball_rows(skeleton: Skeleton, numbers: Any) -> Iterator[Row]:
 def _hinge_rows(skeleton: Skeleton, numbers: Any) -> Iterator[Row]:
     hinges = split(skeleton, numbers).hinges
     names = _names(skeleton, skeleton.hinge_dofs, 1)
-    # Within the limits of a leader and with its coupling a follower keeps its own.
+    # The limits of a leader and the coupling imply the limits of a follower.
     for index in skeleton.limits.couplings.independent.tolist():
         low, high = skeleton.limits.hinge[index]
         if np.isfinite([low, high]).any():
@@ -76,38 +76,38 @@ def _hinge_rows(skeleton: Skeleton, numbers: Any) -> Iterator[Row]:
     for follower, leader, ratio, offset in zip(
         couplings.followers, couplings.leaders, couplings.ratios, couplings.offsets, strict=True
     ):
-        misfit = hinges[int(follower)] - ratio * hinges[int(leader)] - offset
-        yield Row(f"{names[follower]}.coupling", misfit, 0.0, 0.0)
+        residual = hinges[int(follower)] - ratio * hinges[int(leader)] - offset
+        yield Row(f"{names[follower]}.coupling", residual, 0.0, 0.0)
 
 
 def _names(skeleton: Skeleton, dofs: slice, each: int) -> list[str]:
-    """The segment of each joint in a range of dofs."""
+    """Returns the segment of each joint in a range of degrees of freedom."""
     owners = {int(one): name for name, own in skeleton.joint_dofs.items() for one in own}
     return [owners[first] for first in range(dofs.start, dofs.stop, each)]
 
 
 def _twist_from(quaternion: Any, axis: Array, middle: float) -> Any:
-    """The twist's deviation from ``middle``, in (-pi, pi) [rad]."""
+    """Returns the deviation of the twist from ``middle``, in (-pi, pi) [rad]."""
     ca = load_library("casadi")
     along, scalar = ca.dot(quaternion[:3], axis), quaternion[3]
-    # Half the deviation has this sine and cosine, but for a factor.
+    # Sine and cosine of half the deviation, up to a common factor.
     sine = np.cos(0.5 * middle) * along - np.sin(0.5 * middle) * scalar
     cosine = np.cos(0.5 * middle) * scalar + np.sin(0.5 * middle) * along
-    # The quaternion and its negative are the same rotation.
+    # A quaternion and its negative are the same rotation.
     sign = ca.if_else(cosine < 0.0, -1.0, 1.0)
     return 2.0 * ca.atan2(sign * sine, sign * cosine + np.sqrt(NOWHERE))
 
 
 def _swing(quaternion: Any, axis: Array, first_axis: Array) -> Any:
-    """The two swing angles (2,) [rad]."""
+    """Returns the two swing angles (2,) [rad]."""
     ca = load_library("casadi")
     along, scalar = ca.dot(quaternion[:3], axis), quaternion[3]
-    # The cosine of half the swing; the twist's half angle has these over it as sine and cosine.
+    # The cosine of half the swing; divided by it, these are sine and cosine of half the twist.
     level = ca.sqrt(along**2 + scalar**2 + NOWHERE)
     sine, cosine = along / level, scalar / level
     one = ca.dot(quaternion[:3], first_axis)
     two = ca.dot(quaternion[:3], cross(axis, first_axis))
-    # The twist turned the swing's axis too; this turns it back.
+    # The twist also rotated the swing axis; undo that.
     swing = ca.vertcat(cosine * one - sine * two, sine * one + cosine * two)
     square = ca.dot(swing, swing)
     small = square < rotations.SMALL

@@ -17,10 +17,13 @@ from regkit.system.optional import load_library
 
 @lru_cache(maxsize=16)
 def forward_kinematics(skeleton: Skeleton) -> Any:
-    """The CasADi function configuration (Q,) -> T_world_segment of all S segments, eq. 4.
+    """Returns the CasADi function configuration (Q,) -> T_world_segment of all segments, eq. 4.
 
-    The matrices stand side by side, (4, 4 S), in the order of ``skeleton.names``. Where the root is
-    fixed, the world is its frame.
+    The matrices are concatenated horizontally, (4, 4 S), in the order of ``skeleton.names``. The
+    frame of a fixed root is the world.
+
+    Raises:
+        DependencyError: If CasADi is missing.
     """
     ca = load_library("casadi")
     numbers = ca.SX.sym("configuration", length(skeleton))
@@ -33,7 +36,11 @@ def forward_kinematics(skeleton: Skeleton) -> Any:
 
 
 def marker_positions(skeleton: Skeleton, markers: Markers) -> Any:
-    """The CasADi function configuration (Q,) -> positions of all M markers, (3, M) [m]."""
+    """Returns the CasADi function configuration (Q,) -> positions of all M markers, (3, M) [m].
+
+    Raises:
+        DependencyError: If CasADi is missing.
+    """
     ca = load_library("casadi")
     numbers = ca.SX.sym("configuration", length(skeleton))
     transforms = forward_kinematics(skeleton)(numbers)
@@ -47,7 +54,7 @@ def marker_positions(skeleton: Skeleton, markers: Markers) -> Any:
 
 
 def _links(skeleton: Skeleton, numbers: Any) -> list[Any]:
-    """T_world_link of each link: that of its parent, its offset, and the turn of its joint."""
+    """Returns T_world_link of each link: T_world_parent * offset * joint rotation."""
     ca = load_library("casadi")
     parts = split(skeleton, numbers)
     turns = {
@@ -63,7 +70,7 @@ def _links(skeleton: Skeleton, numbers: Any) -> list[Any]:
     else:
         root = ca.DM.eye(4)
     links: list[Any] = []
-    # Parents stand before their children.
+    # Parents come before their children.
     for link, above in enumerate(skeleton.link_parents):
         parent = root if above < 0 else links[above]
         placed = parent @ _constant(skeleton.link_offsets[link])
@@ -78,5 +85,5 @@ def _rigid(rotation: Any, translation: Any) -> Any:
 
 
 def _constant(transform: Array) -> Any:
-    """A matrix whose zeros CasADi knows of, so that it leaves them out."""
+    """Returns a constant matrix with structural zeros, which CasADi eliminates."""
     return load_library("casadi").sparsify(load_library("casadi").DM(np.asarray(transform)))

@@ -1,4 +1,4 @@
-"""Rotations as CasADi expressions, smooth wherever a rotation is, as are their derivatives."""
+"""Rotations as CasADi expressions with smooth derivatives, also at the identity."""
 
 from __future__ import annotations
 
@@ -7,18 +7,18 @@ from typing import Any
 from regkit.system.optional import load_library
 
 SMALL = 1e-4
-"""Below this square of an angle, or of its sine, series take the place of quotients."""
+"""Below this squared angle, or squared sine, series replace quotients."""
 
 
 def product(left: Any, right: Any) -> Any:
-    """The Hamilton product of two quaternions (4,), x, y, z, w: first ``right`` is applied."""
+    """Returns the Hamilton product of quaternions (x, y, z, w), ``right`` followed by ``left``."""
     ca = load_library("casadi")
     vector = left[3] * right[:3] + right[3] * left[:3] + ca.cross(left[:3], right[:3])
     return ca.vertcat(vector, left[3] * right[3] - ca.dot(left[:3], right[:3]))
 
 
 def exponential(vector: Any) -> Any:
-    """The unit quaternion (4,) of a rotation vector (3,) [rad]."""
+    """Returns the unit quaternion (4,) of a rotation vector (3,) [rad]."""
     ca = load_library("casadi")
     square = ca.dot(vector, vector)
     small = square < SMALL
@@ -31,12 +31,12 @@ def exponential(vector: Any) -> Any:
 
 
 def matrix(quaternion: Any) -> Any:
-    """The rotation matrix (3, 3) of a unit quaternion (4,)."""
+    """Returns the rotation matrix (3, 3) of a unit quaternion (4,)."""
     ca = load_library("casadi")
     cross = ca.skew(quaternion[:3])
     return ca.DM.eye(3) + 2.0 * quaternion[3] * cross + 2.0 * cross @ cross
 
 
 def normalized(quaternion: Any) -> Any:
-    """``p = r / |r|``, (4,)."""
+    """Returns the normalised quaternion ``p = r / |r|``, (4,)."""
     return quaternion / load_library("casadi").norm_2(quaternion)

@@ -1,4 +1,4 @@
-"""Which way is up in a file, and which is the front."""
+"""Axis conventions of files: which axis is up, and which is the front."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ _DIRECTIONS = {
 
 
 def body_axes(up: str, front: str) -> Array:
-    """``R_body_file`` (3, 3): a body has y up, z to the front and x to its left.
+    """Returns ``R_body_file`` (3, 3), where a body has y up, z to the front and x to its left.
 
     Args:
-        up: The file's axis that points up: x, y, z, -x, -y or -z.
-        front: The one that points to the front.
+        up: The up axis of the file: x, y, z, -x, -y or -z.
+        front: The front axis of the file.
 
     Raises:
-        ConfigError: If they are no axes, or along one line.
+        ConfigError: If one is not an axis, or they are parallel.
     """
     for argument, axis in (("up", up), ("front", front)):
         if axis not in _DIRECTIONS:

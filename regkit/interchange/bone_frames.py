@@ -1,4 +1,4 @@
-"""Frames of bones whose y axis points along the bone, for rigs whose axes point elsewhere."""
+"""Bone frames with y along the bone, for rigs with other conventions."""
 
 from __future__ import annotations
 
@@ -11,29 +11,30 @@ from regkit.geometry.rotation import rotation_between
 from regkit.system.arrays import Array
 
 CANCELLED = 0.2
-"""Ways to several children whose mean is shorter than this part of their lengths point nowhere."""
+"""A bone with several children has no direction if the length of their mean offset, relative to
+the sum of their lengths, is below this."""
 
 
 def along_bones(origins: Array, axes: Array, parents: Sequence[int]) -> Array:
-    """``T_body_bone`` (J, 4, 4) with y along the bone, turned as little as can be.
+    """Returns ``T_body_bone`` (J, 4, 4) with y along the bone, by the smallest rotations.
 
-    A bone points to its child, or to the middle of several; without one, or between children on
-    all sides, it points where its parent does, and a single bone as it did.
+    A bone points to its child, or to the mean of several children. Without children, or with
+    children on all sides, it has the direction of its parent; a single bone keeps its own.
 
     Args:
-        origins: (J, 3) where the bones start [m].
-        axes: (J, 3, 3) the rig's own rotations of the bones.
-        parents: (J,) index of each bone's parent, which stands before it; -1 for none.
+        origins: Origins of the bones, (J, 3) [m].
+        axes: Rotations of the bones in the rig, (J, 3, 3).
+        parents: Index of each bone's parent, (J,), parents before children; -1 for none.
     """
     frames = rigid(axes, origins)
     for bone, parent in enumerate(parents):
-        ways = [
+        offsets = [
             origins[child] - origins[bone] for child, above in enumerate(parents) if above == bone
         ]
-        lengths = [float(np.linalg.norm(way)) for way in ways]
-        mean = np.sum(ways, axis=0) if ways else np.zeros(3)
-        if np.linalg.norm(mean) > max(CANCELLED * sum(lengths), 1e-9):
-            along = mean
+        lengths = [float(np.linalg.norm(offset)) for offset in offsets]
+        total = np.sum(offsets, axis=0) if offsets else np.zeros(3)
+        if np.linalg.norm(total) > max(CANCELLED * sum(lengths), 1e-9):
+            along = total
         elif parent >= 0:
             along = frames[parent, :3, 1]
         else:
@@ -43,7 +44,7 @@ def along_bones(origins: Array, axes: Array, parents: Sequence[int]) -> Array:
 
 
 def nearest_rotations(matrices: Array) -> Array:
-    """The rotation (J, 3, 3) nearest to each matrix (J, 3, 3), scaled or mirrored as it may be.
+    """Returns the nearest rotation (J, 3, 3) to each matrix (J, 3, 3), also if scaled or mirrored.
 
     Source: Umeyama, Least-squares estimation of transformation parameters, 1991, eq. 40.
     """

@@ -1,4 +1,4 @@
-"""A tracked motion as a table."""
+"""Export of tracked motion as CSV."""
 
 from __future__ import annotations
 
@@ -11,14 +11,15 @@ from regkit.interchange.motion import TrackedMotion
 from regkit.system.files import write_text
 
 COLUMNS = ("frame", "time", "kind", "name", "x", "y", "z", "qx", "qy", "qz", "qw")
-"""Times are in seconds, positions in metres in the camera's frame: x right, y down, z forward."""
+"""Columns of the table: times in [s], positions in [m] in the camera frame (x right, y down, z
+forward)."""
 
 
 def write_csv(motion: TrackedMotion, path: Path) -> None:
-    """Write a row for each segment and each marker in each frame.
+    """Writes a row for each segment and each marker in each frame.
 
-    A segment's row has its origin and the unit quaternion of ``R_camera_segment``, whose scalar is
-    qw >= 0; a marker's has no quaternion.
+    The row of a segment has its origin and the unit quaternion of ``R_camera_segment`` with
+    qw >= 0; that of a marker has no quaternion.
 
     Raises:
         DataError: If the file cannot be written.

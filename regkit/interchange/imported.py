@@ -1,4 +1,4 @@
-"""Skeletons of other programs as templates: what their formats have in common."""
+"""Templates from skeletons of other programs, independent of the file format."""
 
 from __future__ import annotations
 
@@ -18,30 +18,30 @@ from regkit.system.arrays import Array
 from regkit.system.errors import DataError
 
 THICKNESS = 0.15
-"""A bone without a shape gets a capsule whose radius is this part of its length."""
+"""Radius of the capsule of a bone without a shape, as a fraction of its length."""
 
-THINNEST = 0.005
-"""No such radius is less than this part of the skeleton's largest extent."""
+MIN_THICKNESS = 0.005
+"""Minimum radius of such a capsule, as a fraction of the skeleton's largest extent."""
 
-SHORTEST = 1e-4
-"""What is shorter is no bone [m]."""
+MIN_LENGTH = 1e-4
+"""Minimum length of a bone [m]."""
 
 UPRIGHT = 0.8
-"""The size is the height if that is at least this part of the largest extent."""
+"""The size is the height if that is at least this fraction of the largest extent."""
 
 
 @dataclass(frozen=True)
 class Bone:
-    """A rigid part, in axes that are the body's for all bones where no joint is turned.
+    """A bone whose frame at rest is parallel to the body frame.
 
     Attributes:
-        name: Its name.
-        parent: Index of its parent, which stands before it; -1 for the root.
-        offset: (3,) of its joint from its parent's [m].
-        joint: How it moves; that of the root is set free.
-        capsules: Its shape; None if a shape is to be made along the bone.
-        markers: Points by name, (3,) [m].
-        comment: What to say of its joint.
+        name: Name of the bone.
+        parent: Index of its parent, which comes before it; -1 for the root.
+        offset: Position of its joint relative to its parent's, (3,) [m].
+        joint: The joint; free for the root.
+        capsules: The shape; None to generate capsules along the bone.
+        markers: Markers by name, (3,) [m].
+        comment: Comment on the joint in the template.
     """
 
     name: str
@@ -55,12 +55,12 @@ class Bone:
 
 @dataclass(frozen=True)
 class ImportedSkeleton:
-    """A skeleton as a template.
+    """An imported skeleton as a template.
 
     Attributes:
         description: The template.
-        comments: What to say of each joint, by its segment.
-        shaped: How many bones got a capsule along them, as the file has no shape that is read.
+        comments: Comments on the joints, by segment.
+        shaped: Number of bones with generated capsules, for lack of a shape in the file.
     """
 
     description: BodyDescription
@@ -71,24 +71,24 @@ class ImportedSkeleton:
     def of(
         cls, bones: list[Bone], path: Path, title: str, *, spread: tuple[float, float]
     ) -> ImportedSkeleton:
-        """The template of a file's bones.
+        """Returns the template of the bones in a file.
 
         Args:
-            bones: The bones, parents first.
-            path: The file, for messages and as the source.
-            title: What it is, in a line.
-            spread: By how much others of its kind are smaller and larger.
+            bones: The bones, parents before children.
+            path: The file, for messages and the template's source.
+            title: Title of the template.
+            spread: Range of the size, relative to the skeleton's own.
 
         Raises:
-            DataError: If the bones are no template.
+            DataError: If the skeleton has no extent, or is not a valid template.
         """
         extents = _extents(bones)
-        ways = [_ways(bones, index) for index in range(len(bones))]
-        thinnest = THINNEST * float(extents.max())
+        offsets = [_offsets(bones, index) for index in range(len(bones))]
+        min_radius = MIN_THICKNESS * float(extents.max())
         segments = {}
         for index, bone in enumerate(bones):
             made = bone.capsules is None
-            capsules = _along(ways[index], thinnest) if made else bone.capsules
+            capsules = _capsules(offsets[index], min_radius) if made else bone.capsules
             segments[bone.name] = SegmentDescription(
                 parent=bones[bone.parent].name if bone.parent >= 0 else None,
                 offset=vector(bone.offset),
@@ -100,7 +100,9 @@ class ImportedSkeleton:
         size = round(float(extents[1] if upright else extents.max()), 4)
         if size <= 0.0:
             raise DataError(
-                "the skeleton has no extent: all of it is in one place", place=str(path)
+                "the skeleton has no extent: all joints are at the same position; at least one "
+                "bone must have a length",
+                place=str(path),
             )
         try:
             description = BodyDescription(
@@ -123,30 +125,31 @@ class ImportedSkeleton:
         return cls(description, comments, shaped)
 
 
-def _ways(bones: list[Bone], index: int) -> list[Array]:
-    """From a bone's joint to those of its children, and to its other markers, (3,) each."""
+def _offsets(bones: list[Bone], index: int) -> list[Array]:
+    """Returns the vectors (3,) [m] from a bone's joint to its children and its other markers."""
     children = [bone.offset for bone in bones if bone.parent == index]
-    ways: list[Array] = []
-    for way in (*children, *bones[index].markers.values()):
-        # Several children may be at one place.
-        if min(float(np.linalg.norm(way - other)) for other in (np.zeros(3), *ways)) > SHORTEST:
-            ways.append(way)
-    return ways
+    offsets: list[Array] = []
+    for offset in (*children, *bones[index].markers.values()):
+        # Several children may have the same position.
+        others = (np.zeros(3), *offsets)
+        if min(float(np.linalg.norm(offset - other)) for other in others) > MIN_LENGTH:
+            offsets.append(offset)
+    return offsets
 
 
-def _along(ways: list[Array], thinnest: float) -> tuple[CapsuleDescription, ...]:
+def _capsules(offsets: list[Array], min_radius: float) -> tuple[CapsuleDescription, ...]:
     return tuple(
         CapsuleDescription(
             start=(0.0, 0.0, 0.0),
-            end=vector(way),
-            radius=max(THICKNESS * float(np.linalg.norm(way)), thinnest),
+            end=vector(offset),
+            radius=max(THICKNESS * float(np.linalg.norm(offset)), min_radius),
         )
-        for way in ways
+        for offset in offsets
     )
 
 
 def _extents(bones: list[Bone]) -> Array:
-    """The extents (3,) of all joints, markers and capsules where no joint is turned [m]."""
+    """Returns the extents (3,) [m] of all joints, markers and capsules at rest."""
     places: list[Array] = []
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     for bone in bones:
@@ -163,7 +166,7 @@ def _extents(bones: list[Bone]) -> Array:
 
 
 def ball(bone: Array | None) -> BallJoint:
-    """A ball joint without limits, whose twist is about the axis nearest to the bone (3,)."""
+    """Returns an unlimited ball joint with the twist axis nearest to the bone (3,); y if None."""
     along = np.array([0.0, 1.0, 0.0]) if bone is None else bone
     axis = int(np.argmax(np.abs(along)))
     twist = np.copysign(np.eye(3)[axis], along) * np.eye(3)[axis]
@@ -175,6 +178,6 @@ def ball(bone: Array | None) -> BallJoint:
 
 
 def vector(numbers: Array) -> Vector:
-    """Three numbers as a description has them."""
+    """Returns an array (3,) as a tuple of floats."""
     x, y, z = (float(number) for number in numbers)
     return (x, y, z)

@@ -1,4 +1,4 @@
-"""Skinned meshes in any format that regkit reads."""
+"""Import of skinned meshes in all supported formats."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from regkit.system.errors import ConfigError
 
 
 class BoneParents(RootModel[dict[str, str | None]]):
-    """The parent of each bone, null for the one that has none."""
+    """The parent of each bone; null for the root."""
 
 
 def read_mesh(path: Path, parents: Path | None = None) -> SkinnedMesh:
-    """The mesh in an ``.npz``, ``.glb`` or ``.gltf`` file.
+    """Reads the skinned mesh of an ``.npz``, ``.glb`` or ``.gltf`` file.
 
     Args:
         path: The file.
-        parents: A YAML file that names the parent of each bone, for a glTF whose bones are no tree.
+        parents: A YAML file with the parent of each bone, for a glTF whose bones are not a tree.
 
     Raises:
-        RegkitError: If a file is missing or wrong.
+        RegkitError: If a file is missing or invalid.
     """
     gltf = path.suffix.lower() in SUFFIXES
     if not gltf and parents is not None:

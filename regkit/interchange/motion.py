@@ -1,4 +1,4 @@
-"""A tracked motion, as it leaves regkit."""
+"""Tracked motion in the form in which it is exported."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.system.arrays import Array
 
 UPRIGHT_CAMERA = np.diag([1.0, -1.0, -1.0])
-"""``R_scene_camera``: a camera's y points down and z forward, a scene's y up and z backward."""
+"""``R_scene_camera``: the camera has y down and z forward, a scene y up and z backward."""
 
 
 @dataclass(frozen=True)
 class TrackedMotion:
-    """Where a body's segments were in T frames.
+    """The motion of a body over T frames.
 
     Attributes:
-        name: What the motion is called.
-        body: The body, at its size.
+        name: Name of the motion.
+        body: The body at its size.
         transforms: ``T_camera_segment``, (T, S, 4, 4) [m].
         fps: Frames per second.
-        skin: Its mesh at its size, whose bones are named as segments are, if it has one.
+        skin: The body's mesh at its size, with bones named like segments; None if there is none.
     """
 
     name: str
@@ -34,5 +34,5 @@ class TrackedMotion:
 
     @property
     def times(self) -> Array:
-        """The time of each frame, (T,) [s], from zero."""
+        """The time of each frame, (T,) [s], starting at zero."""
         return np.arange(len(self.transforms)) / self.fps

@@ -1,4 +1,4 @@
-"""Tracked motion in any format that regkit writes."""
+"""Export of tracked motion in all supported formats."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from regkit.interchange.motion import UPRIGHT_CAMERA, TrackedMotion
 from regkit.system.errors import ConfigError
 
 FORMATS = (".bvh", ".csv", ".glb")
-"""How the names of the files end."""
+"""Suffixes of the supported formats."""
 
 
 def write_motion(motion: TrackedMotion, path: Path, *, scale: float = 1.0) -> None:
-    """Write a motion in the format that the file's name ends with.
+    """Writes a motion in the format of the file's suffix.
 
     Args:
         motion: The motion.
         path: The file.
-        scale: Metres per unit of a BVH file, which has no unit of its own.
+        scale: Metres per unit of a BVH file, a format without units.
 
     Raises:
-        ConfigError: If there is no such format.
+        ConfigError: If the suffix is unknown.
         DataError: If the file cannot be written.
     """
     match path.suffix.lower():
@@ -36,4 +36,7 @@ def write_motion(motion: TrackedMotion, path: Path, *, scale: float = 1.0) -> No
             mesh = shown_mesh(motion.body, motion.skin)
             write_gltf(path, mesh, motion.transforms, motion.fps, motion.name, UPRIGHT_CAMERA)
         case suffix:
-            raise ConfigError(f"'{suffix}' is none of {', '.join(FORMATS)}", place=str(path))
+            raise ConfigError(
+                f"'{suffix}' is none of {', '.join(FORMATS)}; the suffix names the format",
+                place=str(path),
+            )

@@ -1,4 +1,4 @@
-"""Skeletons in any format that regkit reads."""
+"""Import of skeletons in all supported formats."""
 
 from __future__ import annotations
 
@@ -21,18 +21,18 @@ def read_skeleton(
     up: str | None = None,
     front: str | None = None,
 ) -> ImportedSkeleton:
-    """The skeleton in a ``.bvh`` or ``.urdf`` file as a template.
+    """Reads the skeleton of a ``.bvh`` or ``.urdf`` file as a template.
 
     Args:
         path: The file.
         scale: Metres per unit of the file.
-        title: What it is, in a line; without it the file's name, or the robot's.
-        up: The file's axis that points up; by custom y of BVH and z of URDF.
-        front: The one that points to the front; by custom z of BVH and x of URDF.
+        title: Title of the template; by default the name of the file or the robot.
+        up: The up axis of the file; by default y for BVH and z for URDF.
+        front: The front axis of the file; by default z for BVH and x for URDF.
 
     Raises:
-        ConfigError: If the file is of another format, or the axes are none.
-        DataError: If the file is missing or wrong.
+        ConfigError: If the format is unknown, or the axes are invalid.
+        DataError: If the file is missing or invalid.
     """
     match path.suffix.lower():
         case ".bvh":
@@ -45,7 +45,7 @@ def read_skeleton(
             return urdf_template(robot, path, title or f"The robot {robot.name}", axes, scale)
         case suffix:
             raise ConfigError(
-                f"'{suffix}' is no format that is imported (.bvh, .urdf); `regkit fit` makes a "
-                "template of a rigged .glb or .gltf",
+                f"the format '{suffix}' cannot be imported; use .bvh or .urdf, or make a template "
+                "from a rigged .glb or .gltf with `regkit fit`",
                 place=str(path),
             )

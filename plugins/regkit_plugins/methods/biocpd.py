@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Field
 
-from regkit.alignment.rigid_method import Aligned, Frame, RigidMethod
+from regkit.alignment.rigid_method import Aligned, Normalization, RigidMethod
 from regkit.geometry.rigid import transformed
 from regkit.system.arrays import Array
 from regkit.system.optional import load_library
@@ -29,16 +29,16 @@ class BioCPD(RigidMethod):
 
     def aligned(self, source: Array, target: Array, start: Array, size: float) -> Aligned:
         """Align by ``RigidRegistration``, whose rotations stand to the right of points in rows."""
-        frame = Frame.around(target, size)
+        normalization = Normalization.around(target, size)
         registration = self.library().RigidRegistration(
-            X=frame.inside(target),
-            Y=frame.inside(transformed(start, source)),
+            X=normalization.normalized(target),
+            Y=normalization.normalized(transformed(start, source)),
             scale=False,
             w=self.outliers,
             max_iterations=self.max_iterations,
         )
         _, (_, rotation, translation) = registration.register()
-        step = frame.outside(np.asarray(rotation).T, np.asarray(translation).reshape(3))
+        step = normalization.transform(np.asarray(rotation).T, np.asarray(translation).reshape(3))
         converged = registration.iteration < self.max_iterations
-        message = "the objective settled" if converged else "max_iterations were taken"
+        message = "the objective converged" if converged else "max_iterations reached"
         return Aligned(step @ start, converged, int(registration.iteration), message)

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Field
 
-from regkit.alignment.rigid_method import Aligned, Frame, RigidMethod
+from regkit.alignment.rigid_method import Aligned, Normalization, RigidMethod
 from regkit.geometry.rigid import transformed
 from regkit.system.arrays import Array
 from regkit.system.optional import load_library
@@ -32,16 +32,16 @@ class ProbregCPD(RigidMethod):
 
     def aligned(self, source: Array, target: Array, start: Array, size: float) -> Aligned:
         """Align by ``registration_cpd``."""
-        frame = Frame.around(target, size)
+        normalization = Normalization.around(target, size)
         result = self.library().registration_cpd(
-            frame.inside(transformed(start, source)),
-            frame.inside(target),
+            normalization.normalized(transformed(start, source)),
+            normalization.normalized(target),
             "rigid",
             w=self.outliers,
             maxiter=self.max_iterations,
             update_scale=False,
         )
-        return _aligned(result.transformation, frame, start)
+        return _aligned(result.transformation, normalization, start)
 
 
 class ProbregFilterReg(RigidMethod):
@@ -62,17 +62,17 @@ class ProbregFilterReg(RigidMethod):
 
     def aligned(self, source: Array, target: Array, start: Array, size: float) -> Aligned:
         """Align by ``registration_filterreg``."""
-        frame = Frame.around(target, size)
+        normalization = Normalization.around(target, size)
         result = self.library().registration_filterreg(
-            frame.inside(transformed(start, source)),
-            frame.inside(target),
+            normalization.normalized(transformed(start, source)),
+            normalization.normalized(target),
             update_sigma2=self.shrinking,
             w=self.outliers,
             maxiter=self.max_iterations,
         )
-        return _aligned(result.transformation, frame, start)
+        return _aligned(result.transformation, normalization, start)
 
 
-def _aligned(transformation: Any, frame: Frame, start: Array) -> Aligned:
-    step = frame.outside(np.asarray(transformation.rot), np.asarray(transformation.t))
+def _aligned(transformation: Any, normalization: Normalization, start: Array) -> Aligned:
+    step = normalization.transform(np.asarray(transformation.rot), np.asarray(transformation.t))
     return Aligned(step @ start, True, 0, "the library does not say how it ended")

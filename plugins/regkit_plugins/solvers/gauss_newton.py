@@ -1,4 +1,4 @@
-"""Gauss-Newton with Levenberg and Marquardt's damping, on the normal equations of a kernel."""
+"""Gauss-Newton with Levenberg-Marquardt damping, on the normal equations of the problem."""
 
 from __future__ import annotations
 
@@ -16,7 +16,10 @@ Tolerance = Annotated[float, Field(ge=0.0)]
 
 
 class GaussNewton(Solver):
-    """Damped Gauss-Newton; it keeps all joint limits, and takes no step that raises the value."""
+    """Damped Gauss-Newton (Levenberg-Marquardt).
+
+    It satisfies all joint limits by projection, and accepts only steps that decrease the value.
+    """
 
     kind: Literal["gauss_newton"] = "gauss_newton"
     limits: ClassVar[LimitKeeping] = LimitKeeping(
@@ -24,16 +27,22 @@ class GaussNewton(Solver):
     )
 
     max_iterations: Annotated[int, Field(ge=1)] = 10
-    """Steps at most, those counted that were refused."""
+    """Maximum number of steps, including rejected ones."""
     value_tolerance: Tolerance = 1e-5
-    """Stop when a step lowers the value by less than this part of what has been gained so far."""
+    """Converged if a step decreases the value by less than this fraction of the total decrease."""
     damping: Annotated[float, Field(gt=0.0)] = 1e-3
-    """The first damping, as a part of the matrix's diagonal."""
+    """Initial damping, as a fraction of the matrix's diagonal."""
     resting: Annotated[float, Field(ge=0.0)] = 1e-3
-    """Curvature given to every variable, as a part of the mean one: what nothing observes rests."""
+    """Regularisation of all variables, as a fraction of the mean curvature; it keeps unobserved
+    variables at rest."""
 
     def minimize(self, problem: Problem) -> Solution:
-        """The last accepted point; it is no worse than the start brought within the limits."""
+        """Returns the last accepted point, never worse than the start projected onto the limits.
+
+        Raises:
+            ConfigError: If the kernel or a term does not provide curvature.
+            DataError: If the value, gradient or matrix at the start is not finite.
+        """
         x = problem.projected(problem.start)
         value, gradient, matrix = _equations(problem, x)
         if not (np.isfinite(value) and np.isfinite(gradient).all() and np.isfinite(matrix).all()):
@@ -42,11 +51,11 @@ class GaussNewton(Solver):
         for iteration in range(self.max_iterations):
             free = _free(problem, x, gradient)
             if not gradient[free].any():
-                return Solution(x, value, True, iteration, evaluations, "no force is left")
+                return Solution(x, value, True, iteration, evaluations, "the gradient is zero")
             step = np.zeros_like(x)
             system = matrix[np.ix_(free, free)]
             diagonal = np.diagonal(system)
-            # The force's own size keeps the step finite where there is no curvature at all.
+            # The magnitude of the gradient bounds the step where there is no curvature at all.
             strongest = float(np.abs(gradient[free]).max())
             extra = damping * (diagonal + strongest) + self.resting * float(diagonal.mean())
             step[free] = -np.linalg.solve(system + np.diag(extra), gradient[free])
@@ -58,14 +67,16 @@ class GaussNewton(Solver):
                 x, value, gradient, matrix = trial, trial_value, trial_gradient, trial_matrix
                 damping = max(0.2 * damping, 1e-9)
                 if gain <= self.value_tolerance * (first - value):
-                    return Solution(x, value, True, iteration + 1, evaluations, "the value settled")
+                    return Solution(
+                        x, value, True, iteration + 1, evaluations, "the value converged"
+                    )
             elif damping > 1e9:
-                return Solution(x, value, True, iteration, evaluations, "no step lowers the value")
+                return Solution(
+                    x, value, True, iteration, evaluations, "no step decreases the value"
+                )
             else:
                 damping *= 10.0
-        return Solution(
-            x, value, False, self.max_iterations, evaluations, "max_iterations were taken"
-        )
+        return Solution(x, value, False, self.max_iterations, evaluations, "max_iterations reached")
 
 
 def _equations(problem: Problem, x: Array) -> tuple[float, Array, Array]:
@@ -73,12 +84,13 @@ def _equations(problem: Problem, x: Array) -> tuple[float, Array, Array]:
     if equations is None:
         lacking = ", ".join(problem.without_curvature())
         raise ConfigError(
-            f"gauss_newton needs curvature, which {lacking} does not give; take the solver lbfgs"
+            f"solver 'gauss_newton' needs curvature, which {lacking} does not provide; choose the "
+            "solver 'lbfgs'"
         )
     return equations
 
 
 def _free(problem: Problem, x: Array, gradient: Array) -> NDArray[np.bool_]:
-    """Which variables may move: all but those that their bound holds against the force, (m,)."""
+    """Returns a mask (m,) of the variables that are not at an active bound."""
     held = ((x <= problem.lower) & (gradient > 0.0)) | ((x >= problem.upper) & (gradient < 0.0))
     return ~held

@@ -1,4 +1,4 @@
-"""L-BFGS-B, the quasi-Newton method that the paper uses, from SciPy."""
+"""L-BFGS-B, the paper's quasi-Newton method, from SciPy."""
 
 from __future__ import annotations
 
@@ -15,26 +15,31 @@ Tolerance = Annotated[float, Field(ge=0.0)]
 
 
 class LBFGS(Solver):
-    """SciPy's L-BFGS-B within bounds.
+    """SciPy's L-BFGS-B with bounds.
 
-    Hinges keep their limits, which are bounds; the swing and twist limits of balls do not enter.
+    It satisfies the limits of hinges as bounds; swing and twist limits of ball joints are ignored.
     """
 
     kind: Literal["lbfgs"] = "lbfgs"
 
     max_iterations: Annotated[int, Field(ge=1)] = 100
-    """Steps at most."""
+    """Maximum number of iterations."""
     value_tolerance: Tolerance = 1e-6
-    """Stop when a step lowers the value by less than this part of it, or of that at the start."""
+    """Converged if a step decreases the value by less than this fraction of its magnitude or of
+    the start's."""
     gradient_tolerance: Tolerance = 1e-4
-    """Stop when no part of the projected gradient exceeds this part of the value at the start."""
+    """Converged if no component of the projected gradient exceeds this fraction of the value at
+    the start."""
     memory: Annotated[int, Field(ge=1)] = 10
-    """Pairs of steps and gradients that are remembered."""
+    """Number of past steps and gradients that approximate the Hessian."""
 
     def minimize(self, problem: Problem) -> Solution:
-        """The best point seen on SciPy's way down from the start."""
-        # Imported when first used: SciPy's optimisers take longer to load than most commands to
-        # run.
+        """Returns the best point that SciPy evaluates.
+
+        Raises:
+            DataError: If the value or gradient at the start is not finite.
+        """
+        # Imported on first use, because SciPy's optimisers load slowly.
         from scipy.optimize import Bounds, minimize
 
         first, gradient = problem.value_and_gradient(problem.start)
@@ -43,9 +48,11 @@ class LBFGS(Solver):
         best = _Best(problem.start, first)
         if not gradient.any():
             return best.solution(
-                converged=False, iterations=0, message="no force at the start: nothing overlaps"
+                converged=False,
+                iterations=0,
+                message="zero gradient at the start: nothing overlaps",
             )
-        # The value at the start sets the scale, so that tolerances mean the same for every kernel.
+        # Scaling by the value at the start makes tolerances comparable between kernels.
         scale = abs(first) if first else float(np.abs(gradient).max())
 
         def scaled(x: Array) -> tuple[float, Array]:
@@ -68,14 +75,14 @@ class LBFGS(Solver):
         )
         return best.solution(
             converged=bool(result.success),
-            # SciPy counts no iterations where the bounds leave nothing to move.
+            # SciPy reports no iterations if the bounds fix all variables.
             iterations=int(result.get("nit", 0)),
             message=str(result.message),
         )
 
 
 class _Best:
-    """The best finite value so far, and how many were seen."""
+    """The best finite value so far, and the number of evaluations."""
 
     def __init__(self, x: Array, value: float) -> None:
         self.x, self.value, self.evaluations = x, value, 1

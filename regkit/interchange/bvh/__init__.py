@@ -1,1 +1,1 @@
-"""Motion and skeletons as BVH."""
+"""The BVH format: import of skeletons and motion, export of tracked motion."""

@@ -1,10 +1,10 @@
-"""Motion as BVH: a tree of joints, and numbers for its channels in every frame.
+"""BVH motion: a tree of joints, and the values of its channels in every frame.
 
 Source: Meredith, Maddock, Motion Capture File Formats Explained, University of Sheffield, 2001,
-section 3.2. The format has no units; angles are in degrees. A joint's rotation is the product of
-its channels' rotations in their order in the file. A position channel stands in place of the
-offset along its axis, as Blender and MotionBuilder read it; where the offset is zero, which that
-of a root nearly always is, this is the same as adding them.
+section 3.2. The format has no units of length; angles are in degrees. A joint's rotation is the
+product of its channels' rotations in file order. A position channel replaces the offset along its
+axis, as in Blender and MotionBuilder; for a zero offset, which most roots have, this is the same as
+adding them.
 """
 
 from __future__ import annotations
@@ -33,11 +33,11 @@ from regkit.system.files import write_text
 
 @dataclass(frozen=True, eq=False)
 class BvhPose:
-    """Where all joints are.
+    """The world transforms of all joints.
 
     Attributes:
-        rotations: (J, 3, 3) R_world_joint; the identity at rest.
-        positions: (J, 3) [m].
+        rotations: R_world_joint, (J, 3, 3); the identity at rest.
+        positions: Positions in the world, (J, 3) [m].
     """
 
     rotations: Array
@@ -46,12 +46,12 @@ class BvhPose:
 
 @dataclass(frozen=True, eq=False)
 class Bvh:
-    """A motion and the joints that move.
+    """A motion and its skeleton.
 
     Attributes:
-        joints: J joints, parents first.
-        frame_time: From a frame to the next [s].
-        frames: (F, C) numbers of all joints' channels, in the joints' order: positions [m], angles
+        joints: The J joints, parents before children.
+        frame_time: Time between frames [s].
+        frames: Values of all channels in the order of the joints, (F, C): positions [m], angles
             [deg].
     """
 
@@ -61,19 +61,25 @@ class Bvh:
 
     @classmethod
     def read(cls, path: Path, *, scale: float = 1.0) -> Bvh:
-        """Read a file whose unit of length is ``scale`` metres: 0.01 for centimetres.
+        """Reads a file.
+
+        Args:
+            path: The file.
+            scale: Metres per unit of the file; 0.01 for centimetres.
 
         Raises:
-            DataError: If the file is missing or wrong; it says in which line.
+            DataError: If the file is missing or invalid.
         """
         try:
             text = path.read_text(encoding="utf-8-sig")
         except FileNotFoundError:
-            raise DataError("the file is missing; it holds a BVH motion", place=str(path)) from None
+            raise DataError(
+                "the file is missing; it should hold a BVH motion", place=str(path)
+            ) from None
         except OSError as error:
             raise DataError(f"cannot be read: {error.strerror}", place=str(path)) from None
         except UnicodeDecodeError:
-            raise DataError("is not UTF-8 text; a BVH file is text", place=str(path)) from None
+            raise DataError("not UTF-8 text; a BVH file is a text file", place=str(path)) from None
         lines = Lines(path, text)
         joints = read_hierarchy(lines, scale)
         count = lines.field("Frames")
@@ -88,7 +94,11 @@ class Bvh:
         return cls(joints, frame_time, read_only(frames))
 
     def write(self, path: Path, *, scale: float = 1.0) -> None:
-        """Write a file whose unit of length is ``scale`` metres.
+        """Writes a file.
+
+        Args:
+            path: The file.
+            scale: Metres per unit of the file.
 
         Raises:
             DataError: If the file cannot be written.
@@ -105,22 +115,22 @@ class Bvh:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The joints' names (J)."""
+        """Names of the joints, (J,)."""
         return tuple(joint.name for joint in self.joints)
 
     @property
     def parents(self) -> tuple[int, ...]:
-        """Index of each joint's parent, -1 for the root, (J)."""
+        """Index of each joint's parent, (J,); -1 for the root."""
         return tuple(joint.parent for joint in self.joints)
 
     @property
     def duration(self) -> float:
-        """From the first frame to the last [s]."""
+        """Time from the first frame to the last [s]."""
         return self.frame_time * max(0, len(self.frames) - 1)
 
     @cached_property
     def rest_positions(self) -> Array:
-        """Where the joints are if no angle turns them and the root is at its offset, (J, 3) [m]."""
+        """Positions of the joints at zero angles with the root at its offset, (J, 3) [m]."""
         positions = np.zeros((len(self.joints), 3))
         for index, joint in enumerate(self.joints):
             parent = positions[joint.parent] if joint.parent >= 0 else 0.0
@@ -128,11 +138,11 @@ class Bvh:
         return positions
 
     def offsets(self, joint: int) -> Array:
-        """Where a joint is in its parent's frame, in every frame, (F, 3) [m]."""
+        """Returns the position of a joint relative to its parent in every frame, (F, 3) [m]."""
         return self._relative[1][:, joint]
 
     def at_frame(self, index: int) -> BvhPose:
-        """The pose in a frame.
+        """Returns the pose in a frame.
 
         Raises:
             IndexError: If there is no such frame.
@@ -141,15 +151,15 @@ class Bvh:
         return self._placed(rotations[index], translations[index])
 
     def at(self, time: float) -> BvhPose:
-        """The pose at ``time`` [s], interpolated along each joint's shortest rotation.
+        """Returns the pose at ``time`` [s], with spherical interpolation of each joint's rotation.
 
-        Before the first frame it is that frame's, and after the last one it is that one's.
+        The pose is constant before the first and after the last frame.
 
         Raises:
             DataError: If the motion has no frames.
         """
         if not len(self.frames):
-            raise DataError("the motion has no frames")
+            raise DataError("the motion has no frames; at least one is needed")
         exact = float(np.clip(time / self.frame_time, 0.0, len(self.frames) - 1.0))
         left = min(int(exact), max(0, len(self.frames) - 2))
         right = min(left + 1, len(self.frames) - 1)
@@ -162,7 +172,7 @@ class Bvh:
 
     @cached_property
     def _relative(self) -> tuple[Array, Array]:
-        """Rotations (F, J, 4) and positions (F, J, 3) of the joints in their parents' frames."""
+        """Rotations (F, J, 4) and positions (F, J, 3) [m] of joints relative to their parents."""
         count = len(self.frames)
         rotations = np.tile(IDENTITY, (count, len(self.joints), 1))
         translations = np.tile([joint.offset for joint in self.joints], (count, 1, 1))
@@ -179,7 +189,7 @@ class Bvh:
         return rotations, translations
 
     def _placed(self, rotations: Array, translations: Array) -> BvhPose:
-        """The pose of rotations (J, 4) and positions (J, 3) in the parents' frames."""
+        """Returns the pose of rotations (J, 4) and positions (J, 3) relative to the parents."""
         relative = to_matrix(rotations)
         placed = BvhPose(relative.copy(), translations.copy())
         for index, joint in enumerate(self.joints):
@@ -195,5 +205,5 @@ class Bvh:
 def _frames(lines: Lines, count: int, channels: int) -> Array:
     frames = [lines.numbers(line, channels, "a frame") for line in lines.rest()]
     if len(frames) != count:
-        raise lines.wrong(f"Frames says {count}, and {len(frames)} follow")
+        raise lines.wrong(f"Frames is {count}, but {len(frames)} frames follow")
     return np.array(frames).reshape(count, channels)

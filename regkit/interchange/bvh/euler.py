@@ -1,4 +1,4 @@
-"""Three angles for a rotation, continuous over time."""
+"""Euler angles that are continuous over time."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ import numpy as np
 from regkit.system.arrays import Array
 
 LOCKED = 1e-6
-"""Where the cosine of the middle angle is less, the outer two turn about one axis."""
+"""Gimbal lock: if the cosine of the middle angle is smaller, the outer axes coincide."""
 
 
 def continuous_zyx(rotations: Array) -> Array:
-    """Angles (T, 3) [rad] with R = Rz(a) Ry(b) Rx(c), as near to those before as can be.
+    """Returns angles (T, 3) [rad] with R = Rz(a) Ry(b) Rx(c), closest to those of the last frame.
 
-    Two triples and their full turns are one rotation; the nearest is taken, so that what is
-    interpolated between frames does not spin. Where two axes fall together, the first angle stays.
+    Each rotation has two triples of angles, up to full turns; the closest one is used, so that
+    interpolation between frames does not spin. In gimbal lock the first angle is kept.
 
     Args:
-        rotations: (T, 3, 3).
+        rotations: Rotation matrices, (T, 3, 3).
     """
     angles = np.zeros((len(rotations), 3))
     before = np.zeros(3)

@@ -1,4 +1,4 @@
-"""The first half of a BVH file: its tree of joints, as text and as data."""
+"""The hierarchy of a BVH file: parsing and writing its tree of joints."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ CHANNELS = (
     *("Xposition", "Yposition", "Zposition"),
     *("Xrotation", "Yrotation", "Zrotation"),
 )
-"""What a joint may do; positions along, and rotations about, the axes x, y and z."""
+"""The channels of a joint: positions along, and rotations about, the axes x, y and z."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,11 +22,11 @@ class BvhJoint:
     """A joint of a BVH file.
 
     Attributes:
-        name: Its name.
+        name: Name of the joint.
         parent: Index of its parent, which comes before it; -1 for the root.
-        offset: (3,) where it lies in its parent's frame at rest [m].
-        channels: Which of ``CHANNELS`` a frame has numbers for, in the file's order.
-        ends: (3,) of each end site, in the joint's frame [m].
+        offset: Position relative to its parent at rest, (3,) [m].
+        channels: Its channels, some of ``CHANNELS``, in file order.
+        ends: Position (3,) [m] of each end site in the joint's frame.
     """
 
     name: str
@@ -37,13 +37,17 @@ class BvhJoint:
 
 
 def read_hierarchy(lines: Lines, scale: float) -> tuple[BvhJoint, ...]:
-    """The joints of a file, parents first; the line ``MOTION`` is taken too.
+    """Parses the joints of a file, parents before children, up to the line ``MOTION``.
+
+    Args:
+        lines: The lines of the file.
+        scale: Metres per unit of the file.
 
     Raises:
-        DataError: If the hierarchy is wrong; it says in which line.
+        DataError: If the hierarchy is invalid.
     """
     if lines.take("HIERARCHY").upper() != "HIERARCHY":
-        raise lines.wrong("the first line must be HIERARCHY; this is no BVH file")
+        raise lines.wrong("the first line must be HIERARCHY; this is not a BVH file")
     joints: list[BvhJoint] = []
     open_joints: list[int] = []
     while True:
@@ -62,51 +66,52 @@ def read_hierarchy(lines: Lines, scale: float) -> tuple[BvhJoint, ...]:
                 joints[open_joints[-1]] = replace(joint, ends=(*joint.ends, end))
             case "ROOT" | "JOINT" if bool(open_joints) == (word.upper() == "JOINT"):
                 if joints and not open_joints:
-                    raise lines.wrong(f"'{name}' is a second ROOT; a file with one is needed")
+                    raise lines.wrong(f"'{name}' is a second ROOT; there must be exactly one")
                 if not name or name in (joint.name for joint in joints):
-                    raise lines.wrong(f"{word} needs a name that no other has; it has '{name}'")
+                    raise lines.wrong(f"{word} needs a unique name; it has '{name}'")
                 parent = open_joints[-1] if open_joints else -1
                 open_joints.append(len(joints))
                 joints.append(BvhJoint(name, parent, _offset(lines, scale), _channels(lines)))
             case _:
                 wanted = "JOINT, End Site or }" if open_joints else "MOTION" if joints else "ROOT"
-                raise lines.wrong(f"'{line[:40]}' where {wanted} should stand")
+                raise lines.wrong(f"'{line[:40]}' where {wanted} is expected")
 
 
 def _expect(lines: Lines, wanted: str) -> None:
     line = lines.take(wanted)
     if line != wanted:
-        raise lines.wrong(f"'{line[:40]}' where {wanted} should stand")
+        raise lines.wrong(f"'{line[:40]}' where {wanted} is expected")
 
 
 def _offset(lines: Lines, scale: float) -> Array:
-    """The brace that opens a joint, and its offset."""
+    """Parses the opening brace of a joint, and returns its offset."""
     _expect(lines, "{")
     word, *numbers = lines.take("OFFSET").split()
     if word.upper() != "OFFSET":
-        raise lines.wrong(f"'{word}' where OFFSET should stand")
+        raise lines.wrong(f"'{word}' where OFFSET is expected")
     return read_only(scale * np.array(lines.numbers(" ".join(numbers), 3, "OFFSET")))
 
 
 def _channels(lines: Lines) -> tuple[str, ...]:
     word, *words = lines.take("CHANNELS").split()
     if word.upper() != "CHANNELS":
-        raise lines.wrong(f"'{word}' where CHANNELS should stand")
+        raise lines.wrong(f"'{word}' where CHANNELS is expected")
     if not words or words[0] != str(len(words) - 1):
         raise lines.wrong(
-            f"CHANNELS says {words[0] if words else 'nothing'}, and {max(0, len(words) - 1)} follow"
+            f"CHANNELS announces {words[0] if words else 'nothing'}, but "
+            f"{max(0, len(words) - 1)} channels follow"
         )
     channels = tuple(name.capitalize() for name in words[1:])
     for name in channels:
         if name not in CHANNELS:
-            raise lines.wrong(f"'{name}' is no channel (there are: {', '.join(CHANNELS)})")
+            raise lines.wrong(f"'{name}' is not a channel (there are: {', '.join(CHANNELS)})")
         if channels.count(name) > 1:
-            raise lines.wrong(f"the channel {name} stands there twice")
+            raise lines.wrong(f"the channel {name} occurs twice; a joint has it at most once")
     return channels
 
 
 def in_file_order(joints: Sequence[BvhJoint]) -> list[int]:
-    """The joints' indices in the order of a file: each one's children follow it at once."""
+    """Returns the indices of the joints in file order, depth first."""
     order: list[int] = []
     ahead = [0]
     while ahead:
@@ -118,7 +123,7 @@ def in_file_order(joints: Sequence[BvhJoint]) -> list[int]:
 
 
 def hierarchy_text(joints: Sequence[BvhJoint], scale: float) -> list[str]:
-    """The lines of a hierarchy; ``scale`` is metres per unit of the file."""
+    """Returns the lines of a hierarchy; ``scale`` is metres per unit of the file."""
     lines = ["HIERARCHY"]
     depths = [-1] * len(joints)
     depth = -1
@@ -138,5 +143,5 @@ def hierarchy_text(joints: Sequence[BvhJoint], scale: float) -> list[str]:
 
 
 def row(numbers: Array) -> str:
-    """Numbers with ten significant digits, so that reading them back loses nothing that counts."""
+    """Returns numbers as text with ten significant digits."""
     return " ".join(f"{number + 0.0:.10g}" for number in numbers)

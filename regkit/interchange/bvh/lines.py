@@ -1,4 +1,4 @@
-"""The lines of a BVH file, each with its place for messages."""
+"""The lines of a BVH file, with line numbers for error messages."""
 
 from __future__ import annotations
 
@@ -12,7 +12,12 @@ from regkit.system.errors import DataError
 
 
 class Lines:
-    """The lines of a text that say something, read one after the other, each with its place."""
+    """The non-empty lines of a text, read one after the other.
+
+    Args:
+        path: The file, for error messages.
+        text: Its content.
+    """
 
     def __init__(self, path: Path, text: str) -> None:
         self.path = path
@@ -20,47 +25,47 @@ class Lines:
         self._next = 0
 
     def take(self, wanted: str) -> str:
-        """The next line.
+        """Returns the next line.
 
         Raises:
-            DataError: If the file ends here; ``wanted`` should have followed.
+            DataError: If the file ends here; the message names ``wanted``.
         """
         if self._next == len(self._statements):
-            raise DataError(f"the file ends where {wanted} should follow", place=self.place)
+            raise DataError(f"the file ends where {wanted} is expected", place=self.place)
         self._next += 1
         return self._statements[self._next - 1][1]
 
     def rest(self) -> Iterator[str]:
-        """All lines that are left."""
+        """Yields all remaining lines."""
         while self._next < len(self._statements):
             yield self.take("another line")
 
     def field(self, name: str) -> float:
-        """The number after ``name:`` in the next line.
+        """Returns the number after ``name:`` in the next line.
 
         Raises:
-            DataError: If something else stands there.
+            DataError: If the line is something else.
         """
         line = self.take(f"{name}:")
         word, colon, number = line.partition(":")
         if not colon or word.strip().lower() != name.lower():
-            raise self.wrong(f"'{line[:40]}' where {name}: should stand")
+            raise self.wrong(f"'{line[:40]}' where {name}: is expected")
         return self.numbers(number, 1, name)[0]
 
     @property
     def place(self) -> str:
-        """Where the line taken last stands."""
+        """``file:line`` of the line taken last."""
         return f"{self.path}:{self._statements[self._next - 1][0] if self._next else 1}"
 
     def wrong(self, message: str) -> DataError:
-        """An error at the line taken last."""
+        """Returns an error at the line taken last."""
         return DataError(message, place=self.place)
 
     def numbers(self, text: str, count: int, what: str) -> list[float]:
-        """The ``count`` numbers of a text.
+        """Returns the ``count`` numbers of a text; ``what`` names them in messages.
 
         Raises:
-            DataError: If there are fewer or more, or one is no finite number.
+            DataError: If their count differs, or one is not a finite number.
         """
         words = text.split()
         if len(words) != count:
@@ -68,7 +73,7 @@ class Lines:
         try:
             values = list(map(float, words))
         except ValueError as error:
-            raise self.wrong(f"{what} has a word that is no number ({error})") from None
+            raise self.wrong(f"{what} has a word that is not a number ({error})") from None
         if not np.isfinite(values).all():
             bad = next(word for word, value in zip(words, values, strict=True) if value - value)
             raise self.wrong(f"{what} holds {bad}; all numbers must be finite")
@@ -76,7 +81,7 @@ class Lines:
 
 
 def _statements(text: str) -> Iterator[tuple[int, str]]:
-    """Lines with their numbers; a brace is a line of its own, wherever it stands."""
+    """Yields the statements of a text with their line numbers; a brace is a statement."""
     for number, line in enumerate(text.splitlines(), start=1):
         pieces = re.split(r"([{}])", line) if "{" in line or "}" in line else [line]
         for piece in pieces:

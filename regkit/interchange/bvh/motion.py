@@ -1,4 +1,4 @@
-"""A tracked motion as BVH."""
+"""Export of tracked motion as BVH."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ _TURNS = tuple(reversed(CHANNELS[3:]))
 
 
 def bvh_of(motion: TrackedMotion) -> Bvh:
-    """A joint for each segment, and where no other joint follows, the end of the limb.
+    """Returns a BVH motion with a joint for each segment, and an end site for each leaf.
 
-    The camera looks along -z, with y up. At rest all joints' axes are the body's, as the format
-    wants it, whichever axes the segments have.
+    The world has y up, and the camera looks along -z. At rest the axes of all joints are parallel
+    to the body's, as the format requires, whatever the axes of the segments.
     """
     skeleton = motion.body.skeleton
     rest = motion.body.place(skeleton.rest()).transforms
     parents = [int(parent) for parent in skeleton.parents]
-    # A segment's axes at rest are taken back, so that what is left turns the body's axes.
+    # Removing the rest rotation of each segment leaves the rotation of the body's axes.
     rotations = UPRIGHT_CAMERA @ motion.transforms[..., :3, :3] @ rest[:, :3, :3].swapaxes(1, 2)
     joints, columns = [], [motion.transforms[:, 0, :3, 3] @ UPRIGHT_CAMERA.T]
     for index, name in enumerate(_words(skeleton.names)):
@@ -50,7 +50,7 @@ def bvh_of(motion: TrackedMotion) -> Bvh:
 
 
 def _words(names: Sequence[str]) -> list[str]:
-    """Names without what the format takes for the end of one, each still unlike all others."""
+    """Returns names without whitespace and braces, which end a name in the format, and unique."""
     words: list[str] = []
     for name in names:
         word = re.sub(r"[\s{}]", "_", name)
@@ -61,7 +61,7 @@ def _words(names: Sequence[str]) -> list[str]:
 
 
 def _end(body: Body, segment: int) -> Array:
-    """The farthest marker on a segment, or the farthest end of its capsules, (3,) [m]."""
+    """Returns the farthest marker of a segment, or else the farthest capsule end, (3,) [m]."""
     markers = body.markers.points[body.markers.segments == segment]
     ends = body.capsules.ends[body.capsules.segments == segment].reshape(-1, 3)
     for points in (markers, ends):

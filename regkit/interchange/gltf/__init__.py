@@ -1,1 +1,1 @@
-"""Meshes, skeletons and motion as glTF."""
+"""The glTF format: import of rigged bodies and animations, export of tracked motion."""

@@ -1,4 +1,4 @@
-"""The buffer of a glTF file that is to be written."""
+"""The binary buffer of a glTF file for export."""
 
 from __future__ import annotations
 
@@ -12,12 +12,15 @@ _TYPES = {1: "SCALAR", 3: "VEC3", 4: "VEC4", 16: "MAT4"}
 
 
 class GltfBuffer:
-    """Numbers accumulated into one buffer, and what is to be said of them.
+    """Arrays packed into one buffer, with their views and accessors.
+
+    Args:
+        pygltflib: The module ``pygltflib``.
 
     Attributes:
         content: The buffer.
-        views: A ``pygltflib.BufferView`` for each array.
-        accessors: A ``pygltflib.Accessor`` for each.
+        views: The ``pygltflib.BufferView`` of each array.
+        accessors: The ``pygltflib.Accessor`` of each array.
     """
 
     def __init__(self, pygltflib: Any) -> None:
@@ -27,17 +30,17 @@ class GltfBuffer:
         self.accessors: list[Any] = []
 
     def add(self, values: NDArray[Any], kind: str, *, bounds: bool = False) -> int:
-        """The index of an accessor of values (N, C).
+        """Adds an array, and returns the index of its accessor.
 
         Args:
-            values: The numbers.
-            kind: How they are stored: ``<f4``, ``<u2`` or ``<u4``.
-            bounds: Whether the smallest and largest are told, as positions and times need it.
+            values: The array, (N, C).
+            kind: Storage type: ``<f4``, ``<u2`` or ``<u4``.
+            bounds: Whether to store minimum and maximum, which positions and times require.
         """
         rows = np.ascontiguousarray(values, dtype=kind)
         view = self._gltf.BufferView(buffer=0, byteOffset=len(self.content), byteLength=rows.nbytes)
         self.content += rows.tobytes()
-        # Every array begins at a multiple of four bytes.
+        # Arrays are aligned to four bytes.
         self.content += bytes(-len(self.content) % 4)
         accessor = self._gltf.Accessor(
             bufferView=len(self.views),

@@ -1,4 +1,4 @@
-"""Triangles of tapered capsules, to look at."""
+"""Triangle meshes of tapered capsules, for display."""
 
 from __future__ import annotations
 
@@ -8,17 +8,20 @@ from regkit.geometry.capsules import Capsules
 from regkit.system.arrays import Array, Indices
 
 AROUND = 16
-"""Corners of a ring."""
+"""Number of vertices of a ring."""
 
 RINGS = 5
-"""Rings between a pole and the seam of an end."""
+"""Number of rings between the pole and the seam of an end sphere."""
 
 
 def capsule_mesh(capsules: Capsules) -> tuple[Array, Indices, Indices]:
-    """Vertices (V, 3) [m], triangles (F, 3) and the capsule of each vertex (V,); at least one.
+    """Returns the triangle mesh of at least one capsule.
 
-    A vertex is the point of a capsule farthest in a direction; the directions are a sphere's, with
-    the ring twice at which one end takes over from the other.
+    The vertices are the support points of a capsule for directions on a sphere; the ring at the
+    seam between the end spheres occurs twice.
+
+    Returns:
+        Vertices (V, 3) [m], triangles (F, 3), and the index of each vertex's capsule (V,).
     """
     parts = [_one(ends, radii) for ends, radii in zip(capsules.ends, capsules.radii, strict=True)]
     count = (2 * RINGS + 2) * AROUND
@@ -31,12 +34,12 @@ def capsule_mesh(capsules: Capsules) -> tuple[Array, Indices, Indices]:
 
 
 def _one(ends: Array, radii: Array) -> Array:
-    """The rings of one capsule, ((2 RINGS + 2) AROUND, 3)."""
+    """Returns the vertices of one capsule, ((2 RINGS + 2) AROUND, 3) [m]."""
     axis = ends[1] - ends[0]
     length = float(np.linalg.norm(axis))
     larger = int(radii[1] > radii[0])
     if length <= abs(float(radii[1] - radii[0])):
-        # One sphere holds the other: the capsule is that sphere.
+        # One sphere contains the other: the capsule is the larger sphere.
         ends, radii = np.repeat(ends[larger : larger + 1], 2, axis=0), np.full(2, radii[larger])
         axis, length = np.array([0.0, 0.0, 1.0]), 0.0
     along = axis / np.linalg.norm(axis)
@@ -56,7 +59,7 @@ def _one(ends: Array, radii: Array) -> Array:
 
 
 def _triangles_of_rings() -> Indices:
-    """Two triangles between neighbours on two rings, counter-clockwise from outside."""
+    """Returns two triangles per quad between adjacent rings, counter-clockwise from outside."""
     rings = AROUND * np.arange(2 * RINGS + 1)[:, None]
     here = np.arange(AROUND)[None]
     there = (here + 1) % AROUND

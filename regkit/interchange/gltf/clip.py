@@ -1,4 +1,4 @@
-"""The animations of a glTF file, as bone poses over time.
+"""Animations of a glTF file as bone poses over time.
 
 Source: The Khronos Group, glTF 2.0 Specification, section 3.11 and appendix C (interpolation).
 """
@@ -21,14 +21,15 @@ _WIDTHS = {"translation": 3, "rotation": 4, "scale": 3}
 
 @dataclass(frozen=True)
 class GltfChannel:
-    """How one property of a node changes.
+    """The animation of one property of a node.
 
     Attributes:
         node: Index of the node.
         path: ``translation``, ``rotation`` or ``scale``.
         interpolation: ``LINEAR``, ``STEP`` or ``CUBICSPLINE``.
-        times: (K,) of the keyframes [s].
-        values: (K, C) at the keyframes; of a spline (K, 3, C): tangent in, value, tangent out.
+        times: Times of the keyframes, (K,) [s].
+        values: Values at the keyframes, (K, C); for a spline (K, 3, C): in-tangent, value,
+            out-tangent.
     """
 
     node: int
@@ -38,7 +39,7 @@ class GltfChannel:
     values: Array
 
     def at(self, time: float) -> Array:
-        """The value (C,) at ``time`` [s], held before the first keyframe and after the last one."""
+        """Returns the value (C,) at ``time`` [s], constant outside of the keyframes."""
         time = float(np.clip(time, self.times[0], self.times[-1]))
         left = int(np.searchsorted(self.times, time, side="right")) - 1
         right = min(left + 1, len(self.times) - 1)
@@ -54,7 +55,7 @@ class GltfChannel:
         return np.asarray((1.0 - share) * start + share * end)
 
     def _spline(self, left: int, right: int, share: float, step: float) -> Array:
-        """The Hermite spline between two keyframes, appendix C.5."""
+        """Returns the value of the Hermite spline between two keyframes, appendix C.5."""
         square, cube = share**2, share**3
         start, leaving = self.values[left, 1], step * self.values[left, 2]
         end, arriving = self.values[right, 1], step * self.values[right, 0]
@@ -72,12 +73,12 @@ class GltfClip:
     """One animation.
 
     Attributes:
-        name: Its name in the file, or a made-up one.
-        times: (K,) all keyframes' times, in order [s].
-        channels: What it moves.
-        nodes: The file's nodes.
-        joints: (J,) the node of each bone.
-        frames: (J, 4, 4) ``T_node_bone``.
+        name: Its name in the file, or a generated one.
+        times: Times of all keyframes, ascending, (K,) [s].
+        channels: Its channels.
+        nodes: The nodes of the file.
+        joints: Node of each bone, (J,).
+        frames: ``T_node_bone``, (J, 4, 4).
     """
 
     name: str
@@ -89,11 +90,11 @@ class GltfClip:
 
     @property
     def duration(self) -> float:
-        """The time of the last keyframe [s]; the clip begins at zero."""
+        """Time of the last keyframe [s]; the clip starts at zero."""
         return float(self.times[-1])
 
     def at(self, time: float) -> Array:
-        """``T_scene_bone`` at ``time`` [s], (J, 4, 4), as ``SkinnedMesh.posed`` takes them."""
+        """Returns ``T_scene_bone`` (J, 4, 4) at ``time`` [s], for ``SkinnedMesh.posed``."""
         motion: NodeMotion = self.nodes.given.copy()
         moving = {
             "translation": motion.translations,
@@ -108,10 +109,16 @@ class GltfClip:
     def all_of(
         cls, file: GltfFile, nodes: Nodes, joints: list[int], frames: Array
     ) -> tuple[GltfClip, ...]:
-        """All animations of a file that move nodes.
+        """Returns all animations of a file that move nodes.
+
+        Args:
+            file: The file.
+            nodes: Its nodes.
+            joints: Node of each bone, (J,).
+            frames: ``T_node_bone``, (J, 4, 4).
 
         Raises:
-            DataError: If one cannot be read.
+            DataError: If an animation is invalid.
         """
         clips = []
         for index, animation in enumerate(file.content.animations or ()):
@@ -122,7 +129,7 @@ class GltfClip:
                     if channel.target.path in _WIDTHS and channel.target.node is not None
                 ]
                 channels = tuple(_channel(file, *pair) for pair in targets)
-            # The file need not hold what the format says.
+            # A file may violate the format in many ways.
             except (AttributeError, IndexError, TypeError) as error:
                 raise file.wrong(f"animation {index} cannot be read ({error})") from None
             if channels:
@@ -134,11 +141,15 @@ class GltfClip:
 
 def _channel(file: GltfFile, sampler: Any, target: Any) -> GltfChannel:
     if not 0 <= target.node < len(file.content.nodes):
-        raise file.wrong(f"an animation moves node {target.node}, which there is not")
+        raise file.wrong(
+            f"an animation moves node {target.node}; there are {len(file.content.nodes)} nodes"
+        )
     interpolation = str(sampler.interpolation or "LINEAR")
     times = file.floats(sampler.input)[:, 0]
     if not len(times) or (np.diff(times) <= 0.0).any():
-        raise file.wrong(f"the keyframes of node {target.node} are none, or not in order")
+        raise file.wrong(
+            f"the keyframes of node {target.node} are missing or not in ascending order"
+        )
     width = _WIDTHS[target.path]
     shape = (len(times), 3, width) if interpolation == "CUBICSPLINE" else (len(times), width)
     values = file.floats(sampler.output)

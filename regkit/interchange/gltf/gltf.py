@@ -1,9 +1,8 @@
-"""Rigged bodies in glTF files.
+"""Import of rigged bodies from glTF files.
 
-A file's axes are kept: lengths in metres, y up, z to the front, x to the body's left, which are
-those of regkit's bodies. The mesh at rest stands as the skin's inverse bind matrices have it, laid
-into the scene as the skin's first bone has it there; where a file shows its body in the bind pose,
-as most do, both are one.
+glTF has the axes of regkit's bodies: metres, y up, z to the front, x to the body's left. The rest
+pose of the mesh is the bind pose of the skin's inverse bind matrices, placed in the scene by the
+skin's first bone. In most files the scene shows the bind pose, and both are the same.
 """
 
 from __future__ import annotations
@@ -26,7 +25,7 @@ from regkit.interchange.gltf.skin import skinned_vertices
 from regkit.system.arrays import Array, read_only
 
 UNEVEN = 1e-3
-"""A scale may differ by so much between axes before it counts as a shear."""
+"""Largest relative difference between the scales of the axes of a uniform scale."""
 
 
 @dataclass(frozen=True)
@@ -34,8 +33,8 @@ class RiggedBody:
     """A skinned mesh and its motions.
 
     Attributes:
-        mesh: The mesh; its bones' y axes point along them, whichever axes the rig has.
-        clips: The file's animations, as poses of these bones.
+        mesh: The mesh; y points along its bones, whatever the convention of the rig.
+        clips: The animations of the file, as poses of these bones.
     """
 
     mesh: SkinnedMesh
@@ -43,24 +42,25 @@ class RiggedBody:
 
     @classmethod
     def read(cls, path: Path, *, parents: Mapping[str, str | None] | None = None) -> RiggedBody:
-        """Read the one skin of a ``.glb`` or ``.gltf`` file, and all meshes that follow it.
+        """Reads the only skin of a ``.glb`` or ``.gltf`` file, and all meshes skinned to it.
 
-        Vertices that differ only in what is drawn on them are joined, so that a surface is closed
-        where its picture has a seam.
+        Vertices that differ only in texture coordinates or normals are merged, which closes the
+        surface at texture seams.
 
         Args:
             path: The file.
-            parents: The parent of each bone, where the file's nodes are no tree; none for one of
-                them. A hand with the joints of WebXR has its own.
+            parents: Parent of each bone, None for the root, if the nodes of the file are not a
+                tree. For WebXR hands it is built in.
 
         Raises:
-            DataError: If the file is missing or wrong, or holds no skin or several.
+            DataError: If the file is missing or invalid, or does not have exactly one skin.
+            DependencyError: If pygltflib is missing.
         """
         file = GltfFile.read(path)
         nodes = Nodes.of(file)
         skins = file.content.skins or []
         if len(skins) != 1:
-            raise file.wrong(f"has {len(skins)} skins; a file with one is needed")
+            raise file.wrong(f"the file has {len(skins)} skins; it must have exactly one")
         joints = [int(joint) for joint in skins[0].joints]
         if not joints or not all(0 <= joint < len(nodes.names) for joint in joints):
             raise file.wrong(f"the skin's joints {joints[:20]} are not all nodes")
@@ -75,7 +75,7 @@ class RiggedBody:
         place = np.argsort(order)
         joints, binds = [joints[bone] for bone in order], binds[order]
         above = [int(place[above[bone]]) if above[bone] >= 0 else -1 for bone in order]
-        # What the first bone does to the vertices where the file has it.
+        # The transform of the vertices by the first bone in the scene.
         shown = nodes.placed(nodes.given)[joints[0]] @ binds[0]
         _check_even(file, shown)
         bound = shown @ np.linalg.inv(binds)
@@ -90,7 +90,7 @@ class RiggedBody:
             indices=place[vertices.bones],
             weights=read_only(vertices.weights),
         )
-        # A bone's pose is what its node does to the bone's frame at rest.
+        # The pose of a bone is its node's motion of the bone frame at rest.
         frames = binds @ np.linalg.inv(shown) @ rest
         return cls(mesh, GltfClip.all_of(file, nodes, joints, frames))
 
@@ -98,10 +98,10 @@ class RiggedBody:
 def _parents(
     file: GltfFile, nodes: Nodes, joints: list[int], named: Mapping[str, str | None] | None
 ) -> list[int]:
-    """Index of each bone's parent: the nearest bone above it, or the one that is named.
+    """Returns the index of each bone's parent: the nearest ancestor bone, or the named one.
 
     Raises:
-        DataError: If these are no tree, or a name is no bone's.
+        DataError: If the bones are not a tree, or a name is unknown.
     """
     names = [nodes.names[joint] for joint in joints]
     if named is None and set(names) == set(webxr_hand.PARENTS):
@@ -113,19 +113,19 @@ def _parents(
         for name in (*named, *filter(None, named.values())):
             if name not in names:
                 raise file.wrong(
-                    f"no bone is called '{name}' (there are: {', '.join(names)})"
+                    f"there is no bone '{name}' (there are: {', '.join(names)})"
                     + did_you_mean(name, names)
                 )
         missing = [name for name in names if name not in named]
         if missing:
-            raise file.wrong(f"no parent is named for the bones {', '.join(missing)}")
+            raise file.wrong(f"the bones {', '.join(missing)} have no parent; name one for each")
         above_names = [named[name] for name in names]
         parents = [-1 if name is None else names.index(name) for name in above_names]
     roots = [name for name, parent in zip(names, parents, strict=True) if parent < 0]
     if len(roots) != 1:
         raise file.wrong(
-            f"{len(roots)} bones have no bone above them ({', '.join(roots)}); name the parent of "
-            "each, so that one is left without"
+            f"{len(roots)} bones have no parent ({', '.join(roots)}); name the parent of each "
+            "bone except one"
         )
     return parents
 
@@ -135,15 +135,15 @@ def _parents_first(file: GltfFile, parents: list[int]) -> list[int]:
     for bone in ordered:
         ordered += [child for child, parent in enumerate(parents) if parent == bone]
     if len(ordered) < len(parents):
-        raise file.wrong("the bones' parents form a cycle")
+        raise file.wrong("the parents of the bones form a cycle; they must form a tree")
     return ordered
 
 
 def _check_even(file: GltfFile, transform: Array) -> None:
-    """Refuse a transform that does not stretch all directions alike.
+    """Rejects a transform with a non-uniform scale or a reflection.
 
     Raises:
-        DataError: If it does not.
+        DataError: If the scale is not uniform, or the transform is a reflection.
     """
     sizes = np.linalg.svd(transform[:3, :3])[1]
     if sizes[2] < (1.0 - UNEVEN) * sizes[0] or sizes[0] == 0.0:

@@ -1,4 +1,4 @@
-"""An animated skinned mesh as glTF.
+"""Export of an animated skinned mesh as glTF.
 
 Source: The Khronos Group, glTF 2.0 Specification, sections 3.7.3 (skins) and 3.11 (animations).
 """
@@ -21,33 +21,34 @@ from regkit.system.arrays import Array
 from regkit.system.files import replacing
 
 CLAY = (0.75, 0.68, 0.6, 1.0)
-"""The colour of what has none."""
+"""Colour of the material."""
 
 STILL = 1e-7
-"""A bone that moves less in its parent's frame is not moved [m]."""
+"""A bone that translates less than this relative to its parent gets no translation channel [m]."""
 
 _CARRIERS = 4
-"""Bones of one set of attributes."""
+"""Number of bones in one set of skinning attributes."""
 
 
 def write_gltf(
     path: Path, mesh: SkinnedMesh, poses: Array, fps: float, name: str, rotation: Array
 ) -> None:
-    """Write a mesh and how its bones move as a ``.glb`` file.
+    """Writes a mesh and the motion of its bones as a ``.glb`` file.
 
-    A node on top holds a rotation, by which what is below it comes to stand with y up. The nodes
-    of the bones stand as in the first frame.
+    The root node rotates the scene to y up. The nodes of the bones have the pose of the first
+    frame.
 
     Args:
         path: The file.
-        mesh: The mesh; without triangles, its vertices are shown as points.
+        mesh: The mesh; without triangles its vertices are displayed as points.
         poses: ``T_world_bone``, (T, J, 4, 4) [m].
         fps: Frames per second.
-        name: What the motion is called.
+        name: Name of the motion.
         rotation: ``R_scene_world``, (3, 3).
 
     Raises:
         DataError: If the file cannot be written.
+        DependencyError: If pygltflib is missing.
     """
     gltf = pygltflib()
     packed = GltfBuffer(gltf)
@@ -106,7 +107,7 @@ def write_gltf(
 
 
 def _in_parents(mesh: SkinnedMesh, poses: Array) -> Array:
-    """``T_parent_bone`` of every bone in every frame, (T, J, 4, 4)."""
+    """Returns ``T_parent_bone`` of every bone in every frame, (T, J, 4, 4)."""
     relative = poses.copy()
     for bone, parent in enumerate(mesh.parents):
         if parent >= 0:
@@ -115,7 +116,7 @@ def _in_parents(mesh: SkinnedMesh, poses: Array) -> Array:
 
 
 def _steady(quaternions: Array) -> Array:
-    """The same rotations (T, J, 4) with the signs for which a frame is nearest to the last one."""
+    """Returns the quaternions (T, J, 4) with signs that are continuous over time."""
     steady = quaternions.copy()
     for frame in range(1, len(steady)):
         against = (steady[frame] * steady[frame - 1]).sum(axis=1) < 0.0
@@ -128,7 +129,7 @@ def _primitive(gltf: Any, mesh: SkinnedMesh, packed: GltfBuffer) -> Any:
     indices, mode = None, 0
     if len(mesh.faces):
         normals = vertex_normals(mesh.vertices, mesh.faces)
-        # A vertex of no triangle has none, and the format wants unit vectors.
+        # A vertex without a triangle has a zero normal, but the format requires unit vectors.
         normals[~normals.any(axis=1)] = [0.0, 1.0, 0.0]
         attributes.NORMAL = packed.add(normals, "<f4")
         indices, mode = packed.add(mesh.faces.reshape(-1, 1), "<u4"), 4

@@ -1,4 +1,4 @@
-"""The tree of a glTF file's nodes, which may be moved."""
+"""The node hierarchy of a glTF file."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from regkit.system.arrays import Array
 
 @dataclass(frozen=True)
 class NodeMotion:
-    """How all N nodes stand in their parents' frames: scaled, then turned, then moved.
+    """Transforms of all N nodes relative to their parents: scale, then rotation, then translation.
 
     Attributes:
-        translations: (N, 3).
-        rotations: (N, 4) unit quaternions.
-        scales: (N, 3).
+        translations: Translations, (N, 3) [m].
+        rotations: Unit quaternions (x, y, z, w), (N, 4).
+        scales: Scale factors, (N, 3).
     """
 
     translations: Array
@@ -26,7 +26,7 @@ class NodeMotion:
     scales: Array
 
     def copy(self) -> NodeMotion:
-        """One that may be changed."""
+        """Returns a writable copy."""
         return NodeMotion(self.translations.copy(), self.rotations.copy(), self.scales.copy())
 
 
@@ -35,11 +35,11 @@ class Nodes:
     """The nodes of a file.
 
     Attributes:
-        names: (N,) a name for each, made up where the file has none or has it twice.
-        parents: (N,) index of each one's parent, -1 for none.
-        ordered: The indices, parents first.
-        given: How they stand in the file.
-        matrices: What stands instead for the nodes that are given by a matrix, which cannot move.
+        names: Unique names, (N,), generated where the file has none or a duplicate.
+        parents: Index of each node's parent, (N,); -1 for none.
+        ordered: Indices of the nodes, parents before children.
+        given: Transforms in the file.
+        matrices: Transform by index of nodes with a matrix instead, which cannot be animated.
     """
 
     names: tuple[str, ...]
@@ -50,25 +50,28 @@ class Nodes:
 
     @classmethod
     def of(cls, file: GltfFile) -> Nodes:
-        """The nodes of a file.
+        """Returns the nodes of a file.
 
         Raises:
-            DataError: If they are no forest, or a number is missing.
+            DataError: If the file has no nodes, they are not a forest, or a transform is invalid.
         """
         nodes = file.content.nodes
         if not nodes or None in nodes:
-            raise file.wrong("has no nodes, or an empty one")
+            raise file.wrong("the file has no nodes, or an empty one; it needs a skinned mesh")
         parents = [-1] * len(nodes)
         for index, node in enumerate(nodes):
             for child in node.children or ():
                 if not 0 <= child < len(nodes) or parents[child] >= 0:
-                    raise file.wrong(f"node {index} has a child {child} that is none of its own")
+                    raise file.wrong(
+                        f"node {index} has the child {child}, which is missing or has another "
+                        "parent"
+                    )
                 parents[child] = index
         ordered = [index for index, parent in enumerate(parents) if parent < 0]
         for index in ordered:
             ordered += list(nodes[index].children or ())
         if len(ordered) < len(nodes):
-            raise file.wrong("the nodes form a cycle")
+            raise file.wrong("the nodes form a cycle; they must form a tree")
         try:
             given = NodeMotion(
                 _rows([node.translation for node in nodes], (0.0, 0.0, 0.0)),
@@ -81,11 +84,11 @@ class Nodes:
                 if node.matrix
             }
         except ValueError as error:
-            raise file.wrong(f"a node's transform has a wrong number of numbers: {error}") from None
+            raise file.wrong(f"the transform of a node has the wrong size: {error}") from None
         return cls(_names(nodes), tuple(parents), tuple(ordered), given, matrices)
 
     def placed(self, motion: NodeMotion) -> Array:
-        """``T_scene_node`` of all nodes, (N, 4, 4)."""
+        """Returns ``T_scene_node`` of all nodes, (N, 4, 4)."""
         own = np.zeros((len(self.names), 4, 4))
         own[:, :3, :3] = to_matrix(motion.rotations) * motion.scales[:, None, :]
         own[:, :3, 3] = motion.translations
@@ -98,7 +101,7 @@ class Nodes:
         return own
 
     def nearest(self, index: int, among: frozenset[int]) -> int:
-        """The nearest node ``among`` those above a node, or -1."""
+        """Returns the nearest ancestor of a node that is in ``among``, or -1."""
         above = self.parents[index]
         while above >= 0 and above not in among:
             above = self.parents[above]

@@ -1,4 +1,4 @@
-"""What of a body is to be seen: its skin, its capsules, or at least its joints."""
+"""The mesh that displays a body: its skin, its surface, its capsules, or spheres at its joints."""
 
 from __future__ import annotations
 
@@ -13,17 +13,21 @@ from regkit.system.arrays import Array, Indices
 from regkit.system.errors import DataError
 
 DOT = 0.02
-"""A joint is shown as a sphere whose radius is this part of the body's size."""
+"""Radius of the sphere that displays a joint, as a fraction of the body's size."""
 
 
 def shown_mesh(body: Body, skin: SkinnedMesh | None) -> SkinnedMesh:
-    """A mesh whose bones are the body's segments, in their order.
+    """Returns a mesh whose bones are the body's segments, in the same order.
 
-    It is the skin; without one, what carries the surface if single segments do, as of a cloud; then
-    the capsules, and where there are none, spheres at the joints.
+    It is the skin if there is one; else the surface if its vertices have one segment each, as of a
+    cloud; else the capsules; else spheres at the joints.
+
+    Args:
+        body: The body.
+        skin: Its mesh, if it has one.
 
     Raises:
-        DataError: If the skin follows a bone that is no segment.
+        DataError: If a bone of the skin is not a segment.
     """
     if skin is not None:
         return _on_segments(body, skin)
@@ -42,7 +46,7 @@ def _dots(body: Body) -> Capsules:
 
 
 def _rigid_parts(body: Body, points: Array, faces: Indices, segments: Indices) -> SkinnedMesh:
-    """Points (V, 3) in the frames of the segments (V,) that carry them."""
+    """Returns the mesh of points (V, 3) [m] in the frames of their segments (V,)."""
     rest = body.place(body.skeleton.rest()).transforms
     return SkinnedMesh(
         vertices=transformed(rest[segments], points),
@@ -62,7 +66,10 @@ def _on_segments(body: Body, skin: SkinnedMesh) -> SkinnedMesh:
     for bone in np.unique(skin.indices[skin.weights > 0.0]):
         label = skin.labels[bone]
         if label not in names:
-            raise DataError(f"the mesh's bone '{label}' is not a segment of {body.name}")
+            raise DataError(
+                f"the mesh's bone '{label}' is not a segment of '{body.name}' (there are: "
+                f"{', '.join(names)})"
+            )
         order[bone] = names.index(label)
         rest[order[bone]] = skin.rest[bone]
     return SkinnedMesh(

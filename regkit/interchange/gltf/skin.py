@@ -1,4 +1,4 @@
-"""The vertices of a glTF file that follow its skin."""
+"""The skinned vertices of a glTF file."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from regkit.interchange.gltf.file import GltfFile
 from regkit.system.arrays import Array, Indices
 
 TRIANGLES = 4
-"""The mode of a primitive of separate triangles, section 3.7.2.1."""
+"""The mode of a primitive of individual triangles, section 3.7.2.1."""
 
 
 @dataclass(frozen=True)
 class SkinnedVertices:
-    """V vertices that follow up to A bones each, and F triangles of them.
+    """V vertices, each skinned to up to A bones, and F triangles.
 
     Attributes:
-        positions: (V, 3) in the skin's bind pose.
-        bones: (V, A) indices into the skin's joints.
-        weights: (V, A); the rows sum to one.
-        faces: (F, 3).
+        positions: Positions in the bind pose, (V, 3) [m].
+        bones: Indices of the skin's joints, (V, A).
+        weights: Skinning weights, (V, A); the rows sum to one.
+        faces: Vertex indices of the triangles, (F, 3).
     """
 
     positions: Array
@@ -31,8 +31,8 @@ class SkinnedVertices:
     faces: Indices
 
     def joined(self) -> SkinnedVertices:
-        """The same surface, with vertices made one that are at one place and move alike."""
-        # Weights come in several precisions.
+        """Returns the surface with vertices of equal position and weights merged."""
+        # Rounding, because weights have various precisions.
         rows = np.concatenate([self.positions, self.bones, self.weights.round(5)], axis=1)
         _, first, number = np.unique(rows, axis=0, return_index=True, return_inverse=True)
         kept = np.sort(first)
@@ -45,10 +45,14 @@ class SkinnedVertices:
 
 
 def skinned_vertices(file: GltfFile, joints: int) -> SkinnedVertices:
-    """The vertices of all meshes that follow the file's skin, whose ``joints`` are so many.
+    """Returns the vertices of all meshes that are skinned to the file's skin.
+
+    Args:
+        file: The file.
+        joints: Number of joints of the skin.
 
     Raises:
-        DataError: If there are none, or they cannot be read.
+        DataError: If there are none, or they are invalid.
     """
     parts = [
         _part(file, primitive, joints)
@@ -57,7 +61,7 @@ def skinned_vertices(file: GltfFile, joints: int) -> SkinnedVertices:
         for primitive in file.content.meshes[node.mesh].primitives
     ]
     if not parts:
-        raise file.wrong("no mesh follows the skin")
+        raise file.wrong("no mesh uses the skin; the file needs a skinned mesh")
     carriers = max(part.bones.shape[1] for part in parts)
     starts = np.cumsum([0, *(len(part.positions) for part in parts)])
     return SkinnedVertices(
@@ -71,8 +75,8 @@ def skinned_vertices(file: GltfFile, joints: int) -> SkinnedVertices:
 def _part(file: GltfFile, primitive: Any, joints: int) -> SkinnedVertices:
     if primitive.mode not in (None, TRIANGLES):
         raise file.wrong(
-            f"a skinned mesh is drawn in mode {primitive.mode}; only triangles (mode {TRIANGLES}) "
-            "are read"
+            f"a skinned mesh has the mode {primitive.mode}; only triangles (mode {TRIANGLES}) are "
+            "supported"
         )
     attributes = {
         key: value for key, value in vars(primitive.attributes).items() if value is not None
@@ -86,9 +90,12 @@ def _part(file: GltfFile, primitive: Any, joints: int) -> SkinnedVertices:
     bones = np.concatenate([file.integers(attributes[f"JOINTS_{name}"]) for name in sets], axis=1)
     weights = np.concatenate([file.floats(attributes[f"WEIGHTS_{name}"]) for name in sets], axis=1)
     if not len(positions) == len(bones) == len(weights):
-        raise file.wrong("a mesh has other numbers of positions than of joints or weights")
+        raise file.wrong(
+            f"a mesh has {len(positions)} positions, {len(bones)} joints and {len(weights)} "
+            "weights; their numbers must be equal"
+        )
     if (bones >= joints).any():
-        raise file.wrong(f"a vertex follows joint {int(bones.max())}; the skin has {joints}")
+        raise file.wrong(f"a vertex follows joint {int(bones.max())}; the skin has {joints} joints")
     sums = weights.sum(axis=1, keepdims=True)
     if (sums <= 0.0).any() or (weights < 0.0).any():
         vertex = int(np.argmax((sums[:, 0] <= 0.0) | (weights < 0.0).any(axis=1)))
@@ -98,8 +105,11 @@ def _part(file: GltfFile, primitive: Any, joints: int) -> SkinnedVertices:
     else:
         faces = file.integers(primitive.indices)[:, 0]
     if len(faces) % 3 or (faces >= len(positions)).any():
-        raise file.wrong("a mesh's triangles have corners that there are not")
-    # The heaviest carriers come first; columns in which no vertex has a weight are left out.
+        raise file.wrong(
+            f"a mesh has {len(faces)} triangle corners up to the vertex {int(faces.max())}, but "
+            f"{len(positions)} vertices; corners must be a multiple of 3 and existing vertices"
+        )
+    # Bones are sorted by weight; columns without any weight are dropped.
     order = np.argsort(-weights, axis=1, kind="stable")
     weights = np.take_along_axis(weights / sums, order, axis=1)
     bones = np.where(weights > 0.0, np.take_along_axis(bones, order, axis=1), 0)

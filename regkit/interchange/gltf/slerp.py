@@ -1,4 +1,4 @@
-"""Rotations between two others."""
+"""Spherical linear interpolation of rotations."""
 
 from __future__ import annotations
 
@@ -9,10 +9,16 @@ from regkit.system.arrays import Array
 
 
 def slerp(start: Array, end: Array, share: float) -> Array:
-    """A unit quaternion (..., 4) on the shorter arc between two, ``share`` of the way along it."""
+    """Returns the unit quaternion (..., 4) at the fraction ``share`` of the shorter arc.
+
+    Args:
+        start: Unit quaternions, (..., 4).
+        end: Unit quaternions, (..., 4).
+        share: Fraction of the arc, from 0 to 1.
+    """
     cosine = (start * end).sum(axis=-1, keepdims=True)
     half = np.arccos(np.clip(np.abs(cosine), 0.0, 1.0))
-    # At small angles the chord is the arc; it also spares a division by zero.
+    # For small angles linear interpolation is exact, and avoids a division by zero.
     small = half < 1e-4
     sine = np.where(small, 1.0, np.sin(half))
     first = np.where(small, 1.0 - share, np.sin((1.0 - share) * half) / sine)

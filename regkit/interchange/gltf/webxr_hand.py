@@ -1,4 +1,4 @@
-"""The joints of a WebXR hand, and the tree that its models, whose nodes are flat, leave out.
+"""The joint hierarchy of a WebXR hand, which its glTF models with their flat nodes lack.
 
 Source: W3C, WebXR Hand Input Module, section 3.2 (skeleton joints).
 """

@@ -1,1 +1,1 @@
-"""Robots as URDF."""
+"""The URDF format: import of robots as templates."""

@@ -1,4 +1,4 @@
-"""The joints of a URDF."""
+"""The joints of a URDF file."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ from regkit.system.arrays import Array
 from regkit.system.errors import DataError
 
 HINGES = ("revolute", "continuous")
-"""The types of joints that turn about an axis."""
+"""Joint types with one rotation axis."""
 
 TYPES = (*HINGES, "fixed", "spherical")
-"""The types of joints that are read."""
+"""Supported joint types."""
 
 
 @dataclass(frozen=True)
 class Mimic:
-    """A joint's angle is ``ratio`` times that of another, plus an offset.
+    """A coupling ``angle = ratio * leader + offset``.
 
     Attributes:
-        joint: Name of the joint that leads.
-        ratio: By how much it turns with that.
-        offset: Where that is zero [rad].
+        joint: Name of the leading joint.
+        ratio: Ratio of the angles.
+        offset: Angle at which the leader's angle is zero [rad].
     """
 
     joint: str
@@ -39,17 +39,17 @@ class Mimic:
 
 @dataclass(frozen=True)
 class UrdfJoint:
-    """What ties a link to its parent.
+    """The joint between a link and its parent.
 
     Attributes:
-        name: Its name.
+        name: Name of the joint.
         kind: One of ``TYPES``.
-        parent: Name of the link above.
-        child: Name of the link that it moves; their frames are one.
+        parent: Name of the parent link.
+        child: Name of the child link, which has the frame of the joint.
         origin: T_parent_child at zero angles, (4, 4) [m].
-        axis: (3,) unit axis in the child's frame.
-        limits: Smallest and largest angle [rad], of a revolute joint.
-        mimic: What its angle follows, if it does.
+        axis: Unit axis in the child's frame, (3,).
+        limits: Smallest and largest angle of a revolute joint [rad]; None for others.
+        mimic: Coupling to another joint, if there is one.
         place: ``file:line``.
     """
 
@@ -65,11 +65,15 @@ class UrdfJoint:
 
 
 def origin(element: Element) -> Array:
-    """The transform (4, 4) of an element's ``origin``, or the identity [m]."""
+    """Returns the transform (4, 4) [m] of an element's ``origin``; the identity without one.
+
+    Raises:
+        DataError: If its attributes are invalid.
+    """
     found = element.find("origin")
     if found is None:
         return np.eye(4)
-    # Roll, pitch and yaw turn about fixed axes, one after the other.
+    # Roll, pitch and yaw are rotations about fixed axes, in this order.
     angles = found.numbers("rpy", 3, np.zeros(3))
     x, y, z = (
         vector_to_matrix(angle * axis) for angle, axis in zip(angles, np.eye(3), strict=True)
@@ -78,23 +82,22 @@ def origin(element: Element) -> Array:
 
 
 def read_joint(element: Element) -> UrdfJoint:
-    """The joint in an element.
+    """Returns the joint of an element.
 
     Raises:
-        DataError: If something is missing or wrong, or it is of another type; it says in which
-            line.
+        DataError: If an attribute is missing or invalid, or the type is not supported.
     """
     name, kind = element.text("name"), element.text("type")
     if kind not in TYPES:
         raise element.wrong(
-            f"joint '{name}' is {kind}; a template's joints only turn ({', '.join(TYPES)})"
+            f"joint '{name}' is {kind}; the joints of a template can only be {', '.join(TYPES)}"
         )
     parent, child = element.need("parent").text("link"), element.need("child").text("link")
     axis = np.array([1.0, 0.0, 0.0])
     if (found := element.find("axis")) is not None:
         axis = found.numbers("xyz", 3)
         if np.linalg.norm(axis) < 1e-9:
-            raise found.wrong(f"the axis of joint '{name}' is zero")
+            raise found.wrong(f"the axis of joint '{name}' is zero; it must have a direction")
     limits = _limits(element.need("limit")) if kind == "revolute" else None
     mimic = element.find("mimic")
     return UrdfJoint(
@@ -113,22 +116,27 @@ def read_joint(element: Element) -> UrdfJoint:
 def _limits(element: Element) -> tuple[float, float]:
     low, high = element.number("lower", 0.0), element.number("upper", 0.0)
     if low > high:
-        raise element.wrong(f"lower={low:g} is above upper={high:g}")
+        raise element.wrong(f"lower={low:g} is above upper={high:g}; exchange them")
     return low, high
 
 
 def _mimic(element: Element) -> Mimic:
     ratio = element.number("multiplier", 1.0)
     if abs(ratio) < MIN_RATIO:
-        raise element.wrong(f"multiplier={ratio:g}: a joint that does not turn must be fixed")
+        raise element.wrong(
+            f"multiplier={ratio:g} is too small; make a joint that does not turn a fixed joint"
+        )
     return Mimic(element.text("joint"), ratio, element.number("offset", 0.0))
 
 
 def resolved(joints: Mapping[str, UrdfJoint]) -> dict[str, UrdfJoint]:
-    """The joints with every mimic following one that follows none.
+    """Returns the joints with chains of couplings resolved to independent leaders.
+
+    Args:
+        joints: Joints by the name of their child link.
 
     Raises:
-        DataError: If one follows no hinge, or itself.
+        DataError: If a joint follows itself, or a joint that is not a hinge.
     """
     by_name = {joint.name: joint for joint in joints.values()}
     for joint in joints.values():
@@ -139,7 +147,10 @@ def resolved(joints: Mapping[str, UrdfJoint]) -> dict[str, UrdfJoint]:
         mimic, seen = joint.mimic, [joint.name]
         while mimic is not None and (above := by_name[mimic.joint].mimic) is not None:
             if mimic.joint in seen:
-                raise DataError(f"joint '{joint.name}' follows itself", place=joint.place)
+                raise DataError(
+                    f"joint '{joint.name}' follows itself ({' -> '.join([*seen, mimic.joint])})",
+                    place=joint.place,
+                )
             seen.append(mimic.joint)
             # a = r b + o and b = s c + p give a = r s c + (r p + o).
             offset = mimic.ratio * above.offset + mimic.offset
@@ -150,7 +161,7 @@ def resolved(joints: Mapping[str, UrdfJoint]) -> dict[str, UrdfJoint]:
 
 def _check_leader(joint: UrdfJoint, name: str, joints: Mapping[str, UrdfJoint]) -> None:
     leader = joints.get(name)
-    kind = "which is no joint" if leader is None else f"which is {leader.kind}"
+    kind = "which is not a joint" if leader is None else f"which is {leader.kind}"
     if leader is None or leader.kind not in HINGES:
         raise DataError(
             f"joint '{joint.name}' follows '{name}', {kind}; it can follow a hinge "

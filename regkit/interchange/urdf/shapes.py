@@ -1,4 +1,4 @@
-"""The shapes of a URDF's links as capsules."""
+"""Approximation of the shapes of URDF links by capsules."""
 
 from __future__ import annotations
 
@@ -13,15 +13,20 @@ from regkit.system.arrays import Array
 
 
 def capsules_of(link: UrdfLink, T_bone_link: Array, scale: float) -> tuple[CapsuleDescription, ...]:
-    """A link's shapes as capsules in a bone's frame, with all lengths multiplied by ``scale``.
+    """Returns a link's shapes as capsules in a bone's frame.
 
-    A sphere and a capsule stay what they are. A cylinder becomes the capsule in it, of its length
-    and radius; one that is shorter than wide, and a cube, the sphere of equal volume. A box becomes
-    the capsule of its longest side, whose cross section has the area of the box's. Meshes are left
-    out.
+    Spheres and capsules are exact. A cylinder becomes the inscribed capsule of the same length and
+    radius; a cylinder that is shorter than wide, and a cube, the sphere of equal volume. A box
+    becomes a capsule along its longest side with the box's cross-sectional area. Meshes are
+    ignored.
+
+    Args:
+        link: The link.
+        T_bone_link: Transform from the link's frame to the bone's, (4, 4) [m].
+        scale: Metres per unit of the file.
 
     Raises:
-        DataError: If a length is missing or not positive; it says in which line.
+        DataError: If a length is missing or not positive.
     """
     capsules = []
     for shape in link.shapes:
@@ -39,12 +44,12 @@ def capsules_of(link: UrdfLink, T_bone_link: Array, scale: float) -> tuple[Capsu
 
 
 def _core(geometry: Element) -> tuple[Array, float] | None:
-    """From a capsule's middle to its second centre, (3,), and its radius; None for a mesh."""
+    """Returns half the axis (3,) and the radius of a geometry's capsule; None for a mesh."""
     along_z = np.array([0.0, 0.0, 0.5])
     if (sphere := geometry.find("sphere")) is not None:
         return np.zeros(3), _length(sphere, "radius")
     if (capsule := geometry.find("capsule")) is not None:
-        # The length is that between the centres of its ends.
+        # The length is the distance between the centres of the end spheres.
         return along_z * _length(capsule, "length"), _length(capsule, "radius")
     if (cylinder := geometry.find("cylinder")) is not None:
         length, radius = _length(cylinder, "length"), _length(cylinder, "radius")
@@ -63,7 +68,7 @@ def _core(geometry: Element) -> tuple[Array, float] | None:
 
 
 def _inside(half: Array, length: float, radius: float, volume: float) -> tuple[Array, float]:
-    """The capsule of a whole length, or the sphere of the volume if it is wider than long."""
+    """Returns the capsule of a total length, or the sphere of the volume if wider than long."""
     if length <= 2.0 * radius:
         return np.zeros(3), float(np.cbrt(0.75 * volume / np.pi))
     return half * (length - 2.0 * radius), radius

@@ -1,4 +1,4 @@
-"""The links of a URDF as a template."""
+"""Templates from URDF robots."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from regkit.geometry.rigid import rigid
-from regkit.interchange.imported import SHORTEST, Bone, ImportedSkeleton, ball, vector
+from regkit.interchange.imported import MIN_LENGTH, Bone, ImportedSkeleton, ball, vector
 from regkit.interchange.urdf.joints import Mimic, UrdfJoint
 from regkit.interchange.urdf.shapes import capsules_of
 from regkit.interchange.urdf.urdf import Urdf
@@ -24,25 +24,25 @@ from regkit.system.arrays import Array
 from regkit.system.errors import DataError
 
 SPREAD = (1.0, 1.0)
-"""A robot has one size."""
+"""Range of the size relative to the robot's own; a robot has a fixed size."""
 
 
 def urdf_template(
     robot: Urdf, path: Path, title: str, axes: Array, scale: float
 ) -> ImportedSkeleton:
-    """The skeleton of a robot: a segment for each link, called as it, and a marker at its origin.
+    """Returns the template of a robot, with a segment and a marker for each link, of its name.
 
-    The segments' frames are those of the links at zero angles, turned so that they are parallel.
+    The segment frames have the origins of the link frames, and are parallel at zero angles.
 
     Args:
-        robot: The file's content.
+        robot: The robot.
         path: The file.
-        title: What it is, in a line.
+        title: Title of the template.
         axes: ``R_body_root``, (3, 3).
         scale: Metres per unit of the file.
 
     Raises:
-        DataError: If a shape is wrong, or a joint hardly follows another.
+        DataError: If a shape is invalid, or the ratio of a coupling is too small.
     """
     names = list(robot.links)
     turns = {names[0]: axes}
@@ -56,12 +56,12 @@ def urdf_template(
             turns[name] = above @ joint.origin[:3, :3]
             offset = scale * above @ joint.origin[:3, 3]
             parent = names.index(joint.parent)
-            ways = [
+            offsets = [
                 turns[name] @ other.origin[:3, 3]
                 for other in robot.joints.values()
                 if other.parent == name
             ]
-            own = _joint(joint, turns[name], ways, robot)
+            own = _joint(joint, turns[name], offsets, robot)
         shapes = capsules_of(link, rigid(turns[name], np.zeros(3)), scale)
         bones.append(
             Bone(
@@ -79,11 +79,11 @@ def urdf_template(
     return ImportedSkeleton.of(bones, path, title, spread=SPREAD)
 
 
-def _joint(joint: UrdfJoint, turn: Array, ways: list[Array], robot: Urdf) -> Joint:
+def _joint(joint: UrdfJoint, turn: Array, offsets: list[Array], robot: Urdf) -> Joint:
     if joint.kind == "fixed":
         return FixedJoint()
     if joint.kind == "spherical":
-        return ball(next((way for way in ways if np.linalg.norm(way) > SHORTEST), None))
+        return ball(next((one for one in offsets if np.linalg.norm(one) > MIN_LENGTH), None))
     limits = None if joint.limits is None else np.degrees(joint.limits)
     return HingeJoint(
         type="hinge",
@@ -94,16 +94,16 @@ def _joint(joint: UrdfJoint, turn: Array, ways: list[Array], robot: Urdf) -> Joi
 
 
 def _coupling(joint: UrdfJoint, mimic: Mimic, robot: Urdf) -> CouplingDescription:
-    """How a hinge follows another.
+    """Returns the coupling of a hinge.
 
     Raises:
-        DataError: If it hardly turns with it, over others that follow each other.
+        DataError: If its ratio, the product along a chain of couplings, is too small.
     """
     leader = next(other for other in robot.joints.values() if other.name == mimic.joint)
     if abs(mimic.ratio) < MIN_RATIO:
         raise DataError(
-            f"joint '{joint.name}' turns by {mimic.ratio:g} with '{leader.name}'; one that does "
-            "not turn must be fixed",
+            f"joint '{joint.name}' follows '{leader.name}' with the ratio {mimic.ratio:g}, which "
+            "is too small; make a joint that does not turn a fixed joint",
             place=joint.place,
         )
     return CouplingDescription(

@@ -1,7 +1,7 @@
-"""Robots as URDF: links, and the joints between them.
+"""URDF robots: links, and the joints between them.
 
 Source: ROS, Unified Robot Description Format, http://wiki.ros.org/urdf/XML. Lengths are in metres
-and angles in radians. ``spherical`` is no joint of that description; Bullet has it.
+and angles in radians. The joint type ``spherical`` is an extension of Bullet.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ from regkit.interchange.urdf.xml_lines import Element
 
 @dataclass(frozen=True)
 class UrdfLink:
-    """A rigid part.
+    """A link.
 
     Attributes:
-        name: Its name.
-        shapes: ``collision`` elements, or where there are none, ``visual`` ones.
+        name: Name of the link.
+        shapes: Its ``collision`` elements, or if there are none, its ``visual`` elements.
     """
 
     name: str
@@ -33,9 +33,9 @@ class Urdf:
     """A robot.
 
     Attributes:
-        name: Its name.
-        links: Its links by name, parents first.
-        joints: Its joints by the name of the link that they move; the root has none.
+        name: Name of the robot.
+        links: Links by name, parents before children.
+        joints: Joints by the name of their child link; the root has none.
     """
 
     name: str
@@ -44,20 +44,19 @@ class Urdf:
 
     @classmethod
     def read(cls, path: Path) -> Urdf:
-        """Read a file.
+        """Reads a URDF file.
 
         Raises:
-            DataError: If the file is missing or wrong, or a joint is of another type; it says in
-                which line.
+            DataError: If the file is missing or invalid, or has an unsupported joint type.
         """
         robot = Element.read(path)
         if robot.tag != "robot":
-            raise robot.wrong(f"<{robot.tag}> where <robot> should stand; this is no URDF")
+            raise robot.wrong(f"<{robot.tag}> where <robot> is expected; this is not a URDF file")
         links: dict[str, UrdfLink] = {}
         for element in robot.all("link"):
             name = element.text("name")
             if name in links:
-                raise element.wrong(f"a second link is called '{name}'")
+                raise element.wrong(f"a second link is named '{name}'; names must be unique")
             shapes = tuple(element.all("collision")) or tuple(element.all("visual"))
             links[name] = UrdfLink(name, shapes)
         joints: dict[str, UrdfJoint] = {}
@@ -70,16 +69,20 @@ class Urdf:
                         + did_you_mean(link, list(links))
                     )
             if joint.child in joints:
-                raise element.wrong(f"a second joint moves the link '{joint.child}'")
+                raise element.wrong(
+                    f"a second joint has the child link '{joint.child}'; a link has one parent"
+                )
             joints[joint.child] = joint
         roots = [name for name in links if name not in joints]
         if len(roots) != 1:
             named = f" ({', '.join(roots)})" if roots else ""
-            raise robot.wrong(f"{len(roots)} links have no joint above them{named}; one must")
+            raise robot.wrong(
+                f"{len(roots)} links have no parent joint{named}; there must be exactly one root"
+            )
         for name in roots:
             roots += [child for child, joint in joints.items() if joint.parent == name]
         if len(roots) < len(links):
             cyclic = ", ".join(name for name in links if name not in roots)
-            raise robot.wrong(f"the links {cyclic} form a cycle")
+            raise robot.wrong(f"the links {cyclic} form a cycle; they must form a tree")
         named = robot.attributes.get("name", path.stem)
         return cls(named, {name: links[name] for name in roots}, resolved(joints))

@@ -1,4 +1,4 @@
-"""XML elements that know on which line they stand."""
+"""XML elements with their line numbers."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ class Element:
     """An element of an XML file.
 
     Attributes:
-        tag: Its name.
-        attributes: What is written in its tag.
+        tag: Name of the tag.
+        attributes: Attributes of the tag.
         place: ``file:line``.
-        children: The elements in it.
+        children: Child elements.
     """
 
     tag: str
@@ -31,10 +31,10 @@ class Element:
 
     @classmethod
     def read(cls, path: Path) -> Element:
-        """The outermost element of a file; zeros after its end are overlooked.
+        """Returns the root element of a file; trailing null bytes are ignored.
 
         Raises:
-            DataError: If the file is missing or is no XML.
+            DataError: If the file is missing, unreadable or not XML.
         """
         try:
             content = path.read_bytes()
@@ -64,15 +64,15 @@ class Element:
         return outermost.children[0]
 
     def all(self, tag: str) -> Iterator[Element]:
-        """The children with a tag."""
+        """Returns the children with a tag."""
         return (child for child in self.children if child.tag == tag)
 
     def find(self, tag: str) -> Element | None:
-        """The first child with a tag, if there is one."""
+        """Returns the first child with a tag, or None."""
         return next(self.all(tag), None)
 
     def need(self, tag: str) -> Element:
-        """The first child with a tag.
+        """Returns the first child with a tag.
 
         Raises:
             DataError: If there is none.
@@ -83,30 +83,29 @@ class Element:
         return found
 
     def text(self, attribute: str) -> str:
-        """An attribute.
+        """Returns the text of an attribute.
 
         Raises:
-            DataError: If there is none.
+            DataError: If the attribute is missing.
         """
         if attribute not in self.attributes:
             raise self.wrong(f"<{self.tag}> needs the attribute {attribute}")
         return self.attributes[attribute].strip()
 
     def number(self, attribute: str, default: float | None = None) -> float:
-        """A number in an attribute.
+        """Returns the number in an attribute.
 
         Raises:
-            DataError: If it is no number, or there is none and no default.
+            DataError: If it is not a number, or is missing without a default.
         """
         given = None if default is None else np.array([default])
         return float(self.numbers(attribute, 1, given)[0])
 
     def numbers(self, attribute: str, count: int, default: Array | None = None) -> Array:
-        """The numbers in an attribute, (count,).
+        """Returns the numbers (count,) in an attribute.
 
         Raises:
-            DataError: If they are no finite numbers, others in number, or there are none and no
-                default.
+            DataError: If they are not ``count`` finite numbers, or missing without a default.
         """
         if attribute not in self.attributes and default is not None:
             return default
@@ -121,5 +120,5 @@ class Element:
         return values
 
     def wrong(self, message: str) -> DataError:
-        """An error at this element."""
+        """Returns an error at this element."""
         return DataError(message, place=self.place)

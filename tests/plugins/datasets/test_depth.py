@@ -175,8 +175,8 @@ SECOND = "depth/000001.png"
          "one channel of 16 bits; this one is of the mode RGB"),
         (image(SECOND, np.ones((24, 18), np.uint16)), "ROOT/depth/000001.png: the depth image has "
          "18x24 pixels, but the camera has 24x18"),
-        (remove("camera.json"), "ROOT/camera.json: the file is missing; it holds the camera's "
-         "intrinsics"),
+        (remove("camera.json"), "ROOT/camera.json: the file is missing; it should hold "
+         "the camera's intrinsics"),
         (cut("camera.json", 0.5), "ROOT/camera.json: not a camera file (JSONDecodeError"),
         (write("camera.json", b"\xff\xfe"), "ROOT/camera.json: not a camera file (UnicodeDecode"),
         (write("camera.json", "[1, 2]"), "ROOT/camera.json: not a camera file (TypeError"),

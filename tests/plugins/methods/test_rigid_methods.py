@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from regkit.alignment import agreement, align
-from regkit.alignment.determined import hidden_motion
-from regkit.alignment.rigid_method import Frame
+from regkit.alignment.rigid_method import Normalization
+from regkit.alignment.weak_motion import weak_motion
 from regkit.cli.register import named_method
 from regkit.geometry.rigid import inverse, rigid, transformed
 from regkit.geometry.rotation import from_matrix, to_vector, vector_to_matrix
@@ -109,7 +109,7 @@ def test_exchanged_clouds_give_the_inverse_motion(lump, truth):
 @pytest.mark.parametrize("name", ["open3d_icp", "small_gicp"])
 def test_method_without_joints_refuses_a_body_that_has_some(name):
     pytest.importorskip(METHODS[name])
-    with pytest.raises(ConfigError, match=f"'{name}' is rigid: the template 'human' has 15 segm"):
+    with pytest.raises(ConfigError, match=f"'{name}' is rigid, .* 'human' has 15 segm"):
         named_method(name).bind(Human(height=1.7).body(1.7))
 
 
@@ -144,11 +144,11 @@ def test_failure_of_a_library_is_told(monkeypatch, lump):
 
 def test_coordinates_of_unit_length_give_the_same_motion(random):
     points = random.normal(size=(10, 3)) + 7.0
-    frame = Frame.around(points, 3.0)
+    frame = Normalization.around(points, 3.0)
     rotation, shift = vector_to_matrix(np.array([0.2, 0.1, -0.5])), np.array([0.1, 0.2, 0.3])
-    inside = frame.inside(points) @ rotation.T + shift
-    outside = transformed(frame.outside(rotation, shift), points)
-    np.testing.assert_allclose(frame.inside(outside), inside)
+    inside = frame.normalized(points) @ rotation.T + shift
+    outside = transformed(frame.transform(rotation, shift), points)
+    np.testing.assert_allclose(frame.normalized(outside), inside)
 
 
 def test_rotations_of_the_icosahedron_are_a_group_near_every_rotation(random):
@@ -175,10 +175,10 @@ def test_agreement_counts_what_is_near():
 
 
 def test_motion_that_slides_a_surface_is_named(lump, random):
-    assert hidden_motion(lump) is None
+    assert weak_motion(lump) is None
     ball = random.normal(size=(2000, 3))
     ball /= np.linalg.norm(ball, axis=1, keepdims=True)
-    assert hidden_motion(ball).startswith("a rotation about the direction")
+    assert weak_motion(ball).startswith("a rotation about the direction")
     angles, heights = random.uniform(-np.pi, np.pi, 2000), random.uniform(-9, 9, 2000)
     tube = np.column_stack([np.cos(angles), np.sin(angles), heights])
-    assert hidden_motion(tube) is not None
+    assert weak_motion(tube) is not None

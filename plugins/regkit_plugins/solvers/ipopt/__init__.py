@@ -1,4 +1,4 @@
-"""IPOPT, through CasADi."""
+"""The IPOPT solver, from CasADi."""
 
 from regkit_plugins.solvers.ipopt.ipopt import Ipopt
 

@@ -1,4 +1,4 @@
-"""What lets CasADi's IPOPT call a program that is written in Python."""
+"""CasADi callbacks through which IPOPT evaluates a program written in Python."""
 
 from __future__ import annotations
 
@@ -17,30 +17,30 @@ from regkit_plugins.solvers.ipopt.program import Program
 from regkit_plugins.solvers.ipopt.watch import Watch
 
 Answer = Callable[[Sequence[Array]], Array]
-"""From the arguments of a CasADi function to the numbers of one of its results."""
+"""Maps the arguments of a CasADi function to the values of one of its results."""
 
 
 class Callbacks:
-    """The functions of a program, as ``casadi.nlpsol`` wants them.
+    """The functions of a program in the form of ``casadi.nlpsol``.
 
-    What a program raises cannot pass through IPOPT: it is kept in ``failure``, and from then on all
-    answers are NaN, on which IPOPT gives up.
+    An exception of the program cannot propagate through IPOPT. It is stored in ``failure``, and all
+    further results are NaN, which makes IPOPT stop.
 
     Args:
         program: The program.
-        watch: What may end IPOPT early.
+        watch: The watch that may stop IPOPT early.
 
     Attributes:
         nlp: The nonlinear program: x, f and g.
-        derivatives: The options of ``nlpsol`` that hold its derivatives.
-        failure: What the program raised, if it did.
+        derivatives: The options of ``nlpsol`` with the derivatives.
+        failure: The exception of the program, if it raised one.
     """
 
     def __init__(self, program: Program, watch: Watch) -> None:
         ca = load_library("casadi")
         self.failure: BaseException | None = None
         dense, m, c = ca.Sparsity.dense, len(program.start), program.rows
-        # CasADi stores the upper triangle by columns: of a symmetric matrix, the lower one by rows.
+        # CasADi stores the upper triangle column-major, which is the lower one row-major.
         triangle = np.tril_indices(m)
         value = (dense(1), lambda given: program.value(given[0]))
         rows = (dense(c), lambda given: program.constrained(given[0]))
@@ -65,12 +65,12 @@ class Callbacks:
         self.derivatives["iteration_callback"] = self._function("iteration", iterate, [ended])
         x = ca.MX.sym("x", m)
         self.nlp = {"x": x, "f": objective(x), "g": constraints(x)}
-        # CasADi does not keep callbacks alive by itself.
+        # CasADi does not keep callbacks alive.
         self._kept = (objective, constraints)
 
     @contextmanager
     def interruptible(self) -> Iterator[None]:
-        """A context in which Ctrl-C is kept as a failure: IPOPT's own code would lose it."""
+        """Returns a context that stores Ctrl-C as a failure, which IPOPT's code would lose."""
         handler = signal.getsignal(signal.SIGINT)
         main = threading.current_thread() is threading.main_thread()
         if handler is not signal.default_int_handler or not main:
@@ -100,11 +100,11 @@ class Callbacks:
 
 @lru_cache(maxsize=1)
 def _callback_class() -> type[Any]:
-    """A class of CasADi's, which is imported when it is first needed."""
+    """Returns the callback class, whose base class is imported from CasADi on first use."""
 
-    # CasADi has no types, so that its class is of any type to the checker.
+    # CasADi is untyped, so its classes have the type Any.
     class Callback(load_library("casadi").Callback):  # type: ignore[misc]
-        """A CasADi function that asks Python for its results, without copies."""
+        """A CasADi function that evaluates Python functions without copies."""
 
         def __init__(
             self,
@@ -135,7 +135,7 @@ def _callback_class() -> type[Any]:
         def eval_buffer(self, arguments: Sequence[Any], results: Sequence[Any]) -> int:
             given = [np.zeros(0) if one is None else np.frombuffer(one) for one in arguments]
             for buffer, (_, answer) in zip(results, self._results, strict=True):
-                # What IPOPT does not ask for has no buffer.
+                # A result that IPOPT does not request has no buffer.
                 if buffer is not None:
                     np.frombuffer(buffer)[:] = self._guarded(answer, given)
             return 0

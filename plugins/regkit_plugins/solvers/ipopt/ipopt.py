@@ -1,4 +1,4 @@
-"""IPOPT, an interior-point method, from CasADi: it holds all joint limits as constraints."""
+"""IPOPT, an interior-point method, from CasADi, with all joint limits as constraints."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ from regkit_plugins.solvers.ipopt.program import Program
 from regkit_plugins.solvers.ipopt.watch import SETTLED, Watch
 
 SAME = 1e-6
-"""Values that differ by less, in units of the mean curvature, are of the same minimum."""
+"""Values that differ by less, in units of the mean curvature, belong to the same minimum."""
 
 Tolerance = Annotated[float, Field(gt=0.0)]
 
 
 class Ipopt(Solver):
-    """IPOPT: joint limits are constraints, held exactly, and the value is least within them.
+    """IPOPT, an interior-point method that satisfies all joint limits exactly.
 
-    Hinges are bounded, swings and twists of ball joints are smooth constraints. Values are scaled
-    by their mean curvature, so that a tolerance of the gradient is about a step.
+    Hinge limits are bounds, swing and twist limits of ball joints are smooth constraints. Values
+    are scaled by their mean curvature, so a gradient tolerance is approximately a step length.
     """
 
     kind: Literal["ipopt"] = "ipopt"
@@ -35,21 +35,21 @@ class Ipopt(Solver):
     )
 
     max_iterations: Annotated[int, Field(ge=1)] = 100
-    """Steps at most."""
+    """Maximum number of iterations."""
     gradient_tolerance: Tolerance = 1e-8
-    """Stop when the force that is left would move the pose by no more than this against the mean
-    curvature [rad, m]; with a kernel without curvature, against the value at the start."""
+    """Converged if the gradient divided by the mean curvature is at most this [rad, m]; for a
+    kernel without curvature, the gradient is divided by the value at the start."""
     value_tolerance: Annotated[float, Field(ge=0.0)] = 1e-5
-    """Stop when a step lowers the value by less than this part of what has been gained so far."""
+    """Converged if a step decreases the value by less than this fraction of the total decrease."""
     constraint_tolerance: Tolerance = 1e-8
-    """By how much a limit may be violated at the end [rad]."""
+    """Largest limit violation of a solution [rad]."""
     max_seconds: Tolerance | None = None
-    """Time for one solution at most [s]; then the best point so far within the limits is taken."""
+    """Maximum time per solution [s], after which the best point within the limits is returned."""
     reach: Tolerance = 1.0
-    """How far a variable without bounds may move in one solution: the root [m], a hinge without
-    limits [rad], the numbers of a quaternion."""
+    """Largest change of a variable without bounds in one solution: of the root [m], of a hinge
+    without limits [rad], of the components of a quaternion."""
     options: dict[str, bool | int | float | str] = Field(default_factory=dict)
-    """Further options of IPOPT, by its own names."""
+    """Further IPOPT options, by their IPOPT names."""
 
     @field_validator("options")
     @classmethod
@@ -58,16 +58,17 @@ class Ipopt(Solver):
         return options
 
     def minimize(self, problem: Problem) -> Solution:
-        """The best point within the limits; it is no worse than the start brought within them.
+        """Returns the best point within the limits, never worse than the projected start.
 
         Raises:
-            DataError: If the value or gradient at the start is not finite, no point was found that
-                keeps the limits, or IPOPT itself failed.
+            DataError: If the value or gradient at the start is not finite, no point within the
+                limits is found, or IPOPT fails.
+            DependencyError: If CasADi is missing.
         """
         program = Program(problem, self.constraint_tolerance, self.reach)
         if program.best is not None and not program.at(program.start)[1].any():
             value, start = program.best
-            return Solution(start, value, True, 0, program.evaluations, "no force is left")
+            return Solution(start, value, True, 0, program.evaluations, "the gradient is zero")
         watch = Watch(program, self.value_tolerance, self.max_seconds)
         callbacks = Callbacks(program, watch)
         options = {**callbacks.derivatives, **QUIET, "ipopt": self._options(program)}
@@ -86,10 +87,10 @@ class Ipopt(Solver):
         if program.best is None:
             violation, name = program.worst(end)
             raise DataError(
-                f"IPOPT found no pose that keeps all limits ({message}): '{name}' is missed by "
+                f"IPOPT found no pose within all limits ({message}): '{name}' is violated by "
                 f"{violation:.3g}"
             )
-        # The multipliers are those of the end.
+        # The multipliers belong to the last iterate.
         there = program.allowed(end) and value <= program.best[0] + SAME * program.scale
         return Solution(
             x=program.best[1],
@@ -104,7 +105,7 @@ class Ipopt(Solver):
         )
 
     def _options(self, program: Program) -> dict[str, Any]:
-        """IPOPT's options by its own names."""
+        """Returns the options by their IPOPT names."""
         return {
             **ALWAYS,
             "max_iter": self.max_iterations,
@@ -117,7 +118,7 @@ class Ipopt(Solver):
 
 
 def _bounds(program: Program) -> dict[str, Array]:
-    """The bounds of variables and constraints, and the multipliers with which to begin."""
+    """Returns the bounds of variables and constraints, and the initial multipliers."""
     bounds = {"lbx": program.lower, "ubx": program.upper}
     if program.constraints is not None:
         bounds |= {"lbg": program.constraints.lower, "ubg": program.constraints.upper}
@@ -128,9 +129,9 @@ def _bounds(program: Program) -> dict[str, Array]:
 
 
 def _ending(program: Program, watch: Watch, status: str, end: Array) -> tuple[bool, str]:
-    """Whether the best point is a solution, and why IPOPT ended."""
+    """Returns whether the best point is a solution, and the reason of termination."""
     if status not in ENDS and not watch.ending:
-        raise DataError(f"IPOPT could not solve the problem: it ended with {status}")
+        raise DataError(f"IPOPT could not solve the problem: its status is {status}")
     converged, message = ENDS.get(status, (False, status))
     if watch.ending:
         converged, message = watch.ending == SETTLED, watch.ending
@@ -138,7 +139,7 @@ def _ending(program: Program, watch: Watch, status: str, end: Array) -> tuple[bo
         return False, "IPOPT ended beyond the limits"
     least = np.inf if program.best is None else program.best[0]
     if converged and program.at(end)[0] > least + SAME * program.scale:
-        return False, "IPOPT ended at a worse point than the best one, which is taken"
+        return False, "IPOPT ended at a worse point than the best one, which is returned"
     if converged and program.stuck(end):
-        return False, "a variable moved as far as `reach` lets it"
+        return False, "a variable moved as far as `reach` allows"
     return converged, message

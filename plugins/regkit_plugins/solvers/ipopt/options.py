@@ -1,4 +1,4 @@
-"""IPOPT's own options, and what its statuses mean."""
+"""IPOPT's options and return statuses."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ FIELDS = {
     "max_wall_time": "max_seconds",
     "max_cpu_time": "max_seconds",
 }
-"""Options of IPOPT's that are fields of the plug-in."""
+"""IPOPT options that are fields of the plug-in."""
 
 ALWAYS: Options = {
     "print_level": 0,
     "sb": "yes",
-    # Limits are limits: IPOPT would widen them a little.
+    # By default IPOPT relaxes bounds slightly.
     "bound_relax_factor": 0.0,
-    # It finds its way from far and near; the monotone strategy would begin far inside each time.
+    # Suits starts far from and close to a solution; the monotone strategy always starts far inside.
     "mu_strategy": "adaptive",
 }
 
@@ -35,35 +35,35 @@ WARM: Options = {
     "warm_start_slack_bound_push": 1e-4,
     "warm_start_mult_bound_push": 1e-4,
 }
-"""To set out near a solution, from its multipliers."""
+"""Options for a warm start close to a solution, with its multipliers."""
 
 QUASI_NEWTON: Options = {"hessian_approximation": "limited-memory"}
-"""Where nothing is known of the curvature."""
+"""Options for a problem without curvature."""
 
 QUIET = {"print_time": False, "show_eval_warnings": False, "no_nlp_grad": True}
-"""Options of CasADi's: print nothing, and ask for no derivative that is not needed."""
+"""CasADi options: no output, and no unneeded derivatives."""
 
 ENDS = {
     "Solve_Succeeded": (True, "a tolerance was met"),
     "Solved_To_Acceptable_Level": (True, SETTLED),
-    "Search_Direction_Becomes_Too_Small": (True, "no step lowers the value"),
-    "Maximum_Iterations_Exceeded": (False, "max_iterations were taken"),
+    "Search_Direction_Becomes_Too_Small": (True, "no step decreases the value"),
+    "Maximum_Iterations_Exceeded": (False, "max_iterations reached"),
     "Maximum_WallTime_Exceeded": (False, LATE),
-    "Infeasible_Problem_Detected": (False, "no point near keeps all limits"),
+    "Infeasible_Problem_Detected": (False, "the limits are locally infeasible"),
     "Not_Enough_Degrees_Of_Freedom": (False, "there are more equations than variables"),
-    "Restoration_Failed": (False, "no step leads on within the limits"),
-    "Diverging_Iterates": (False, "the variables ran away"),
+    "Restoration_Failed": (False, "the restoration of feasibility failed"),
+    "Diverging_Iterates": (False, "the iterates diverged"),
     "Invalid_Number_Detected": (False, "a value or derivative was not finite"),
     "Error_In_Step_Computation": (False, "no step could be computed"),
 }
-"""What IPOPT's statuses mean: whether it converged, and why it ended."""
+"""IPOPT's return statuses: whether it converged, and the reason of termination."""
 
 
 def check(options: Options) -> None:
-    """Let IPOPT itself look at options, by trying each on a small problem.
+    """Validates options by passing each to IPOPT with a small problem.
 
     Raises:
-        ValueError: If one is a field here, or IPOPT does not take it.
+        ValueError: If an option is a field of the plug-in, or IPOPT rejects it.
         DependencyError: If CasADi is missing.
     """
     for name in options:
@@ -74,17 +74,17 @@ def check(options: Options) -> None:
     for name, value in options.items():
         printed = StringIO()
         try:
-            # What is wrong with a value is printed, not raised.
+            # IPOPT prints errors in values, it does not raise them.
             with redirect_stdout(printed):
                 trial = {"x": x, "f": x * x}
                 solver = ca.nlpsol("trial", "ipopt", trial, {"ipopt": {name: value}, **QUIET})
                 solver(x0=1.0)
             status = solver.stats()["return_status"]
             if status not in ENDS:
-                raise RuntimeError(f"it ends with {status}")
+                raise RuntimeError(f"its status is {status}")
         except RuntimeError as error:
             said = [line for line in printed.getvalue().splitlines() if "valid" in line]
             lines = said or str(error).strip().splitlines()[-1:]
-            # What is raised begins with the place in CasADi's source.
+            # The message of an exception begins with its place in CasADi's source.
             reason = lines[0].split(".cpp:")[-1].lstrip("0123456789: ")
             raise ValueError(f"'{name}: {value}' is not taken by IPOPT: {reason}") from None

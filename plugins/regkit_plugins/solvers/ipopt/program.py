@@ -1,4 +1,4 @@
-"""A problem as IPOPT sees it: scaled, boxed, evaluated once at each point, the best one kept."""
+"""A problem in IPOPT's form: scaled, bounded, evaluated once per point, with the best point."""
 
 from __future__ import annotations
 
@@ -10,25 +10,25 @@ from regkit.system.errors import DataError
 
 
 class Program:
-    """The value over ``scale``, its derivatives, the constraints, and the best point so far.
+    """The scaled value, its derivatives, the constraints, and the best point so far.
 
     Args:
-        problem: What is to be made small.
-        constraint_tolerance: By how much a point within the limits may violate one.
-        reach: How far a variable without bounds may move.
+        problem: The problem to minimise.
+        constraint_tolerance: Largest constraint violation of a feasible point.
+        reach: Largest change of a variable without bounds.
 
     Attributes:
-        start: The problem's start brought within its limits, (m,).
+        start: The problem's start projected onto its limits, (m,).
         lower: Lower bounds, all finite, (m,).
         upper: Upper bounds, all finite, (m,).
-        constraints: The problem's own.
-        rows: Their number C.
-        multipliers: The problem's own, if they fit it.
-        curved: Whether there is a matrix of curvature.
-        scale: What values are divided by: the mean curvature; without one the value at the start,
-            and else the largest part of the gradient there.
-        evaluations: How often the problem was evaluated.
-        best: The best value within the limits and its point (m,), if there was one.
+        constraints: The problem's constraints.
+        rows: Number C of constraint rows.
+        multipliers: The problem's multipliers, if their shapes match.
+        curved: Whether the problem provides curvature.
+        scale: The divisor of values: the mean curvature; without curvature the value at the start,
+            or if that is zero the largest component of the gradient.
+        evaluations: Number of evaluations of the problem.
+        best: The best feasible value and its point (m,), if there is one.
 
     Raises:
         DataError: If the value or gradient at the start is not finite.
@@ -55,7 +55,7 @@ class Program:
             self.scale = float(np.diagonal(matrix).mean())
 
     def at(self, x: Array) -> tuple[float, Array, Array | None]:
-        """The value, the gradient (m,), and the matrix of curvature (m, m) if there is one."""
+        """Returns the value, gradient (m,), and curvature (m, m) or None, at a point (m,)."""
         if self._last is None or not np.array_equal(self._last[0], x):
             point = x.copy()
             equations = self._problem.normal_equations(point)
@@ -66,18 +66,18 @@ class Program:
         return self._last[1:]
 
     def within(self, x: Array) -> Array:
-        """A point (m,) itself if it is within the limits; else brought back to them, if it can be.
+        """Returns a point (m,) if it is feasible, else its projection onto the limits.
 
-        Where IPOPT is stopped it may violate a limit a little.
+        An iterate at which IPOPT is stopped may violate a limit slightly.
         """
         return x if self.allowed(x) else self._problem.projected(x)
 
     def allowed(self, x: Array) -> bool:
-        """Whether a point (m,) is within the limits."""
+        """Returns whether a point (m,) is feasible."""
         return float(self._beyond(x).max(initial=0.0)) <= self._tolerance
 
     def worst(self, x: Array) -> tuple[float, str]:
-        """The largest violation at x (m,), of a bound or a constraint, and what it is of."""
+        """Returns the largest violation at x (m,), and the name of its bound or constraint."""
         beyond = self._beyond(x)
         index = int(np.argmax(beyond))
         if self.constraints is None or index < len(x):
@@ -85,28 +85,30 @@ class Program:
         return float(beyond[index]), self.constraints.names[index - len(x)]
 
     def value(self, x: Array) -> Array:
-        """The scaled value, (1,)."""
+        """Returns the scaled value, (1,)."""
         return np.array([self.at(x)[0] / self.scale])
 
     def gradient(self, x: Array) -> Array:
-        """The scaled gradient, (m,)."""
+        """Returns the scaled gradient, (m,)."""
         return self.at(x)[1] / self.scale
 
     def constrained(self, x: Array) -> Array:
-        """The rows of the constraints, (C,)."""
+        """Returns the constraint rows, (C,)."""
         return np.zeros(0) if self.constraints is None else self.constraints.values(x)
 
     def jacobian(self, x: Array) -> Array:
-        """Their derivative, (C, m)."""
+        """Returns the Jacobian of the constraint rows, (C, m)."""
         return np.zeros((0, len(x))) if self.constraints is None else self.constraints.jacobian(x)
 
     def curvature(self, x: Array, factor: float, multipliers: Array) -> Array:
-        """That of the Lagrangian, (m, m): Gauss-Newton's for the value, exact for the constraints.
+        """Returns the Hessian (m, m) of the Lagrangian.
+
+        It is the Gauss-Newton matrix of the value, and exact for the constraints.
 
         Args:
-            x: Where, (m,).
-            factor: Of the value.
-            multipliers: Of the constraints, (C,).
+            x: The point, (m,).
+            factor: Factor of the value.
+            multipliers: Multipliers of the constraints, (C,).
         """
         matrix = self.at(x)[2]
         assert matrix is not None
@@ -116,14 +118,14 @@ class Program:
         return total + self.constraints.curvature(x, multipliers)
 
     def stuck(self, x: Array) -> bool:
-        """Whether ``reach`` and no limit of the problem holds a variable at x (m,)."""
+        """Returns whether ``reach``, rather than a limit, bounds a variable at x (m,)."""
         near = 1e-3 * (self.upper - self.lower)
         left = (x < self.lower + near) & (self.lower > self._problem.lower)
         right = (x > self.upper - near) & (self.upper < self._problem.upper)
         return bool((left | right).any())
 
     def _beyond(self, x: Array) -> Array:
-        """How far each bound (m,) and then each constraint (C,) is violated."""
+        """Returns the violations of all bounds, then of all constraints, (m + C,)."""
         beyond = np.maximum(self._problem.lower - x, x - self._problem.upper).clip(min=0.0)
         if self.constraints is None:
             return beyond
@@ -137,7 +139,7 @@ class Program:
 
 
 def _fitting(multipliers: Multipliers | None, size: int, rows: int) -> Multipliers | None:
-    """Multipliers for so many variables and constraints, all finite; None if they are not."""
+    """Returns multipliers if they are finite and have the lengths ``size`` and ``rows``."""
     if multipliers is None:
         return None
     bounds, constraints = multipliers.bounds, multipliers.constraints

@@ -1,4 +1,4 @@
-"""Who looks at IPOPT's iterates, and ends it early."""
+"""Early termination of IPOPT."""
 
 from __future__ import annotations
 
@@ -9,21 +9,21 @@ import numpy as np
 from regkit.system.arrays import Array
 from regkit_plugins.solvers.ipopt.program import Program
 
-SETTLED = "the value settled"
-LATE = "max_seconds ran out"
+SETTLED = "the value converged"
+LATE = "max_seconds reached"
 
 
 class Watch:
-    """Looks at IPOPT's iterates, and ends it early.
+    """Monitors IPOPT's iterates, and stops it early.
 
     Args:
         program: The program.
-        value_tolerance: It ends near a point within the limits, with a step that gains less than
-            this part of all gain before.
-        max_seconds: It ends after this time [s].
+        value_tolerance: IPOPT stops close to a feasible point if a step decreases the value by less
+            than this fraction of the total decrease.
+        max_seconds: IPOPT stops after this time [s].
 
     Attributes:
-        ending: Why it ended, or nothing.
+        ending: The reason of termination; empty before.
     """
 
     def __init__(self, program: Program, value_tolerance: float, max_seconds: float | None) -> None:
@@ -34,7 +34,7 @@ class Watch:
         self._last = np.inf
 
     def ended(self, x: Array) -> bool:
-        """Whether to end at an iterate x (m,)."""
+        """Returns whether to stop at an iterate x (m,)."""
         value = self._program.at(x)[0]
         gain, self._last = self._last - value, value
         if self._first is None:
