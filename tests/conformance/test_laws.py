@@ -212,4 +212,4 @@ def test_suite_without_pytest_says_what_to_install():
         [sys.executable, "-c", program], capture_output=True, text=True, check=False
     )
     assert "pytest" in ended.stdout
-    assert ended.stdout.endswith("run: pip install \"regkit[testing]\"\n")
+    assert ended.stdout.endswith('run: pip install "regkit[testing]"\n')
