@@ -9,9 +9,9 @@ from public_layouts import SMALL, write_itop, write_pdt13, write_records
 
 from regkit.testing import conformance
 from regkit.testing.samples import LINKAGE
-from regkit_plugins.datasets.formats.record import Record
+from regkit_plugins.datasets.formats.organized_clouds.records import RecordLayout
 
-RECORD = Record(width=SMALL.width, height=SMALL.height)
+RECORD = RecordLayout(width=SMALL.width, height=SMALL.height)
 HELD = TemporaryDirectory(prefix="regkit-layouts-")
 PUBLIC = Path(HELD.name)
 """Small files in the layouts of published data sets, until the tests end."""

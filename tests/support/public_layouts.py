@@ -12,7 +12,7 @@ import numpy as np
 from scipy.io import savemat
 
 from regkit.geometry.camera import Camera
-from regkit_plugins.datasets.formats.record import Record
+from regkit_plugins.datasets.formats.organized_clouds.records import RecordLayout
 from regkit_plugins.datasets.itop.recording import JOINTS
 
 FRAMES = 4
@@ -45,7 +45,9 @@ def body(frame: int, camera: Camera = SMALL) -> dict[str, np.ndarray]:
     return {name: np.array([x + dx, y + dy, SQUARE]) for name, (dx, dy) in BODY.items()}
 
 
-def write_records(path: Path, record: Record, signs: tuple[int, int, int] = (1, -1, -1)) -> None:
+def write_records(
+    path: Path, record: RecordLayout, signs: tuple[int, int, int] = (1, -1, -1)
+) -> None:
     """A file of frame records; the points are the camera's times ``signs``."""
     records = np.zeros(FRAMES, dtype=record.dtype)
     for frame, entry in enumerate(records):

@@ -11,7 +11,7 @@ from regkit.clouds import read_cloud
 from regkit.config.model import InputPath
 from regkit.interfaces import Dataset, Recording
 from regkit.observation import Frame, Truth
-from regkit_plugins.datasets.formats.folders import (
+from regkit_plugins.datasets.formats.recording_folders import (
     RecordingDescription,
     numbered_files,
     read_truth,

@@ -13,7 +13,7 @@ from regkit.interfaces import Dataset, Recording
 from regkit.observation import Frame, Truth
 from regkit.observation.depth_image import read_depth
 from regkit.system.errors import DataError
-from regkit_plugins.datasets.formats.folders import (
+from regkit_plugins.datasets.formats.recording_folders import (
     RecordingDescription,
     numbered_files,
     read_truth,

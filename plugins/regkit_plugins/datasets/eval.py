@@ -1,4 +1,4 @@
-"""EVAL: Kinect depth of people who were marked, in files of frame records."""
+"""EVAL: Kinect depth of people who were marked, in files of organized clouds."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from regkit_plugins.datasets.formats.frame_records import FrameRecords
-from regkit_plugins.datasets.formats.record import Record
+from regkit_plugins.datasets.formats.organized_clouds.dataset import OrganizedClouds
+from regkit_plugins.datasets.formats.organized_clouds.records import RecordLayout
 from regkit_plugins.datasets.formats.subjects import SubjectPattern
 
 
-class Eval(FrameRecords):
+class Eval(OrganizedClouds):
     """EVAL (Ganapathi, Plagemann, Koller and Thrun, ECCV 2012).
 
     Three people, eight recordings each, before a Kinect; the reference is motion capture.
@@ -29,7 +29,7 @@ class Eval(FrameRecords):
     """Which files of the folder are recordings, as a pattern with ``*``."""
     subjects: SubjectPattern | None = "^seq_([A-Za-z]+)"
     """A regular expression whose one group finds the subject in a file's name."""
-    record: Record = Record(width=320, height=240)
+    record: RecordLayout = RecordLayout(width=320, height=240)
     """How large the parts of a record are."""
     fps: Annotated[float, Field(gt=0.0)] = 30.0
     """Frames per second."""

@@ -1,4 +1,4 @@
-"""SMMC-10: time-of-flight depth of a person who was marked, in files of frame records."""
+"""SMMC-10: time-of-flight depth of a person who was marked, in files of organized clouds."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from regkit_plugins.datasets.formats.frame_records import FrameRecords
-from regkit_plugins.datasets.formats.record import Record
+from regkit_plugins.datasets.formats.organized_clouds.dataset import OrganizedClouds
+from regkit_plugins.datasets.formats.organized_clouds.records import RecordLayout
 from regkit_plugins.datasets.formats.subjects import SubjectPattern
 
 
-class Smmc10(FrameRecords):
+class Smmc10(OrganizedClouds):
     """SMMC-10 (Ganapathi, Plagemann, Koller and Thrun, CVPR 2010).
 
     28 recordings of one person before a SwissRanger SR4000 (176x144 pixels, 25 frames per second);
@@ -28,7 +28,7 @@ class Smmc10(FrameRecords):
     """Which files of the folder are recordings, as a pattern with ``*``."""
     subjects: SubjectPattern | None = None
     """A regular expression whose one group finds the subject in a file's name."""
-    record: Record = Record(width=176, height=144)
+    record: RecordLayout = RecordLayout(width=176, height=144)
     """How large the parts of a record are."""
     fps: Annotated[float, Field(gt=0.0)] = 25.0
     """Frames per second."""

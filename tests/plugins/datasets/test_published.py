@@ -30,14 +30,14 @@ from regkit.metrics import matched
 from regkit.observation import Frame
 from regkit.system.errors import DependencyError, RegkitError
 from regkit_plugins.datasets.eval import Eval
-from regkit_plugins.datasets.formats.record import Record
+from regkit_plugins.datasets.formats.organized_clouds.records import RecordLayout
 from regkit_plugins.datasets.itop.itop import CAMERA, Itop
 from regkit_plugins.datasets.pdt13 import Intrinsics, Pdt13
 from regkit_plugins.datasets.smmc10 import Smmc10
 from regkit_plugins.datasets.utd_mhad import UtdMhad
 from regkit_plugins.templates.human import Human
 
-RECORD = Record(width=SMALL.width, height=SMALL.height)
+RECORD = RecordLayout(width=SMALL.width, height=SMALL.height)
 EXACT = Intrinsics(focal_px=36.0, centre_px=(19.0, 15.5))
 PAGE = ROOT / "docs" / "reference" / "datasets.md"
 
@@ -70,7 +70,7 @@ def assert_is_scene(frames: list[Frame], *, atol: float = 1e-5) -> None:
         np.testing.assert_allclose(pixels, np.column_stack([columns, rows]), atol=1e-3)
 
 
-# EVAL and SMMC-10: frame records.
+# EVAL and SMMC-10: organized clouds.
 
 
 @pytest.fixture

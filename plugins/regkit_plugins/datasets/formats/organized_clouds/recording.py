@@ -1,4 +1,4 @@
-"""A recording of frame records."""
+"""A recording that one file of organized clouds holds."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from regkit.observation import Frame, Truth
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
 from regkit_plugins.datasets.formats.axes import Axes, in_camera
-from regkit_plugins.datasets.formats.grids import Grid, measured
-from regkit_plugins.datasets.formats.record import RecordFile
-from regkit_plugins.datasets.formats.static_background import StaticBackground
+from regkit_plugins.datasets.formats.organized_clouds.background import StaticBackground
+from regkit_plugins.datasets.formats.organized_clouds.grid import Grid, measured
+from regkit_plugins.datasets.formats.organized_clouds.records import RecordFile
 
 
 @dataclass(frozen=True)
-class RecordRecording(Recording):
-    """One file of records.
+class OrganizedRecording(Recording):
+    """One file of organized clouds.
 
     Attributes:
         file: The file.

@@ -1,4 +1,4 @@
-"""A file of frame records, read record by record."""
+"""The records of a file of organized clouds, read from the disk as they are needed."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ Size = Annotated[int, Field(ge=1)]
 Slots = Annotated[int, Field(ge=0)]
 
 
-class Record(Model):
-    """The sizes of a record's parts, as ``frame_records`` gives their order."""
+class RecordLayout(Model):
+    """The sizes of a record's parts, in the order that ``OrganizedClouds`` gives."""
 
     width: Size
     """Columns of the grid of points."""
@@ -57,11 +57,11 @@ class RecordFile:
     """
 
     path: Path
-    record: Record
+    record: RecordLayout
     length: int
 
     @classmethod
-    def of(cls, path: Path, record: Record) -> RecordFile:
+    def of(cls, path: Path, record: RecordLayout) -> RecordFile:
         """A file whose size is that of whole records.
 
         Raises:

@@ -1,7 +1,8 @@
-"""Binary files of one record after another, each a frame's points, markers and joints.
+"""Datasets in binary files: each record is a frame's organized cloud, markers and joints.
 
-This is how EVAL is stored, as read by the public loader of pyKinectTools
-(https://github.com/colincsl/pyKinectTools, ``dataset_readers/EVALPlayer.py``):
+An organized cloud has a point for each pixel of the image. This is how EVAL is stored, as read by
+the public loader of pyKinectTools (https://github.com/colincsl/pyKinectTools,
+``dataset_readers/EVALPlayer.py``):
 
     int32 magic, int32 frame, float32 points[height][width][3] [m],
     int32 marker count, markers[slots] of {char name[256], float32 position[3]},
@@ -22,13 +23,13 @@ from regkit.config.model import InputPath
 from regkit.interfaces import Dataset, Recording
 from regkit.system.errors import DataError
 from regkit_plugins.datasets.formats.axes import Axes
-from regkit_plugins.datasets.formats.record import Record, RecordFile
-from regkit_plugins.datasets.formats.record_recording import RecordRecording
+from regkit_plugins.datasets.formats.organized_clouds.recording import OrganizedRecording
+from regkit_plugins.datasets.formats.organized_clouds.records import RecordFile, RecordLayout
 from regkit_plugins.datasets.formats.subjects import SubjectPattern, subject_of
 
 
-class FrameRecords(Dataset, ABC):
-    """Files of frame records, each a recording."""
+class OrganizedClouds(Dataset, ABC):
+    """Files of organized clouds, each a recording."""
 
     root: InputPath
     """The folder that holds the files."""
@@ -36,14 +37,14 @@ class FrameRecords(Dataset, ABC):
     """Which files of the folder are recordings, as a pattern with ``*``."""
     subjects: SubjectPattern | None
     """A regular expression whose one group finds the subject in a file's name."""
-    record: Record
+    record: RecordLayout
     """How large the parts of a record are."""
     axes: Axes = ("x", "-y", "-z")
     """The data's axes that point right, down and forward from the camera."""
     fps: Annotated[float, Field(gt=0.0)]
     """Frames per second."""
     camera: bool = True
-    """Evaluation a pinhole camera to the grid of points; without it the frames are mere clouds."""
+    """Fit a pinhole camera to the grid of points; without it the frames are clouds alone."""
     foreground: Annotated[float, Field(gt=0.0)] | None = None
     """Keep only what is so much nearer [m] than the farthest that its pixel saw in the recording.
     It needs people who leave every place where they stood; everything is kept without it."""
@@ -62,7 +63,7 @@ class FrameRecords(Dataset, ABC):
 
     def _recording(self, path: Path) -> Recording:
         file = RecordFile.of(path, self.record)
-        return RecordRecording(
+        return OrganizedRecording(
             name=path.stem,
             fps=self.fps,
             length=min(file.length, self.frames or file.length),
