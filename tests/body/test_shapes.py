@@ -22,7 +22,6 @@ from regkit.body import (
 from regkit.body.groups import Groups
 from regkit.body.proportions import Proportions
 from regkit.body.writing import template_text
-from regkit.config import registry
 from regkit.config.document import Document
 from regkit.config.plugin import register
 from regkit.fitting.template import parameters_of
@@ -84,8 +83,7 @@ class Rods(ShapeModel):
 
 
 @pytest.fixture
-def rods(monkeypatch) -> None:
-    monkeypatch.setattr(registry, "_REGISTERED", {})
+def rods() -> None:
     register(Rods)
 
 
