@@ -89,6 +89,7 @@ class UncheckedParameters(ShapeParameters):
 
     def _refuse(self) -> Never:
         raise ConfigError(
-            f"shapes.{self.kind}: parameters of '{self.kind}' cannot be changed or fitted without "
-            f"their shape model ({self.reason}); install it, or remove them from the template"
+            f"parameters of '{self.kind}' cannot be changed or fitted without their shape model "
+            f"({self.reason}); install it, or remove them from the template",
+            place=f"shapes.{self.kind}",
         )

@@ -15,7 +15,7 @@ from regkit.cli.console import output
 from regkit.cli.options import PluginFiles, options, run_plugin_files
 from regkit.cli.template_file import check_replaceable, write_template
 from regkit.fitting.bones import read_bone_map
-from regkit.fitting.template import FittedTemplate
+from regkit.fitting.template import FittedTemplate, parameters_of
 from regkit.interchange.meshes import read_mesh
 from regkit.system.errors import RegkitError
 
@@ -68,17 +68,30 @@ def fit(
     vertices: Annotated[
         int, typer.Option(min=50, help="So many of the mesh's vertices are kept.")
     ] = 1500,
+    shape: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="KIND",
+            help="Fit this shape model too, with one primitive per segment, where the template "
+            "lists none of its kind.",
+        ),
+    ] = None,
     plugin: PluginFiles = None,
 ) -> None:
     """Make a template in the shape of a skinned mesh."""
     run_plugin_files(plugin)
     check_replaceable(out)
+    for kind in shape or ():
+        try:
+            parameters_of(kind)
+        except RegkitError as error:
+            raise error.at(f"--shape {kind}") from None
     description = template_named(template).description()
     with options(parents="--parents"):
         skinned = read_mesh(mesh, parents)
     mapped = {} if bones is None else read_bone_map(bones)
     try:
-        fitted = FittedTemplate.to(skinned, description, mapped, vertices)
+        fitted = FittedTemplate.to(skinned, description, mapped, vertices, shape or ())
     except RegkitError as error:
         raise error.at(str(mesh)) from None
     named = _named(fitted.description, mesh.name)

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from regkit.body import BodyDescription
-from regkit.cli.console import output, print_error
+from regkit.cli.console import errors, output, print_error
 from regkit.cli.options import PluginFiles, run_plugin_files
 from regkit.config.document import Document
 from regkit.experiment import Study
@@ -48,7 +48,17 @@ def _checked(file: Path) -> str:
             place=str(file),
         )
     if {"title", "size", "shapes", "stances"} & document.data.keys():
-        document.validated(BodyDescription).body(file.stem, 1.0)
+        description = document.validated(BodyDescription)
+        description.body(file.stem, 1.0)
+        for kind, reason in description.unchecked().items():
+            place = document.place(("shapes", kind))
+            errors.print(
+                f"warning: {place} is not checked: {reason}",
+                style="yellow",
+                markup=False,
+                highlight=False,
+                soft_wrap=True,
+            )
         return "template"
     document.validated(SkeletonDescription)
     return "skeleton"

@@ -30,11 +30,14 @@ class MeshShape:
         template: The template.
         layout: How the mesh is divided into its segments.
         parts: The flesh of each, in the template's axes.
+        added: Shape models of which the template lists nothing, and the class of their parameters:
+            each segment gets one primitive.
     """
 
     template: BodyDescription
     layout: Layout
     parts: Mapping[str, Flesh]
+    added: Mapping[str, type[ShapeParameters]]
 
     def description(self) -> BodyDescription:
         """The template with the mesh's joints and shapes; the rest is stretched with these."""
@@ -45,9 +48,16 @@ class MeshShape:
     @cached_property
     def shapes(self) -> dict[str, dict[str, tuple[ShapeParameters, ...]]]:
         """The primitives of every kind and segment."""
-        return {
+        listed = {
             kind: {name: self._fitted(kind, name, own) for name, own in by_segment.items()}
             for kind, by_segment in self.template.shapes.items()
+        }
+        return listed | {
+            kind: {
+                name: (parameters.fitted(self.layout.frames[name].local(part.interior)),)
+                for name, part in self.parts.items()
+            }
+            for kind, parameters in self.added.items()
         }
 
     def proportions(self) -> Proportions:

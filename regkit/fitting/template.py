@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from regkit.body import BodyDescription
+from regkit.body import BodyDescription, ParametricShape, ShapeParameters
 from regkit.body.proportions import Proportions, height
 from regkit.fitting.bones import first_bones, owners_of_bones
 from regkit.fitting.flesh import Flesh, divided
@@ -19,7 +19,7 @@ from regkit.geometry.rigid import inverse, rigid, transformed
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.skeleton.description import parents_first
 from regkit.system.arrays import Array
-from regkit.system.errors import DataError
+from regkit.system.errors import ConfigError, DataError
 
 FINENESS = 150
 """So many points of the grid inside the mesh lie along the template's size."""
@@ -54,6 +54,7 @@ class FittedTemplate:
         template: BodyDescription,
         bones: Mapping[str, str | None],
         vertices: int,
+        shapes: Sequence[str] = (),
     ) -> FittedTemplate:
         """A template with the joints of another, in the shape of a mesh.
 
@@ -63,13 +64,20 @@ class FittedTemplate:
                 model a segment has.
             bones: The segment of each bone; see ``owners_of_bones``.
             vertices: So many of the mesh's vertices are kept.
+            shapes: Further shape models whose parameters are fitted: one primitive per segment,
+                unless the template lists others.
 
         Raises:
-            ConfigError: If bones and segments do not fit together.
+            ConfigError: If bones and segments do not fit together, or a shape model has no
+                parameters that could be fitted.
             DataError: If the mesh is no body like the template's.
         """
         if not template.shapes:
             raise DataError("the template lists no shapes, so that none can be fitted")
+        added = {kind: parameters_of(kind) for kind in shapes if kind not in template.shapes}
+        for kind, reason in template.unchecked().items():
+            place = f"shapes.{kind} of the template"
+            raise ConfigError(f"cannot be fitted without its shape model: {reason}", place=place)
         owners = owners_of_bones(mesh, template, bones)
         starts = mesh.rest[:, :3, 3]
         joints = {name: starts[bone] for name, bone in first_bones(mesh, owners).items()}
@@ -82,10 +90,23 @@ class FittedTemplate:
         _check_filled(template, parts)
         frames = Posture(template, joints).frames(parts)
         layout = Layout(T_template_mesh, owners, frames)
-        shape = MeshShape(template, layout, parts)
+        shape = MeshShape(template, layout, parts, added)
         description = shape.description()
         skin = decimated(on_segments(mesh, layout, description), vertices)
         return cls(_sized(description, template, skin), skin, owners, shape.proportions())
+
+
+def parameters_of(kind: str) -> type[ShapeParameters]:
+    """The class of a shape model's parameters.
+
+    Raises:
+        ConfigError: If it has none.
+        PluginError: If there is no such shape model.
+    """
+    parameters = ParametricShape.parameters_of(kind)
+    if parameters is None:
+        raise ConfigError(f"the shape model '{kind}' has no parameters that could be fitted")
+    return parameters
 
 
 def _rough_size(template: BodyDescription, joints: Mapping[str, Array]) -> float:

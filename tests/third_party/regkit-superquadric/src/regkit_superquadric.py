@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
-from scipy.special import gamma
+from scipy.special import beta, gamma
 
-from regkit.body import Body
+from regkit.body import Body, EllipsoidParameters, ListedShape, ShapeParameters, ellipsoids
 from regkit.geometry.rotation import rotation_between
 from regkit.interfaces import Kernel, ShapeModel
 from regkit.observation import Observation
@@ -51,17 +51,30 @@ def gauge(points: Array, scales: Array, exponents: Array) -> tuple[Array, Array]
     return value, gradients / (2.0 * scales)
 
 
+class SuperellipsoidParameters(EllipsoidParameters):
+    """A superellipsoid that a template lists, by its mean and standard deviations."""
+
+    exponent: Annotated[float, Field(ge=2.0, le=20.0)] = 2.0
+    """Two for an ellipsoid; the larger, the more it is a cylinder about its second axis."""
+
+
 class Superquadric(ShapeModel):
-    """A superellipsoid for each capsule of the template, of the same length and volume."""
+    """The template's superellipsoids, or one for each capsule, of the same length and volume."""
 
     kind: Literal["superquadric"] = "superquadric"
     makes: ClassVar[type[Primitives]] = Superellipsoids
+    parameters: ClassVar[type[ShapeParameters] | None] = SuperellipsoidParameters
 
     girth: Annotated[float, Field(gt=0.0)] = 1.0
-    """Radius as a part of the capsule's mean radius."""
+    """Radius as a part of the template's."""
 
     def bind(self, body: Body) -> Superellipsoids:
-        """One superellipsoid about each capsule's axis."""
+        """The superellipsoids that the template lists, or one about each capsule's axis."""
+        listed = body.shapes.get(self.kind)
+        solids = self._of_capsules(body) if listed is None else _of_moments(listed)
+        return replace(solids, scales=solids.scales * [self.girth, 1.0, self.girth])
+
+    def _of_capsules(self, body: Body) -> Superellipsoids:
         capsules = body.capsules
         if not len(capsules):
             raise ConfigError(f"shape '{self.kind}' needs capsules; '{body.name}' has none")
@@ -76,10 +89,21 @@ class Superquadric(ShapeModel):
             segments=capsules.segments,
             centres=capsules.ends.mean(axis=1),
             axes=np.array([_turned_to(way) for way in ways]),
-            scales=0.5 * np.column_stack([self.girth * radii, reach, self.girth * radii]),
+            scales=0.5 * np.column_stack([radii, reach, radii]),
             weights=np.ones(len(radii)),
             exponents=np.interp(filled, parts, exponents),
         )
+
+
+def _of_moments(listed: ListedShape[SuperellipsoidParameters]) -> Superellipsoids:
+    """The superellipsoids that a template lists; their variances are ratios of beta functions."""
+    segments, centres, axes, sigmas, weights = ellipsoids(listed)
+    exponents = np.array([one.exponent for one in listed.parameters])
+    part, whole = 1.0 / exponents, beta(1.0 / exponents, 2.0 / exponents + 1.0)
+    across = beta(part, 4.0 * part + 1.0) / (4.0 * whole)
+    along = beta(3.0 * part, 2.0 * part + 1.0) / whole
+    scales = sigmas / np.sqrt(4.0 * np.column_stack([across, along, across]))
+    return Superellipsoids(segments, centres, axes, scales, weights, exponents)
 
 
 def _turned_to(way: Array) -> Array:
