@@ -22,7 +22,7 @@ from regkit.body import Body
 from regkit.experiment import Experiment
 from regkit.interfaces import Method, RegistrationResult, Solver
 from regkit.observation import Observation
-from regkit.registration.problem import RegistrationProblem
+from regkit.registration import RegistrationProblem
 from regkit.skeleton import Pose
 from regkit.start import found_start
 from regkit.system.optional import one_blas_thread

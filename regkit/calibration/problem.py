@@ -11,7 +11,7 @@ from regkit.calibration.cloud import Cloud
 from regkit.calibration.jacobian import ProportionJacobian
 from regkit.calibration.shape import Shape
 from regkit.interfaces import Problem
-from regkit.registration.coordinates import TangentCoordinates
+from regkit.registration import TangentCoordinates
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array, Indices
 

@@ -10,7 +10,9 @@ from typing import ClassVar
 import numpy as np
 
 from regkit.gaussians.pairs import Pairs
-from regkit.gaussians.seen import Frozen, Seen, seen
+from regkit.gaussians.seen import Seen
+from regkit.gaussians.visible import seen
+from regkit.gaussians.volume import Frozen
 from regkit.interfaces import Response, Similarity
 from regkit.observation import Observation
 from regkit.primitives import Gaussians, Placed

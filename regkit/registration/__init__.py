@@ -1,15 +1,12 @@
 """Registration: coordinates, constraints, residuals and the problem with its one chain rule."""
 
-from regkit.registration.coordinates import (
-    COORDINATES,
-    Coordinates,
-    CoordinatesName,
-    QuaternionCoordinates,
-    TangentCoordinates,
-)
+from regkit.registration.charts import COORDINATES, CoordinatesName
+from regkit.registration.coordinates import Coordinates
 from regkit.registration.problem import RegistrationProblem
+from regkit.registration.quaternions import QuaternionCoordinates
 from regkit.registration.residuals import Residuals, ResidualSimilarity
 from regkit.registration.robust import Loss, Robust
+from regkit.registration.tangent import TangentCoordinates
 
 __all__ = [
     "COORDINATES",

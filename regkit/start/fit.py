@@ -9,7 +9,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from regkit.body import Body
-from regkit.registration.coordinates import TangentCoordinates
+from regkit.registration import TangentCoordinates
 from regkit.skeleton import Pose
 from regkit.start.scan import Scan
 from regkit.system.arrays import Array

@@ -11,9 +11,7 @@ from regkit.body import Body
 from regkit.interfaces import Kernel, Similarity
 from regkit.observation import Observation
 from regkit.primitives import Placed, Primitives
-from regkit.registration import ResidualSimilarity
-from regkit.registration.coordinates import TangentCoordinates
-from regkit.registration.problem import RegistrationProblem
+from regkit.registration import RegistrationProblem, ResidualSimilarity, TangentCoordinates
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit.testing.cases import Pair

@@ -11,8 +11,7 @@ import pytest
 from regkit.body import Body
 from regkit.interfaces import Response, Similarity, Solver
 from regkit.primitives import Placed, Primitives
-from regkit.registration.coordinates import COORDINATES, CoordinatesName
-from regkit.registration.problem import RegistrationProblem
+from regkit.registration import COORDINATES, CoordinatesName, RegistrationProblem
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError

@@ -12,8 +12,7 @@ from regkit.body import Body
 from regkit.interfaces import JointEnergy, Response, Scene, Similarity, Term, VisibilityWeights
 from regkit.interfaces.term import Effect
 from regkit.primitives import Placed, Primitives
-from regkit.registration.coordinates import TangentCoordinates
-from regkit.registration.problem import RegistrationProblem
+from regkit.registration import RegistrationProblem, TangentCoordinates
 from regkit.system.errors import RegkitError
 from regkit.testing.cases import Pair
 from regkit.testing.differences import Slopes

@@ -8,7 +8,7 @@ from regkit.body.writing import template_text
 from regkit.config.document import Document
 from regkit.interfaces import Method, Solver
 from regkit.observation import Observation
-from regkit.registration.coordinates import COORDINATES
+from regkit.registration import COORDINATES
 from regkit.skeleton import Pose, PoseDescription
 from regkit.system.errors import ConfigError
 from regkit_synthesis.templates import mirror

@@ -7,7 +7,7 @@ from regkit.body import Body, BodyDescription
 from regkit.config.document import Document
 from regkit.geometry.rigid import inverse, log, rigid
 from regkit.geometry.rotation import from_vector, vector_to_matrix
-from regkit.registration.coordinates import COORDINATES
+from regkit.registration import COORDINATES
 from regkit.skeleton import Pose, PoseDescription
 from regkit.system.errors import ConfigError
 

@@ -7,8 +7,8 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 from pydantic import Field
 
-from regkit.gaussians.seen import seen
 from regkit.gaussians.similarity import GaussianSimilarity
+from regkit.gaussians.visible import seen
 from regkit.interfaces import Kernel
 from regkit.observation import Observation
 from regkit.primitives import Gaussians, Placed, Primitives

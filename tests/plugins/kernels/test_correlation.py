@@ -7,8 +7,7 @@ from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.observation import Observation
 from regkit.primitives import Gaussians
-from regkit.registration.coordinates import COORDINATES
-from regkit.registration.problem import RegistrationProblem
+from regkit.registration import COORDINATES, RegistrationProblem
 from regkit_plugins.kernels.correlation import Correlation
 from regkit_plugins.shapes.gsog import GeneralizedSumOfGaussians
 from regkit_plugins.shapes.sog import SumOfGaussians

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from regkit.gaussians.seen import Visible, seen
+from regkit.gaussians.visible import Visible, seen
 from regkit.geometry.camera import Camera
 from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import vector_to_matrix

@@ -11,9 +11,7 @@ from regkit.geometry.rotation import vector_to_matrix
 from regkit.geometry.surface import SkinnedSurface
 from regkit.interfaces import Response, Similarity
 from regkit.observation import Frame, Observation
-from regkit.registration.coordinates import COORDINATES
-from regkit.registration.problem import RegistrationProblem
-from regkit.registration.robust import Robust
+from regkit.registration import COORDINATES, RegistrationProblem, Robust
 from regkit.system.errors import ConfigError
 from regkit_plugins.kernels.point_to_plane.point_to_plane import PointToPlane
 from regkit_plugins.kernels.point_to_plane.visible import visible

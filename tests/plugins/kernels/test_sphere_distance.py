@@ -11,8 +11,7 @@ from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.observation import Observation
 from regkit.primitives import TaperedCapsules
-from regkit.registration.coordinates import COORDINATES
-from regkit.registration.problem import RegistrationProblem
+from regkit.registration import COORDINATES, RegistrationProblem
 from regkit.system.errors import ConfigError
 from regkit_plugins.kernels.sphere_distance.sphere_distance import SphereDistance
 from regkit_plugins.shapes.sphere import SphereMesh

@@ -9,8 +9,7 @@ from pydantic import ValidationError
 from regkit.body import Body
 from regkit.interfaces import Method, Multipliers, ShapeModel, Solver, Template
 from regkit.observation import Observation
-from regkit.registration.coordinates import COORDINATES
-from regkit.registration.problem import RegistrationProblem
+from regkit.registration import COORDINATES, RegistrationProblem
 from regkit.skeleton import Pose
 
 SIZES = {"human": 1.75, "hand": 0.186}

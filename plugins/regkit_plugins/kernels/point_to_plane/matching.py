@@ -10,7 +10,7 @@ from regkit.interfaces import Kernel
 from regkit.observation import Observation
 from regkit.primitives import Primitives
 from regkit.primitives.surfels import Surfels
-from regkit.registration.robust import Robust
+from regkit.registration import Robust
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError
 

@@ -22,8 +22,7 @@ from regkit.interfaces import (
 )
 from regkit.observation import Observation
 from regkit.primitives import Gaussians, Placed
-from regkit.registration.coordinates import TangentCoordinates
-from regkit.registration.problem import RegistrationProblem
+from regkit.registration import RegistrationProblem, TangentCoordinates
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit_plugins.methods.coarse_to_fine.resolutions import Resolution, observations, resolutions

@@ -10,8 +10,7 @@ import numpy as np
 from regkit.body import Body
 from regkit.interfaces import JointEnergy, Multipliers, Similarity
 from regkit.primitives import Primitives
-from regkit.registration.coordinates import Coordinates
-from regkit.registration.problem import RegistrationProblem
+from regkit.registration import Coordinates, RegistrationProblem
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 

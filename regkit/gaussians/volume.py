@@ -1,0 +1,93 @@
+"""Whole Gaussians, and Gaussians of frozen covariances, as a kernel sees them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from regkit.gaussians.pairs import Moments
+from regkit.gaussians.seen import Seen
+from regkit.geometry.rotation import axial
+from regkit.primitives import Gaussians, Placed
+from regkit.system.arrays import Array
+
+
+@dataclass(frozen=True)
+class Volume(Seen):
+    """Whole Gaussians.
+
+    Attributes:
+        axes: R_world_primitive, (K, 3, 3).
+        scales: Standard deviations, (K, 3) [m].
+    """
+
+    rigid: ClassVar[bool] = True
+    axes: Array
+    scales: Array
+
+    @classmethod
+    def of(cls, placed: Placed[Gaussians]) -> Volume:
+        """The primitives themselves."""
+        return cls(placed.centres, placed.axes, placed.primitives.scales)
+
+    def precisions(self, variance: float) -> Array:
+        """P is diagonal in the Gaussian's own axes."""
+        spread = (self.scales**2 + variance)[:, None, :]
+        return np.asarray((self.axes / spread) @ self.axes.transpose(0, 2, 1))
+
+    def log_volumes(self) -> Array:
+        """Of the squared scales."""
+        return np.asarray(2.0 * np.log(self.scales.prod(axis=1)))
+
+    def areas(self) -> Array:
+        """The largest sections of the 2-sigma ellipsoids."""
+        scales = np.sort(self.scales, axis=1)
+        return np.asarray(4.0 * np.pi * scales[:, 1] * scales[:, 2])
+
+    def wrenches(self, moments: Moments, volume_power: float) -> Array:
+        """The torque is that of the forces -P q applied at the data points y.
+
+        The exact derivative to the rotation applies them at the product's mean, m + C P q. But y
+        lies on the same line of action, since q = C P q + sigma^2 P q.
+        """
+        pulls, levers = moments.pulls()
+        wrenches = np.empty((len(pulls), 6))
+        np.negative(pulls, out=wrenches[:, :3])
+        wrenches[:, 3:] = axial(levers)
+        return wrenches
+
+
+@dataclass(frozen=True)
+class Frozen(Seen):
+    """Gaussians whose covariances keep those of the start pose, as the paper has it (after eq. 11).
+
+    Attributes:
+        start: How they were seen there.
+    """
+
+    rigid: ClassVar[bool] = True
+    start: Seen
+
+    @classmethod
+    def of(cls, start: Seen, moved: Array) -> Frozen:
+        """Gaussians that have moved by (K, 3) [m] since the start."""
+        return cls(start.means + moved, start)
+
+    def precisions(self, variance: float) -> Array:
+        """Those of the start."""
+        return self.start.precisions(variance)
+
+    def log_volumes(self) -> Array:
+        """Those of the start."""
+        return self.start.log_volumes()
+
+    def areas(self) -> Array:
+        """Those of the start."""
+        return self.start.areas()
+
+    def wrenches(self, moments: Moments, volume_power: float) -> Array:
+        """Forces alone."""
+        pulls, _ = moments.pulls()
+        return np.concatenate([-pulls, np.zeros_like(pulls)], axis=1)

@@ -1,0 +1,77 @@
+"""Steps on the tangent space as coordinates of poses."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from regkit.interfaces import Constraints
+from regkit.registration.constraints import tangent_constraints
+from regkit.registration.coordinates import Coordinates
+from regkit.skeleton import Pose
+from regkit.skeleton.compiled_steps import step_jacobian
+from regkit.system.arrays import Array
+
+
+@dataclass(frozen=True)
+class TangentCoordinates(Coordinates):
+    """Steps on the tangent space at the start: 6 for a free root, 3 for a ball, 1 for a hinge.
+
+    A hinge that follows another has none.
+    """
+
+    unique = True
+
+    def origin(self) -> Array:
+        """Zero."""
+        return np.zeros(self.skeleton.dofs - len(self._couplings))
+
+    def pose(self, x: Array) -> Pose:
+        """``retract(start, x)``, followers made to follow."""
+        if not len(self._couplings):
+            return self.skeleton.retract(self.start, x)
+        pose = self.skeleton.retract(self.start, self._step(x))
+        return Pose(pose.root, pose.balls, self._couplings.coupled(pose.hinges))
+
+    def vector(self, pose: Pose) -> Array:
+        """The step from the start to a pose, its rotations of at most half a turn."""
+        return self._independent(self.skeleton.difference(self.start, pose))
+
+    def jacobian(self, x: Array) -> Array:
+        """By the right Jacobian of each rotation vector: exp(w + dw) = exp(w) exp(J dw)."""
+        first = 3 if self.skeleton.free else 0
+        hinges = self.skeleton.hinge_dofs
+        jacobian = step_jacobian(self._step(x), first, hinges.start)
+        if not len(self._couplings):
+            return jacobian
+        return np.hstack([
+            jacobian[:, : hinges.start], jacobian[:, hinges] @ self._couplings.jacobian
+        ])  # fmt: skip
+
+    def bounds(self) -> tuple[Array, Array]:
+        """The hinges' limits, and half a turn for each part of a rotation vector."""
+        lower, upper = np.full((2, self.skeleton.dofs), np.pi)
+        lower = -lower
+        if self.skeleton.free:
+            lower[:3], upper[:3] = -np.inf, np.inf
+        hinges = self.skeleton.hinge_dofs
+        lower[hinges] = self.skeleton.limits.hinge[:, 0] - self.start.hinges
+        upper[hinges] = self.skeleton.limits.hinge[:, 1] - self.start.hinges
+        lower, upper = self._independent(lower), self._independent(upper)
+        return np.minimum(lower, 0.0), np.maximum(upper, 0.0)
+
+    def constraints(self) -> Constraints | None:
+        """The swings and twists of the ball joints that have limits."""
+        return tangent_constraints(self.skeleton, self.start.balls, len(self.origin()))
+
+    def _step(self, x: Array) -> Array:
+        """The step (n,) of all degrees of freedom at x (m,)."""
+        if not len(self._couplings):
+            return x
+        hinges = self.skeleton.hinge_dofs.start
+        return np.concatenate([x[:hinges], self._couplings.jacobian @ x[hinges:]])
+
+    def _independent(self, step: Array) -> Array:
+        """The part (m,) of a step (n,) that followers have no part in."""
+        return np.delete(step, self.skeleton.hinge_dofs.start + self._couplings.followers)
