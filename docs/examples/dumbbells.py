@@ -2,8 +2,6 @@
 
 from typing import ClassVar, Literal
 
-import numpy as np
-
 from regkit.body import Body
 from regkit.config.plugin import register
 from regkit.interfaces import ShapeModel
@@ -22,12 +20,5 @@ class Dumbbells(ShapeModel):
 
     def bind(self, body: Body) -> Gaussians:
         """Gaussians at the ends of the body's capsules."""
-        capsules = body.capsules
-        radii = capsules.radii.reshape(-1)
-        return Gaussians(
-            segments=np.repeat(capsules.segments, 2),
-            centres=capsules.ends.reshape(-1, 3),
-            axes=np.tile(np.eye(3), (len(radii), 1, 1)),
-            scales=np.repeat(self.share * radii[:, None], 3, axis=1),
-            weights=np.ones(len(radii)),
-        )
+        ends = self.capsules_of(body).axis_samples(2)
+        return Gaussians.isotropic(ends.segments, ends.points, self.share * ends.radii)

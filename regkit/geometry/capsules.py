@@ -70,6 +70,20 @@ class Capsules:
         """
         return np.asarray(self._distances(points)[0].min(axis=1))
 
+    def frames(self) -> Array:
+        """Returns right-handed axes (C, 3, 3) whose second one has the direction of the capsule's.
+
+        A capsule of no length has the direction y.
+        """
+        ways = self.ends[:, 1] - self.ends[:, 0]
+        lengths = np.linalg.norm(ways, axis=1, keepdims=True)
+        units = np.where(
+            lengths > 0.0, ways / np.where(lengths > 0.0, lengths, 1.0), [0.0, 1.0, 0.0]
+        )
+        sides = np.cross(units, np.eye(3)[np.abs(units).argmin(axis=1)])
+        sides /= np.linalg.norm(sides, axis=1, keepdims=True)
+        return np.stack([sides, units, np.cross(sides, units)], axis=2)
+
     def axis_points(self, spacing: float) -> AxisPoints:
         """Returns samples of the axes, at most ``spacing`` [m] apart."""
         lengths = np.linalg.norm(self.ends[:, 1] - self.ends[:, 0], axis=1)
@@ -77,13 +91,23 @@ class Capsules:
         return self._on_axes(np.ceil(lengths / spacing - 1e-6).astype(np.intp) + 1)
 
     def axis_samples(self, count: int) -> AxisPoints:
-        """Returns ``count`` evenly spaced samples of each axis."""
+        """Returns ``count`` evenly spaced samples of each axis, from end to end."""
         return self._on_axes(np.full(len(self), count, dtype=np.intp))
+
+    def axis_parts(self, counts: int | Indices) -> AxisPoints:
+        """Returns the middles of ``counts`` equal parts of the axes, one number or (C,)."""
+        each = np.broadcast_to(counts, len(self))
+        along = np.concatenate([(np.arange(count) + 0.5) / count for count in each])
+        return self._at(np.repeat(np.arange(len(self)), each), along)
 
     def _on_axes(self, counts: Indices) -> AxisPoints:
         """Returns evenly spaced samples of the axes, ``counts`` (C,) of each."""
         capsules = np.repeat(np.arange(len(self)), counts)
         along = np.concatenate([np.linspace(0.0, 1.0, count) for count in counts])
+        return self._at(capsules, along)
+
+    def _at(self, capsules: Indices, along: Array) -> AxisPoints:
+        """Returns samples ``along`` (M,), from 0 to 1, the axes of capsules (M,)."""
         ends, radii = self.ends[capsules], self.radii[capsules]
         return AxisPoints(
             segments=self.segments[capsules],

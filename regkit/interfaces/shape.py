@@ -6,7 +6,9 @@ from abc import ABC, abstractmethod
 from typing import ClassVar
 
 from regkit.body import Body, ParametricShape
+from regkit.geometry.capsules import Capsules
 from regkit.primitives import Primitives
+from regkit.system.errors import ConfigError
 
 
 class ShapeModel(ParametricShape, ABC):
@@ -21,6 +23,19 @@ class ShapeModel(ParametricShape, ABC):
 
     makes: ClassVar[type[Primitives]]
     """The type of the primitives."""
+
+    def capsules_of(self, body: Body) -> Capsules:
+        """The body's capsules, of which the shape model makes its primitives.
+
+        Raises:
+            ConfigError: If the body has none.
+        """
+        if not len(body.capsules):
+            raise ConfigError(
+                f"the template '{body.name}' has no capsules, of which the shape '{self.kind}' is "
+                "made; give its segments some, or take a shape that the template lists"
+            )
+        return body.capsules
 
     @abstractmethod
     def bind(self, body: Body) -> Primitives:

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
 
 from regkit.primitives.volumes import Volumes
+from regkit.system.arrays import Array, Indices
 
 
 @dataclass(frozen=True)
@@ -15,6 +19,24 @@ class Gaussians(Volumes):
     R^T. (The paper writes C for the matrix in the exponent and calls it a covariance; there it is a
     precision.)
     """
+
+    @classmethod
+    def isotropic(cls, segments: Indices, centres: Array, deviations: Array) -> Self:
+        """Gaussians that are as wide in all directions.
+
+        Args:
+            segments: The segment that carries each, (K,).
+            centres: Means in the segments' frames, (K, 3) [m].
+            deviations: Standard deviations, (K,) [m].
+        """
+        count = len(segments)
+        return cls(
+            segments=segments,
+            centres=centres,
+            axes=np.tile(np.eye(3), (count, 1, 1)),
+            scales=np.repeat(deviations[:, None], 3, axis=1),
+            weights=np.ones(count),
+        )
 
 
 @dataclass(frozen=True)

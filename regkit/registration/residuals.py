@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from regkit.interfaces import Response, Similarity
+from regkit.observation import Observation
 from regkit.primitives import Placed
 from regkit.primitives.accumulation import accumulated_residuals
 from regkit.registration.robust import Loss
@@ -61,11 +62,20 @@ class Residuals:
 class ResidualSimilarity(Similarity):
     """A robust loss of residuals: the author gives the residuals, the rest follows.
 
+    Args:
+        observation: The data.
+        loss: What a residual costs.
+
     Attributes:
+        points: The data, (N, 3) [m].
+        weights: Of the points, (N,), of sum one.
         loss: What a residual costs.
     """
 
-    loss: Loss
+    def __init__(self, observation: Observation, loss: Loss) -> None:
+        self.points = observation.points
+        self.weights = observation.weights / observation.weights.sum()
+        self.loss = loss
 
     @abstractmethod
     def residuals(self, placed: Placed[Any]) -> Residuals:

@@ -11,6 +11,7 @@ from pydantic import Field
 
 from regkit.config.model import Model
 from regkit.system.arrays import Array
+from regkit.system.errors import ConfigError
 
 
 class Robust(Model):
@@ -23,16 +24,25 @@ class Robust(Model):
     """Standard deviation of the residuals that are the model's own [m]; without it, that of each
     frame's residuals where its registration begins."""
 
-    def bound(self, residuals: Array, *, least: float, smoothing: float = 0.0) -> Loss:
+    def bound(
+        self, residuals: Array | None = None, *, least: float = 0.0, smoothing: float = 0.0
+    ) -> Loss:
         """The loss whose scale is that of the data, one function for the whole solution.
 
         Args:
-            residuals: At the start, (N,) [m].
-            least: What an estimated scale is at least [m], such as the data's own standard
-                deviation: residuals that happen to be all alike tell nothing of noise.
+            residuals: At the start, (N,) [m]; they are needed where no scale is given.
+            least: The least estimated scale [m], such as the standard deviation of the data:
+                residuals that happen to be equal say nothing about noise.
             smoothing: A standard deviation [m] that widens the scale.
+
+        Raises:
+            ConfigError: If the scale is neither given nor follows from residuals.
         """
-        scale = max(median_scale(residuals), least) if self.scale is None else self.scale
+        scale = self.scale
+        if scale is None:
+            if residuals is None:
+                raise ConfigError("robust.scale is needed: the kernel does not estimate it")
+            scale = max(median_scale(residuals), least)
         return _LOSSES[self.loss](float(np.hypot(scale, smoothing)))
 
 

@@ -10,7 +10,6 @@ from regkit.body import BallParameters, Body, ShapeParameters, ellipsoids
 from regkit.geometry.capsules import Capsules
 from regkit.interfaces import ShapeModel
 from regkit.primitives import Gaussians, Primitives
-from regkit.system.errors import ConfigError
 from regkit_plugins.shapes.surface import Surface, shown
 
 
@@ -32,29 +31,13 @@ class SumOfGaussians(ShapeModel):
         """The template's own isotropic Gaussians, or some made from its capsules."""
         listed = body.shapes.get(self.kind)
         if listed is None:
-            return shown(_strung_along(body.capsules, body.name), self.surface)
+            return shown(_strung_along(self.capsules_of(body)), self.surface)
         return shown(Gaussians(*ellipsoids(listed)), self.surface)
 
 
-def _strung_along(capsules: Capsules, name: str) -> Gaussians:
+def _strung_along(capsules: Capsules) -> Gaussians:
     """Gaussians about one mean radius apart on the axes of capsules."""
-    if not len(capsules):
-        raise ConfigError(
-            f"the template '{name}' has neither shapes.sog nor capsules to make them from"
-        )
-    segments, centres, radii = [], [], []
-    for segment, (start, end), (first, last) in zip(
-        capsules.segments, capsules.ends, capsules.radii, strict=True
-    ):
-        count = max(1, round(float(np.linalg.norm(end - start)) / (0.5 * (first + last))))
-        along = (np.arange(count) + 0.5) / count
-        segments += [segment] * count
-        centres += list(start + along[:, None] * (end - start))
-        radii += list(first + along * (last - first))
-    return Gaussians(
-        segments=np.array(segments, dtype=np.intp),
-        centres=np.array(centres),
-        axes=np.tile(np.eye(3), (len(segments), 1, 1)),
-        scales=np.repeat(0.5 * np.array(radii)[:, None], 3, axis=1),
-        weights=np.ones(len(segments)),
-    )
+    lengths = np.linalg.norm(capsules.ends[:, 1] - capsules.ends[:, 0], axis=1)
+    counts = np.maximum(1, np.rint(lengths / capsules.radii.mean(axis=1)).astype(np.intp))
+    axes = capsules.axis_parts(counts)
+    return Gaussians.isotropic(axes.segments, axes.points, 0.5 * axes.radii)

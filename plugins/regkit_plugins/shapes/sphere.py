@@ -11,8 +11,6 @@ from regkit.body import Body
 from regkit.geometry.capsules import Capsules
 from regkit.interfaces import ShapeModel
 from regkit.primitives import Primitives, TaperedCapsules
-from regkit.system.arrays import Array
-from regkit.system.errors import ConfigError
 
 
 class SphereMesh(ShapeModel):
@@ -39,14 +37,10 @@ class SphereMesh(ShapeModel):
         Raises:
             ConfigError: If the template has no capsules.
         """
-        if not len(body.capsules):
-            raise ConfigError(
-                f"the template '{body.name}' has no capsules, which the shape '{self.kind}' is "
-                "made of"
-            )
+        capsules = self.capsules_of(body)
         if self.variant == "spheres":
-            return _joined(_strung_along(body.capsules, self.spacing))
-        return _joined(body.capsules)
+            return _joined(_strung_along(capsules, self.spacing))
+        return _joined(capsules)
 
 
 def _strung_along(capsules: Capsules, spacing: float) -> Capsules:
@@ -80,19 +74,9 @@ def _joined(capsules: Capsules) -> TaperedCapsules:
     return TaperedCapsules(
         segments=capsules.segments,
         centres=ends.mean(axis=1),
-        axes=np.array([_frame(end - start) for start, end in ends]),
+        axes=Capsules(capsules.segments, ends, radii).frames(),
         scales=np.column_stack([across, along, across]),
         weights=np.ones(len(capsules)),
         halves=halves,
         radii=radii,
     )
-
-
-def _frame(way: Array) -> Array:
-    """Axes (3, 3) of which the second has the direction of ``way`` (3,), which may be zero."""
-    length = float(np.linalg.norm(way))
-    unit = way / length if length > 0.0 else np.array([0.0, 1.0, 0.0])
-    helper = np.eye(3)[np.argmin(np.abs(unit))]
-    side = np.cross(unit, helper)
-    side /= np.linalg.norm(side)
-    return np.column_stack([side, unit, np.cross(side, unit)])

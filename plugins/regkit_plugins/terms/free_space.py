@@ -10,7 +10,7 @@ from pydantic import Field
 from regkit.geometry.rotation import cross
 from regkit.interfaces import Scene, Term
 from regkit.primitives import Placed
-from regkit.registration import Loss, Residuals, ResidualSimilarity
+from regkit.registration import Residuals, ResidualSimilarity
 from regkit.registration.robust import PseudoHuber
 
 REACH = 1.0
@@ -48,9 +48,8 @@ class BoundFreeSpace(ResidualSimilarity):
         scene: The frame.
     """
 
-    loss: Loss = PseudoHuber(1.0)
-
     def __init__(self, term: FreeSpace, scene: Scene) -> None:
+        super().__init__(scene.observation, PseudoHuber(1.0))
         scales = scene.placed.primitives.scales
         count = len(scales)
         ordered = np.sort(scales, axis=1)

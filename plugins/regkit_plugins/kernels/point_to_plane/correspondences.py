@@ -12,6 +12,7 @@ from regkit.observation import Observation
 from regkit.primitives import Placed
 from regkit.primitives.surfels import Surfels
 from regkit.registration import Loss, Residuals, ResidualSimilarity
+from regkit.registration.robust import Squares
 from regkit.system.arrays import Array, Indices
 from regkit_plugins.kernels.point_to_plane.matching import MatchingKernel, given_normals
 from regkit_plugins.kernels.point_to_plane.visible import visible
@@ -59,15 +60,15 @@ class BoundMatching(ResidualSimilarity):
         point_share: float,
         normals: Array | None = None,
     ) -> None:
+        # The scale of the loss may follow from the pairs at the start.
+        super().__init__(observation, Squares(1.0))
         self._kernel = kernel
-        self._points = observation.points
-        self._weights = observation.weights / observation.weights.sum()
         self._oriented = observation.camera is not None
         self._facing: Array | None = None
         if kernel.angle_deg is not None:
             self._facing = given_normals(observation, "angle_deg")
             if self._oriented:
-                away = np.einsum("ni,ni->n", self._facing, self._points) > 0.0
+                away = np.einsum("ni,ni->n", self._facing, self.points) > 0.0
                 self._facing = np.where(away[:, None], -self._facing, self._facing)
         self._point_share, self._normals = point_share, normals
         self._shown = visible(start) if self._oriented else np.arange(len(start))
@@ -90,7 +91,7 @@ class BoundMatching(ResidualSimilarity):
         """By how much each point counts for its partner's, (N,); nothing where it has none."""
         found = self._partners(placed)
         offsets, normals = self._offsets(placed, found.points, found.surfels)
-        probability = np.zeros(len(self._points))
+        probability = np.zeros(len(self.points))
         probability[found.points] = self.loss.inlier_probability(self._sizes(offsets, normals))
         return probability
 
@@ -135,20 +136,20 @@ class BoundMatching(ResidualSimilarity):
             alike = alike if self._oriented else np.abs(alike)
             kept = alike > np.cos(np.radians(self._kernel.angle_deg))
             points, surfels = points[kept], surfels[kept]
-        weights = self._weights[points]
+        weights = self.weights[points]
         return Matches(points, surfels, weights, 1.0 - float(weights.sum()))
 
     def _nearest(self, placed: Placed[Surfels], reach: float) -> tuple[Array, Indices]:
         """Distance (N,) [m] and number (N,) among the visible ones of the nearest surfel."""
         tree = cKDTree(placed.centres[self._shown])
-        distances, nearest = tree.query(self._points, distance_upper_bound=reach)
+        distances, nearest = tree.query(self.points, distance_upper_bound=reach)
         return np.asarray(distances), np.asarray(nearest)
 
     def _offsets(
         self, placed: Placed[Surfels], points: Indices, surfels: Indices
     ) -> tuple[Array, Array]:
         """The ways from surfels to points, (M, 3) [m], and the normals there, (M, 3)."""
-        offsets = self._points[points] - placed.centres[surfels]
+        offsets = self.points[points] - placed.centres[surfels]
         normals = placed.axes[surfels, :, 2] if self._normals is None else self._normals[points]
         return offsets, normals
 

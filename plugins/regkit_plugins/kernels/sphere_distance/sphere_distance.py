@@ -10,6 +10,7 @@ from regkit.interfaces import Kernel
 from regkit.observation import Observation
 from regkit.primitives import Placed, Primitives, TaperedCapsules
 from regkit.registration import Residuals, ResidualSimilarity, Robust
+from regkit.registration.robust import Squares
 from regkit.system.arrays import Array, Indices
 from regkit_plugins.kernels.sphere_distance.compiled import (
     nearest_capsules,
@@ -71,13 +72,13 @@ class BoundSphereDistance(ResidualSimilarity):
         start: Placed[TaperedCapsules],
         smoothing: float,
     ) -> None:
-        self._points = observation.points
-        self._weights = observation.weights / observation.weights.sum()
+        # The scale of the loss follows from the distances at the start.
+        super().__init__(observation, Squares(1.0))
         self._front = kernel.side == "front" and observation.camera is not None
         weights = start.primitives.weights
         self._surprise = np.log(weights.max() / weights)
         self._robust = kernel.robust
-        self._deviation = float(np.sqrt(self._weights @ observation.variances))
+        self._deviation = float(np.sqrt(self.weights @ observation.variances))
         self._scale = self._deviation
         _, distances, _ = self._nearest(start)
         self.loss = kernel.robust.bound(distances, least=self._deviation, smoothing=smoothing)
@@ -97,8 +98,8 @@ class BoundSphereDistance(ResidualSimilarity):
     def residuals(self, placed: Placed[TaperedCapsules]) -> Residuals:
         """The distance of each point to the nearest capsule."""
         owners, distances, rows = self._nearest(placed)
-        constant = self._constant + float(self._weights @ self._surprise[owners])
-        return Residuals(owners, distances, rows, self._weights, constant)
+        constant = self._constant + float(self.weights @ self._surprise[owners])
+        return Residuals(owners, distances, rows, self.weights, constant)
 
     def _nearest(self, placed: Placed[TaperedCapsules]) -> tuple[Indices, Array, Array]:
         """Each point's primitive (N,), residual (N,) [m], and its derivative (N, 6) to motions."""
@@ -108,8 +109,8 @@ class BoundSphereDistance(ResidualSimilarity):
         capsules[:, 6], capsules[:, 7] = primitives.halves, primitives.radii.mean(axis=1)
         capsules[:, 8] = primitives.sines
         handicaps = 2.0 * self._scale**2 * self._surprise
-        owners, distances, places = nearest_capsules(self._points, capsules, handicaps)
+        owners, distances, places = nearest_capsules(self.points, capsules, handicaps)
         residuals, rows = residuals_and_rows(
-            self._points, capsules, owners, distances, places, self._front
+            self.points, capsules, owners, distances, places, self._front
         )
         return owners, residuals, rows

@@ -10,13 +10,11 @@ from pydantic import Field
 from scipy.special import beta, gamma
 
 from regkit.body import Body, EllipsoidParameters, ListedShape, ShapeParameters, ellipsoids
-from regkit.geometry.rotation import rotation_between
 from regkit.interfaces import Kernel, ShapeModel
 from regkit.observation import Observation
 from regkit.primitives import SPHERE, Placed, Primitives, Volumes
 from regkit.registration import Residuals, ResidualSimilarity, Robust
 from regkit.system.arrays import Array
-from regkit.system.errors import ConfigError
 
 
 @dataclass(frozen=True)
@@ -75,11 +73,9 @@ class Superquadric(ShapeModel):
         return replace(solids, scales=solids.scales * [self.girth, 1.0, self.girth])
 
     def _of_capsules(self, body: Body) -> Superellipsoids:
-        capsules = body.capsules
-        if not len(capsules):
-            raise ConfigError(f"shape '{self.kind}' needs capsules; '{body.name}' has none")
-        ways = capsules.ends[:, 1] - capsules.ends[:, 0]
-        lengths, radii = np.linalg.norm(ways, axis=1), capsules.radii.mean(axis=1)
+        capsules = self.capsules_of(body)
+        lengths = np.linalg.norm(capsules.ends[:, 1] - capsules.ends[:, 0], axis=1)
+        radii = capsules.radii.mean(axis=1)
         reach = 0.5 * lengths + radii
         # The part that a solid fills of the cylinder around it grows with its exponent.
         exponents = np.linspace(2.0, 20.0, 500)
@@ -88,7 +84,7 @@ class Superquadric(ShapeModel):
         return Superellipsoids(
             segments=capsules.segments,
             centres=capsules.ends.mean(axis=1),
-            axes=np.array([_turned_to(way) for way in ways]),
+            axes=capsules.frames(),
             scales=0.5 * np.column_stack([radii, reach, radii]),
             weights=np.ones(len(radii)),
             exponents=np.interp(filled, parts, exponents),
@@ -106,11 +102,6 @@ def _of_moments(listed: ListedShape[SuperellipsoidParameters]) -> Superellipsoid
     return Superellipsoids(segments, centres, axes, scales, weights, exponents)
 
 
-def _turned_to(way: Array) -> Array:
-    """Axes (3, 3) of which the second has the direction of ``way`` (3,), if it has one."""
-    return rotation_between(np.array([0.0, 1.0, 0.0]), way) if way.any() else np.eye(3)
-
-
 class RadialDistance(Kernel):
     """Distance of each point to the nearest superellipsoid, along the ray from its centre."""
 
@@ -124,11 +115,7 @@ class RadialDistance(Kernel):
         self, observation: Observation, start: Placed[Any], *, smoothing: float = 0.0
     ) -> BoundRadialDistance:
         """Bind the kernel to a frame's data."""
-        bound = BoundRadialDistance(observation)
-        bound.loss = self.robust.bound(
-            bound.residuals(start).values, least=1e-3, smoothing=smoothing
-        )
-        return bound
+        return BoundRadialDistance(observation, self.robust.bound(smoothing=smoothing))
 
 
 class BoundRadialDistance(ResidualSimilarity):
@@ -137,13 +124,10 @@ class BoundRadialDistance(ResidualSimilarity):
     Source: Gross, Boult, Error of fit measures for recovering parametric solids, ICCV 1988.
     """
 
-    def __init__(self, data: Observation) -> None:
-        self._points, self._weights = data.points, data.weights / data.weights.sum()
-
     def residuals(self, placed: Placed[Superellipsoids]) -> Residuals:
         """The distance of each point to its nearest solid."""
-        solids, each = placed.primitives, np.arange(len(self._points))
-        offsets = self._points[:, None] - placed.centres
+        solids, each = placed.primitives, np.arange(len(self.points))
+        offsets = self.points[:, None] - placed.centres
         local = np.einsum("kji,nkj->nki", placed.axes, offsets)
         # No ray leads from a centre to itself; there the one along the first axis is taken.
         local[~local.any(axis=2), 0] = 1e-9
@@ -156,4 +140,4 @@ class BoundRadialDistance(ResidualSimilarity):
         ways += length / value**2 * gradients[each, owners]
         normals = np.einsum("nij,nj->ni", placed.axes[owners], ways)
         rows = -np.hstack([normals, np.cross(offsets[each, owners], normals)])
-        return Residuals(owners, distances[each, owners], rows, self._weights)
+        return Residuals(owners, distances[each, owners], rows, self.weights)
