@@ -76,6 +76,10 @@ class Placed(Generic[P_co]):
         """``R diag(scales^2) R^T`` in the world, (K, 3, 3) [m^2]."""
         return (self.axes * self.primitives.scales[:, None, :] ** 2) @ np.swapaxes(self.axes, 1, 2)
 
+    def local(self, points: Array) -> Array:
+        """World points (N, 3) [m] in the axes of each primitive about its centre, (N, K, 3)."""
+        return np.asarray(np.einsum("kji,nkj->nki", self.axes, points[:, None] - self.centres))
+
     def accumulate(self, wrenches: Array, segments: int) -> Array:
         """Wrenches (K, 6) on the primitives as (S, 6), summed about the segments' origins."""
         arms = self.centres - self.carriers

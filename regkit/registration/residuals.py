@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from regkit.geometry.rotation import cross
 from regkit.interfaces import Response, Similarity
 from regkit.observation import Observation
 from regkit.primitives import Placed
@@ -80,6 +81,24 @@ class ResidualSimilarity(Similarity):
     @abstractmethod
     def residuals(self, placed: Placed[Any]) -> Residuals:
         """The residuals of primitives in the world; a kernel has one for each point, in order."""
+
+    def nearest(
+        self, placed: Placed[Any], local: Array, distances: Array, gradients: Array
+    ) -> Residuals:
+        """The distance of each point to its nearest primitive.
+
+        Args:
+            placed: The primitives.
+            local: The points in the primitives' own axes, as ``Placed.local`` gives them.
+            distances: Signed distances of all points to all primitives, (N, K) [m].
+            gradients: Their derivatives to the points, in the primitives' own axes, (N, K, 3).
+        """
+        owners, each = distances.argmin(axis=1), np.arange(len(distances))
+        axes = placed.axes[owners]
+        normals = (axes @ gradients[each, owners, :, None])[:, :, 0]
+        arms = (axes @ local[each, owners, :, None])[:, :, 0]
+        rows = -np.concatenate([normals, cross(arms, normals)], axis=1)
+        return Residuals(owners, distances[each, owners], rows, self.weights)
 
     def __call__(self, placed: Placed[Any], *, curvature: bool = False) -> Response:
         """The energy, its exact wrenches and, if asked for, the Gauss-Newton blocks."""

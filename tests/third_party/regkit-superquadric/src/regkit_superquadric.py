@@ -126,18 +126,12 @@ class BoundRadialDistance(ResidualSimilarity):
 
     def residuals(self, placed: Placed[Superellipsoids]) -> Residuals:
         """The distance of each point to its nearest solid."""
-        solids, each = placed.primitives, np.arange(len(self.points))
-        offsets = self.points[:, None] - placed.centres
-        local = np.einsum("kji,nkj->nki", placed.axes, offsets)
+        solids, local = placed.primitives, placed.local(self.points)
         # No ray leads from a centre to itself; there the one along the first axis is taken.
         local[~local.any(axis=2), 0] = 1e-9
         gauges, gradients = gauge(local, solids.scales, solids.exponents)
-        lengths = np.linalg.norm(local, axis=2)
-        distances = lengths * (1.0 - 1.0 / gauges)
-        owners = distances.argmin(axis=1)
-        length, value = lengths[each, owners, None], gauges[each, owners, None]
-        ways = local[each, owners] / length * (1.0 - 1.0 / value)
-        ways += length / value**2 * gradients[each, owners]
-        normals = np.einsum("nij,nj->ni", placed.axes[owners], ways)
-        rows = -np.hstack([normals, np.cross(offsets[each, owners], normals)])
-        return Residuals(owners, distances[each, owners], rows, self.weights)
+        lengths, part = np.linalg.norm(local, axis=2), 1.0 - 1.0 / gauges
+        gradients = (part / lengths)[..., None] * local + (lengths / gauges**2)[
+            ..., None
+        ] * gradients
+        return self.nearest(placed, local, lengths * part, gradients)
