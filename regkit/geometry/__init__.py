@@ -3,6 +3,7 @@
 - ``rotation``: unit quaternions, rotation vectors and rotation matrices, batched.
 - ``rigid``: rigid motions as 4x4 matrices.
 - ``bilinear``: quaternion products as matrix products with constant tables.
+- ``principal_axes``: principal axes of points.
 - ``camera``: pinhole cameras.
 - ``capsules``: tapered capsules and their signed distance.
 - ``skinned_mesh``: triangle meshes with linear blend skinning.

@@ -123,7 +123,7 @@ def test_surface_that_slides_along_itself_is_warned_of(regkit, tmp_path, random)
          "with a 4x4 matrix, or one of nearest, identity, centroids, rotations, features; did you "
          "mean 'centroids'?"),
         ("good.txt", ["--start", "two.txt"], "two.txt: 6 numbers; a 4x4 matrix has 16"),
-        ("good.txt", ["--start", "scaled.txt"], "scaled.txt: the matrix is no rigid motion"),
+        ("good.txt", ["--start", "scaled.txt"], "scaled.txt: the matrix is not a rigid motion"),
         ("good.txt", ["--method", "ipc"], "--method ipc: method: no plug-in 'ipc'"),
         ("good.txt", ["--method", "{kind: open3d_icp, distanse: 1}"],
          "method.distanse: no such field"),
