@@ -181,6 +181,6 @@ def test_rigid_method_on_a_jointed_body_is_told(regkit, tmp_path):
         "--set", "start={root: {position: [-0.05, -0.05, 3.25], rotation_deg: [180, 0, 0]}}",
     )  # fmt: skip
     assert ended.code == 1
-    assert "method 'open3d_icp' is rigid: the template 'human' has 15 segments" in ended.err
+    assert "method 'open3d_icp' is rigid, but the template 'human' has 15 segm" in ended.err
     report = (tmp_path / "out" / "report.md").read_text()
-    assert "is rigid: the template 'human' has 15 segments" in report
+    assert "is rigid, but the template 'human' has 15 segments" in report

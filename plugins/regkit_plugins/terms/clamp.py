@@ -50,7 +50,7 @@ class BoundClamp(Overlap):
         return self._weight * float(np.maximum(excess, 0.0).sum())
 
     def __call__(self, placed: Placed[Gaussians], *, curvature: bool = False) -> Response:
-        """Returns the energy and wrenches; the curvature is not positive, so the blocks are zero."""
+        """Returns energy and wrenches; the curvature is not positive, so the blocks are zero."""
         response = super().__call__(placed)
         blocks = np.zeros((len(placed), 6, 6)) if curvature else None
         return Response(response.energy, response.wrenches, blocks)
