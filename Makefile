@@ -1,4 +1,4 @@
-# The commands of the README. Git, GNU make and Python 3.11 or newer are all that a machine needs.
+# The commands of the README. They need Git, GNU make and Python 3.11 or newer.
 
 PYTHON ?= python3
 ready := .venv/.ready
@@ -6,14 +6,14 @@ bin := .venv/bin
 
 .PHONY: help demo test lint docs pictures samples templates schemas lock benchmarks clean
 
-help: ## Show this list
+help: ## Show this help
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 $(ready): pyproject.toml .ci/requirements.lock .ci/setup tests/third_party/regkit-superquadric/pyproject.toml
 	@.ci/setup $(PYTHON)
 	@touch $@
 
-demo: $(ready) ## Register a person to a depth sequence with SoG and G-SoG
+demo: $(ready) ## Track a person in a depth recording with SoG, G-SoG and the default method
 	@$(bin)/regkit run docs/examples/demo.yaml
 
 test: $(ready) lint ## Run every check
@@ -31,26 +31,26 @@ docs: $(ready) ## Build the documentation in docs/_build
 	@$(bin)/sphinx-build -q -W --keep-going -n docs docs/_build
 	@echo docs/_build/index.html
 
-pictures: $(ready) ## Make the documentation's pictures again
+pictures: $(ready) ## Regenerate the images of the documentation
 	@$(bin)/python docs/pictures.py
 
-samples: $(ready) ## Make the sample sequences again
+samples: $(ready) ## Regenerate the sample recordings
 	@$(bin)/python -m regkit_synthesis docs/examples/data
 	@$(bin)/python -m regkit_synthesis.samples.mannequin docs/examples/data/mannequin
 
-templates: $(ready) ## Fit the templates to the meshes again
+templates: $(ready) ## Fit the shipped templates to their meshes again
 	@$(bin)/python -m regkit_synthesis.templates plugins/regkit_plugins/templates
 
-schemas: $(ready) ## Write the JSON Schemas again
+schemas: $(ready) ## Regenerate the JSON Schemas
 	@$(bin)/regkit schema --built-in
 
-lock: $(ready) ## Resolve the dependencies again
+lock: $(ready) ## Update the locked versions of the dependencies
 	@$(bin)/uv pip compile pyproject.toml --extra dev --universal --python-version 3.11 \
 		--generate-hashes --no-emit-index-url --no-header --quiet --upgrade --fork-strategy fewest \
 		--output-file .ci/requirements.lock
 
-benchmarks: $(ready) ## Print how fast it is
+benchmarks: $(ready) ## Measure the run times
 	@for file in benchmarks/[a-z]*.py; do $(bin)/python $$file; done
 
-clean: ## Remove the environment and caches
+clean: ## Remove the virtual environment and caches
 	@rm -rf .venv .mypy_cache .ruff_cache .pytest_cache .hypothesis dist

@@ -1,4 +1,4 @@
-"""Every command of the command line, from the program itself."""
+"""Reference of all commands, generated from the command line program."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from regkit.cli.app import app as program
 from regkit.cli.app import loaded
 
 _BRACKETS = re.compile(r"\s*\[((?:default|required|x|[\d.]+<)[^\[\]]*)\]\s*")
-"""What typer adds to a parameter's help: a default, bounds, that it is required."""
+"""Typer's additions to the help of a parameter: default, bounds, whether it is required."""
 
 
 def commands_text() -> str:
-    """Markdown with a section for each command."""
+    """Returns Markdown with a section for each command."""
     group: Any = typer.main.get_command(program)
     context = group.context_class(group, info_name="regkit")
     return "\n\n".join(_commands(group, context))
 
 
 def _commands(group: Any, context: Any) -> Iterator[str]:
-    """The commands of the group."""
+    """Yields the sections of the commands of a group."""
     for name in group.list_commands(context):
         command = loaded(name)
         its = command.context_class(command, info_name=name, parent=context)
@@ -34,15 +34,15 @@ def _commands(group: Any, context: Any) -> Iterator[str]:
         rows = [_row(*record) for record in records if record and "--help" not in record[0]]
         if rows:
             yield "\n".join(
-                ["| parameter | what it is | default, bounds |", "|---|---|---|", *rows]
+                ["| parameter | description | default, bounds |", "|---|---|---|", *rows]
             )
 
 
 def _row(name: str, text: str) -> str:
     notes = [note for found in _BRACKETS.findall(text) for note in found.split("; ")]
-    told = " ".join(_BRACKETS.sub(" ", text).split())
-    code = name.replace("|", r"\|")  # A table ends its cell there, even within code.
-    return f"| `{code}` | {_plain(told)} | {_plain(', '.join(notes).replace('default: ', ''))} |"
+    description = _plain(" ".join(_BRACKETS.sub(" ", text).split()))
+    code = name.replace("|", r"\|")  # A vertical bar ends a table cell, even within code.
+    return f"| `{code}` | {description} | {_plain(', '.join(notes).replace('default: ', ''))} |"
 
 
 def _plain(text: str) -> str:

@@ -1,7 +1,7 @@
-"""What autodoc shows of this project's code.
+"""Adjustments of autodoc for this project.
 
-Docstrings of attributes are prose, in which Napoleon would take what stands before a colon for a
-type. A configuration model is made from YAML; its fields are listed, and its call is left out.
+Docstrings of attributes are prose, in which Napoleon would parse text before a colon as a type.
+Configuration models are created from YAML, so their call signature is omitted.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ PROSE = ("attribute", "data", "property")
 
 
 class _Kept:
-    """What a docstring was before Napoleon, and is again after it."""
+    """Keeps a docstring before Napoleon processes it, and restores it afterwards."""
 
     def __init__(self) -> None:
         self._lines: list[str] = []
@@ -39,7 +39,7 @@ def _no_call(
 
 
 def setup(app: Sphinx) -> dict[str, bool]:
-    """The priority of Napoleon is 500."""
+    """Connects the handlers; Napoleon has the priority 500."""
     kept = _Kept()
     app.connect("autodoc-process-docstring", kept.keep, priority=400)
     app.connect("autodoc-process-docstring", kept.restore, priority=600)

@@ -1,4 +1,4 @@
-"""Tables of a model's fields: type, default, bounds, and what their docstrings say."""
+"""Tables of a model's fields: type, default, bounds and description."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ _NAMES = {str: "text", float: "number", int: "integer", bool: "true or false", P
 
 
 def fields_text(name: str) -> str:
-    """The table of a model that is named as ``module:class``."""
+    """Returns the table of the model ``module:class``."""
     module, _, qualified = name.partition(":")
     return field_table(getattr(importlib.import_module(module), qualified))
 
 
 def field_table(model: type[BaseModel], *, skipped: tuple[str, ...] = ()) -> str:
-    """A Markdown table with a row for each field, or a line that says that there is none."""
+    """Returns a Markdown table with a row for each field, or a sentence if there is none."""
     rows = [
         f"| `{name}` | {_cell(_type(field.annotation, field.metadata))} | {_default(field)} | "
         f"{_cell(field.description or '')} |"
@@ -36,11 +36,11 @@ def field_table(model: type[BaseModel], *, skipped: tuple[str, ...] = ()) -> str
     ]
     if not rows:
         return "It has no options."
-    return "\n".join(["| option | type | default | what it is |", "|---|---|---|---|", *rows])
+    return "\n".join(["| option | type | default | description |", "|---|---|---|---|", *rows])
 
 
 def models_in(plugin: type[BaseModel]) -> Iterator[type[Model]]:
-    """The models, but no plug-ins, that fields of a plug-in hold."""
+    """Yields the models, except plug-ins, in the fields of a plug-in."""
     for field in plugin.model_fields.values():
         for part in _leaves(field.annotation):
             if isinstance(part, type) and issubclass(part, Model) and not issubclass(part, Plugin):
@@ -57,8 +57,8 @@ def _leaves(annotation: Any) -> Iterator[Any]:
 
 
 def _type(annotation: Any, metadata: list[Any]) -> str:
-    """A type in words, and its bounds."""
-    bounds = [told for part in metadata for told in _bounds(part)]
+    """Returns a type in words, and its bounds."""
+    bounds = [bound for part in metadata for bound in _bounds(part)]
     return ", ".join([_words(annotation), *bounds])
 
 
@@ -88,7 +88,7 @@ def _words(annotation: Any) -> str:
 
 
 def _constraints(part: Any) -> list[Any]:
-    """What a ``Field`` in ``Annotated`` asks for, or the constraint itself."""
+    """Returns the constraints of a ``Field`` in ``Annotated``, or the constraint itself."""
     return list(part.metadata) if isinstance(part, FieldInfo) else [part]
 
 
@@ -108,7 +108,7 @@ def _default(field: FieldInfo) -> str:
 
 
 def _value(value: Any) -> str:
-    """A default as YAML writes it."""
+    """Returns a default as YAML."""
     if value is None or isinstance(value, bool):
         return {None: "null", True: "true", False: "false"}[value]
     if isinstance(value, Plugin):

@@ -1,9 +1,11 @@
-"""Parts of pages that are made from the program, where a page holds one of these blocks.
+"""Generated parts of pages.
+
+They replace one of these blocks:
 
     ```{plugins} regkit.kernels    ```{fields} regkit.body:BodyDescription    ```{commands}
     ```                            ```                                        ```
 
-The text takes the block's place before the page is read, so that it can bring headings of its own.
+The replacement happens before the page is parsed, so that the text can contain headings.
 """
 
 from __future__ import annotations
@@ -27,6 +29,6 @@ def _filled(app: Sphinx, docname: str, source: list[str]) -> None:
 
 
 def setup(app: Sphinx) -> dict[str, bool]:
-    """Fill pages when they are read."""
+    """Connects the replacement of blocks to the reading of pages."""
     app.connect("source-read", _filled)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,4 +1,4 @@
-"""Formulas as MathML, which browsers draw themselves: no script, no picture, no network."""
+"""Formulas as MathML, which browsers render without scripts, images or network."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def _block(self: HTML5Translator, node: nodes.math_block) -> None:
 
 
 def setup(app: Sphinx) -> dict[str, bool]:
-    """Let HTML have formulas this way."""
+    """Registers MathML as the renderer of formulas."""
     app.add_html_math_renderer("mathml", (_inline, None), (_block, None))
     app.config.html_math_renderer = "mathml"  # type: ignore[assignment]
     return {"parallel_read_safe": True, "parallel_write_safe": True}

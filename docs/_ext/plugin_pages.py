@@ -1,4 +1,4 @@
-"""What is installed in a group of plug-ins, its options from the fields themselves."""
+"""Reference of the plug-ins of a group, with options generated from their fields."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from regkit.interfaces import SLOTS
 
 
 def plugins_text(group: str) -> str:
-    """Markdown with a section for each plug-in of a group, and for each of its presets.
+    """Returns Markdown with a section for each plug-in and preset of a group.
 
-    What other distributions bring to the machine that builds the pages is left out.
+    Plug-ins of other distributions that happen to be installed are omitted.
     """
     (slot,) = (slot for slot in SLOTS if slot.group == group)
     with only_from(OWN):
@@ -52,5 +52,5 @@ def _presets(slot: type[Plugin]) -> Iterator[str]:
 
 
 def _prose(docstring: str | None) -> str:
-    """A docstring as Markdown, which shows literals in double backticks as it does in single."""
+    """Returns a docstring as Markdown, which accepts literals in double backticks."""
     return inspect.cleandoc(docstring or "")

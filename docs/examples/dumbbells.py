@@ -10,13 +10,13 @@ from regkit.primitives import Gaussians, Primitives
 
 @register
 class Dumbbells(ShapeModel):
-    """Two isotropic Gaussians for each capsule, one at either end."""
+    """Two isotropic Gaussians per capsule, one at each end."""
 
     kind: Literal["dumbbells"] = "dumbbells"
     makes: ClassVar[type[Primitives]] = Gaussians
 
     share: float = 0.5
-    """Standard deviation as a part of the capsule's radius."""
+    """Standard deviation as a fraction of the capsule's radius."""
 
     def bind(self, body: Body) -> Gaussians:
         """Gaussians at the ends of the body's capsules."""

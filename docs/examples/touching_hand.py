@@ -1,8 +1,8 @@
-"""A hand that keeps touching a table: a constraint of one's own, with regkit's CasADi functions.
+"""A hand that touches a table: a custom constraint with regkit's CasADi functions.
 
     python docs/examples/touching_hand.py
 
-The index finger touches the plane y = 0, but none of it is seen. See docs/how-to/limits.md.
+The index finger touches the plane y = 0, but is not visible. See docs/how-to/limits.md.
 """
 
 import casadi
@@ -16,13 +16,13 @@ from regkit.skeleton import PoseDescription
 
 
 def main() -> dict[str, float]:
-    """Register the hand with and without the table; the tip's distances to it [m]."""
+    """Registers the hand with and without the table, and returns the tip's distances to it [m]."""
     random = np.random.default_rng(0)
     hand = Template.load("hand")(side="right", length=0.19).body(0.19)
     bones, gaussians = hand.skeleton, ShapeModel.load("gsog")().bind(hand)
     tip = hand.markers.names.index("index_tip")
 
-    # The truth: the index finger points at the table, the others are bent.
+    # Ground truth: the index finger points at the table, the others are bent.
     bent = {f"{finger}_{part}": 60.0 for finger in ("middle", "ring", "little") for part in (2, 3)}
     truth = bones.pose(PoseDescription(joints={**bent, "index_1": (0.0, 20.0), "index_2": 15.0}))
     down = rigid(vector_to_matrix(np.array([np.pi, 0.0, 0.0])), np.zeros(3))
@@ -30,7 +30,7 @@ def main() -> dict[str, float]:
     down[1, 3] = height
     truth = type(truth)(down, truth.balls, truth.hinges)
 
-    # The data: points of all segments but those of the index finger.
+    # Data: points on all segments except those of the index finger.
     placed = gaussians.place(hand.place(truth).transforms)
     index = [bones.names.index(f"index_{part}") for part in (1, 2, 3)]
     seen = np.flatnonzero(~np.isin(gaussians.segments, index))
@@ -38,7 +38,7 @@ def main() -> dict[str, float]:
     spread = gaussians.scales[chosen] * random.normal(size=(150, 3))
     points = placed.centres[chosen] + np.einsum("nij,nj->ni", placed.axes[chosen], spread)
 
-    # The program: a step from a disturbed pose that explains the points within the joint limits.
+    # Nonlinear program: a step from a perturbed pose to the data, within the joint limits.
     start = bones.limits.projected(
         bones.retract(truth, 0.1 * random.normal(size=bones.dofs) * (np.arange(bones.dofs) > 5))
     )

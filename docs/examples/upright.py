@@ -1,4 +1,4 @@
-"""A term of one's own: a body that keeps upright.
+"""A custom term that keeps a body upright.
 
 See docs/how-to/term.md.
 """
@@ -15,22 +15,24 @@ from regkit.skeleton import Pose
 
 @dataclass(frozen=True)
 class Tilt(JointEnergy):
-    """The energy bound to a frame."""
+    """The energy of the tilt, bound to a body."""
 
     weight: float
     dofs: int
 
     def __call__(self, pose: Pose) -> JointResponse:
-        """The energy, its force on the root's rotation, and its Gauss-Newton matrix."""
-        # A turn of the root by w in its own frame moves its y axis by R (w x y): w is (-z, 0, x).
+        """Returns the energy, its gradient, and its Gauss-Newton matrix."""
+        # A rotation w of the root in its own frame changes its y axis by R (w x y), where
+        # w x y = (-w_z, 0, w_x).
         rotation = pose.root[:3, :3]
         sine = rotation[[0, 2], 1]
-        slope = np.zeros((2, self.dofs))
-        slope[:, 3] = rotation[[0, 2], 2]
-        slope[:, 5] = -rotation[[0, 2], 0]
-        force = self.weight * sine @ slope
+        jacobian = np.zeros((2, self.dofs))
+        jacobian[:, 3] = rotation[[0, 2], 2]
+        jacobian[:, 5] = -rotation[[0, 2], 0]
         return JointResponse(
-            0.5 * self.weight * float(sine @ sine), force, self.weight * slope.T @ slope
+            0.5 * self.weight * float(sine @ sine),
+            self.weight * sine @ jacobian,
+            self.weight * jacobian.T @ jacobian,
         )
 
 
@@ -41,8 +43,8 @@ class Upright(Term):
     kind: Literal["upright"] = "upright"
 
     weight: float = 0.1
-    """Weight against the kernel's energy."""
+    """Weight relative to the kernel's energy."""
 
     def bind(self, scene: Scene) -> Tilt:
-        """Bind the term to the body; the frame does not matter."""
+        """Binds the term to the body; it does not depend on the frame."""
         return Tilt(self.weight, scene.body.skeleton.dofs)

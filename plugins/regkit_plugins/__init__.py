@@ -1,1 +1,13 @@
-"""The plug-ins that ship with regkit; they come in by the same door as anyone's."""
+"""The plug-ins that ship with regkit, registered by entry points like those of any distribution.
+
+- ``datasets``: recordings in public and own formats.
+- ``templates``: bodies to register.
+- ``preprocessors``: from frames to observations.
+- ``shapes``: shape models, from bodies to primitives.
+- ``kernels``: similarities of primitives and observations.
+- ``terms``: further energies and weights.
+- ``solvers``: minimisation of a registration problem.
+- ``methods``: registration of one frame.
+- ``trackers``: prediction from frame to frame, and recovery.
+- ``presets``: complete methods and datasets as YAML files.
+"""

@@ -118,8 +118,8 @@ def read_transform(name: str) -> Array:
     orthogonal = np.abs(rotation.T @ rotation - np.eye(3)).max() < 1e-3
     if not (orthogonal and np.linalg.det(rotation) > 0.0 and np.allclose(matrix[3], [0, 0, 0, 1])):
         raise DataError(
-            "the matrix is no rigid motion: its first three rows and columns must be a rotation, "
-            "its last row 0 0 0 1",
+            "the matrix is not a rigid motion: its first three rows and columns must be a "
+            "rotation, its last row 0 0 0 1",
             place=name,
         )
     left, _, right = np.linalg.svd(rotation)

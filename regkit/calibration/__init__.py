@@ -1,4 +1,4 @@
-"""The proportions of the person or hand that a recording shows."""
+"""Calibration: the proportions and shape of a person or hand, estimated from a recording."""
 
 from regkit.calibration.calibration import Calibration, Watcher
 from regkit.calibration.subject import Subject

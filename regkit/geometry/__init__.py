@@ -1,13 +1,13 @@
 """Geometry without poses or data: rotations, rigid motions, cameras, capsules, skinned surfaces.
 
-Modules:
-    rotation: Unit quaternions, rotation vectors and rotation matrices, batched.
-    rigid: Rigid motions as 4x4 matrices.
-    bilinear: Quaternion products as matrix products with constant tables.
-    camera: Pinhole cameras.
-    capsules: Tapered capsules and their signed distance.
-    skinned_mesh: Triangle meshes with linear blend skinning.
-    surface: Skinned surfaces in segment frames, with or without triangles.
+- ``rotation``: unit quaternions, rotation vectors and rotation matrices, batched.
+- ``rigid``: rigid motions as 4x4 matrices.
+- ``bilinear``: quaternion products as matrix products with constant tables.
+- ``principal_axes``: principal axes of points.
+- ``camera``: pinhole cameras.
+- ``capsules``: tapered capsules and their signed distance.
+- ``skinned_mesh``: triangle meshes with linear blend skinning.
+- ``surface``: skinned surfaces in segment frames, with or without triangles.
 
 The package exports classes; import functions from ``rotation`` and ``rigid``.
 """

@@ -1,4 +1,4 @@
-"""The principal axes of points."""
+"""Principal axes of points."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from regkit.system.arrays import Array
 
-_TURNS = np.array(
+_PERMUTATIONS = np.array(
     [
         np.diag(signs)[:, order]
         for order in permutations(range(3))
@@ -16,17 +16,23 @@ _TURNS = np.array(
         if np.linalg.det(np.diag(signs)[:, order]) > 0.0
     ]
 )
-"""The 24 ways (24, 3, 3) to name the axes of an ellipsoid x, y and z."""
+"""The 24 rotations (24, 3, 3) that permute and flip coordinate axes."""
 
 
 def principal_axes(points: Array) -> tuple[Array, Array]:
-    """Axes (3, 3) of points (N, 3), as columns, and the standard deviations (3,) along them.
+    """Returns the principal axes of points, and the standard deviations along them.
 
-    The axes are named so that their rotation is as small as possible.
+    The axes are ordered and signed so that their rotation from the coordinate axes is smallest.
+
+    Args:
+        points: The points, (N, 3) [m].
+
+    Returns:
+        A rotation matrix with the axes as columns, (3, 3), and standard deviations (3,) [m].
     """
     variances, vectors = np.linalg.eigh(np.cov(points.T, bias=True))
     if np.linalg.det(vectors) < 0.0:
         vectors = -vectors
-    turns = vectors @ _TURNS
-    best = int(np.trace(turns, axis1=1, axis2=2).argmax())
-    return turns[best], np.sqrt(variances @ np.abs(_TURNS[best]))
+    rotations = vectors @ _PERMUTATIONS
+    best = int(np.trace(rotations, axis1=1, axis2=2).argmax())
+    return rotations[best], np.sqrt(variances @ np.abs(_PERMUTATIONS[best]))

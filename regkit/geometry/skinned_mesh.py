@@ -156,8 +156,8 @@ class SkinnedMesh:
         for bone in np.flatnonzero(self.parents >= 0):
             parent = self.parents[bone]
             local = inverse[parent, :3, :3] @ (self.rest[bone, :3, 3] - self.rest[parent, :3, 3])
-            way = self.rest[parent, :3, :3] @ matrices[parent] @ local
-            origins[bone] = origins[parent] + way
+            offset = self.rest[parent, :3, :3] @ matrices[parent] @ local
+            origins[bone] = origins[parent] + offset
         rest = rigid(self.rest[:, :3, :3], origins)
         carriers = np.zeros((len(rest), 4, 4))
         carriers[:, :3, :3] = rest[:, :3, :3] @ matrices

@@ -27,7 +27,7 @@ def body_axes(up: str, front: str) -> Array:
     for argument, axis in (("up", up), ("front", front)):
         if axis not in _DIRECTIONS:
             known = ", ".join(_DIRECTIONS)
-            raise ConfigError(f"'{axis}' is no axis (there are: {known})", place=argument)
+            raise ConfigError(f"'{axis}' is not an axis (there are: {known})", place=argument)
     y, z = _DIRECTIONS[up], _DIRECTIONS[front]
     if y @ z != 0.0:
         raise ConfigError(f"up is {up}; the front cannot be {front}", place="front")

@@ -30,9 +30,9 @@ def write_csv(motion: TrackedMotion, path: Path) -> None:
     names, markers = motion.body.skeleton.names, motion.body.markers
     for frame, (time, transforms) in enumerate(zip(motion.times, motion.transforms, strict=True)):
         when = (frame, f"{time:.6f}")
-        turns = from_matrix(transforms[:, :3, :3])
-        for name, place, turn in zip(names, transforms[:, :3, 3], turns, strict=True):
-            writer.writerow((*when, "segment", name, *_words([*place, *turn])))
+        quaternions = from_matrix(transforms[:, :3, :3])
+        for name, place, quaternion in zip(names, transforms[:, :3, 3], quaternions, strict=True):
+            writer.writerow((*when, "segment", name, *_words([*place, *quaternion])))
         for name, place in zip(markers.names, markers.place(transforms), strict=True):
             writer.writerow((*when, "marker", name, *_words(list(place)), "", "", "", ""))
     write_text(path, text.getvalue())

@@ -1,4 +1,4 @@
-"""What can be swapped: the abstract plug-ins and the types that pass between them."""
+"""The interfaces of plug-ins, abstract base classes, and the types that pass between them."""
 
 from regkit.interfaces.dataset import Dataset, Recording
 from regkit.interfaces.kernel import Kernel, Response, Similarity

@@ -1,4 +1,4 @@
-"""Depth images in files."""
+"""Reading of depth images from files."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from regkit.system.errors import DataError
 
 
 def read_depth(path: Path) -> Array:
-    """The numbers (H, W) of a single-channel 16-bit image.
+    """Reads the values (H, W) of a single-channel 16-bit image, in units of the file.
 
     Raises:
-        DataError: If the file is missing, damaged, or another kind of image.
+        DataError: If the file is missing, damaged, or an image of another kind.
     """
     from PIL import Image, UnidentifiedImageError
 

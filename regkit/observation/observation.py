@@ -36,7 +36,7 @@ class Observation:
     normals: Array | None = None
 
     def __post_init__(self) -> None:
-        """Refuse data from which no kernel can compute anything.
+        """Validates the arrays.
 
         Raises:
             DataError: If there is no point, or the arrays differ in length.

@@ -1,7 +1,7 @@
-"""Primitives: what shape models make of a body, and what kernels see.
+"""Primitives: the geometric elements into which shape models turn a body, and which kernels see.
 
-They are carried by segments, placed in the world, and answered with wrenches, which are accumulated
-on the segments again.
+Primitives belong to segments. They are placed in the world, kernels return a wrench for each, and
+the wrenches are accumulated on the segments.
 """
 
 from regkit.primitives.gaussians import Gaussians, SurfaceGaussians

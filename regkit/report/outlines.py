@@ -26,8 +26,8 @@ def outlines(primitives: DrawnPrimitives, view: tuple[int, int]) -> Iterator[Arr
             root = np.linalg.cholesky(covariance[np.ix_(view, view)])
             yield centre[[*view]][:, None] + 2.0 * root @ _CIRCLE
     elif primitives.kind == "capsules":
-        ways = primitives.halves[:, None] * primitives.axes[:, :, 1]
-        ends = np.stack([primitives.centres - ways, primitives.centres + ways], axis=1)[
+        half_axes = primitives.halves[:, None] * primitives.axes[:, :, 1]
+        ends = np.stack([primitives.centres - half_axes, primitives.centres + half_axes], axis=1)[
             :, :, [*view]
         ]
         for pair, radii in zip(ends, primitives.radii, strict=True):

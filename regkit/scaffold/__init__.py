@@ -1,4 +1,4 @@
-"""New packages with a plug-in of one's own, which pass conformance as they are written."""
+"""Scaffolding: new packages with a working plug-in that passes the conformance tests."""
 
 from regkit.scaffold.scaffold import KINDS, Scaffold
 

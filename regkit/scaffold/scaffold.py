@@ -1,4 +1,4 @@
-"""What a new package holds, and where it is written."""
+"""Scaffolding of a new plug-in package from Jinja templates."""
 
 from __future__ import annotations
 
@@ -26,16 +26,16 @@ KINDS: dict[str, type[Plugin]] = {
     "dataset": Dataset,
     "template": Template,
 }
-"""What can be begun, by the name that it has on the command line."""
+"""The kinds of plug-ins that can be scaffolded, by their name on the command line."""
 
 
 @dataclass(frozen=True)
 class Scaffold:
-    """A package with one plug-in, rendered from the files beside this one.
+    """A package with one plug-in, rendered from the templates in this folder.
 
     Attributes:
-        what: One of ``KINDS``.
-        name: The plug-in's name in YAML.
+        what: The kind of plug-in, one of ``KINDS``.
+        name: Name of the plug-in in YAML.
     """
 
     what: str
@@ -43,10 +43,14 @@ class Scaffold:
 
     @classmethod
     def checked(cls, what: str, name: str) -> Self:
-        """A package for a new name.
+        """Returns the scaffold of a new plug-in.
+
+        Args:
+            what: The kind of plug-in.
+            name: Name of the plug-in.
 
         Raises:
-            ConfigError: If there is no such group, or the name cannot be taken.
+            ConfigError: If the kind is unknown, or the name is invalid or taken.
         """
         if what not in KINDS:
             raise ConfigError(
@@ -55,7 +59,7 @@ class Scaffold:
         if not re.fullmatch(r"[a-z][a-z0-9]*(_[a-z0-9]+)*", name) or keyword.iskeyword(name):
             raise ConfigError(
                 f"'{name}' cannot be a plug-in's name: use lower-case letters, digits and single "
-                "underscores, begin with a letter, and take no word of Python's own",
+                "underscores, begin with a letter, and avoid Python's keywords",
                 place="NAME",
             )
         taken = KINDS[what].available().get(name)
@@ -68,26 +72,25 @@ class Scaffold:
 
     @property
     def distribution(self) -> str:
-        """What is installed, and the name of the folder."""
+        """Name of the distribution and of its folder."""
         return f"regkit-{self.name.replace('_', '-')}"
 
     @property
     def module(self) -> str:
-        """What is imported."""
+        """Name of the Python package."""
         return f"regkit_{self.name}"
 
     def write(self, out: Path) -> Path:
-        """Write the package into a new folder in ``out``.
-
-        Returns:
-            The folder.
+        """Writes the package to a new folder in ``out``, and returns the folder.
 
         Raises:
-            DataError: If the folder is there already, or cannot be written.
+            DataError: If the folder exists, or cannot be written.
         """
         folder = out / self.distribution
         if folder.exists():
-            raise DataError("this is there already; it is not written to", place=str(folder))
+            raise DataError(
+                "the folder exists already; remove it, or choose another name", place=str(folder)
+            )
         temporary = out / f".{self.distribution}.tmp"
         try:
             for file, text in self._files():
@@ -104,7 +107,7 @@ class Scaffold:
         return folder
 
     def _files(self) -> Iterator[tuple[Path, str]]:
-        """The files of the package, with what they hold."""
+        """Yields the files of the package with their contents."""
         environment = jinja2.Environment(
             loader=jinja2.FileSystemLoader(FOLDER),
             undefined=jinja2.StrictUndefined,
@@ -132,6 +135,6 @@ class Scaffold:
 
 
 def _sample_recording() -> str:
-    """A recording that examples can use: the sample beside a checkout, else one to be named."""
+    """Returns the sample recording of a source checkout, or else a placeholder."""
     sample = FOLDER.parents[1] / "docs" / "examples" / "data" / "human_walk"
     return str(sample) if sample.is_dir() else "path/to/a/recording"

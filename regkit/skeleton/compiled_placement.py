@@ -34,15 +34,15 @@ def place_links(
     """
     poses, count = len(hinges), len(offsets)
     links = np.empty((poses, count, 4, 4))
-    turns = np.empty((count, 3, 3))
-    turned = np.zeros(count, dtype=np.bool_)
-    turned[ball_links] = True
-    turned[hinge_links] = True
+    rotations = np.empty((count, 3, 3))
+    rotated = np.zeros(count, dtype=np.bool_)
+    rotated[ball_links] = True
+    rotated[hinge_links] = True
     local = np.empty((3, 3))
     for pose in range(poses):
         for index in range(len(ball_links)):
             x, y, z, w = balls[pose, index]
-            set_rotation(turns[ball_links[index]], x, y, z, w)
+            set_rotation(rotations[ball_links[index]], x, y, z, w)
         for index in range(len(hinge_links)):
             angle = hinges[pose, index]
             x, y, z, w = exponential(
@@ -50,17 +50,17 @@ def place_links(
                 angle * hinge_axes[index, 1],
                 angle * hinge_axes[index, 2],
             )
-            set_rotation(turns[hinge_links[index]], x, y, z, w)
+            set_rotation(rotations[hinge_links[index]], x, y, z, w)
         for link in range(count):
             parent = root if parents[link] < 0 else links[pose, parents[link]]
             offset = offsets[link]
             for i in range(3):
                 for j in range(3):
-                    if turned[link]:
+                    if rotated[link]:
                         local[i, j] = (
-                            offset[i, 0] * turns[link, 0, j]
-                            + offset[i, 1] * turns[link, 1, j]
-                            + offset[i, 2] * turns[link, 2, j]
+                            offset[i, 0] * rotations[link, 0, j]
+                            + offset[i, 1] * rotations[link, 1, j]
+                            + offset[i, 2] * rotations[link, 2, j]
                         )
                     else:
                         local[i, j] = offset[i, j]

@@ -18,17 +18,19 @@ def retracted_root(root: Array, step: Array) -> Array:
     The step begins with a translation in the world [m] and a rotation vector in the root frame
     [rad].
     """
-    turn = np.empty((3, 3))
+    rotation = np.empty((3, 3))
     x, y, z, w = exponential(step[3], step[4], step[5])
-    set_rotation(turn, x, y, z, w)
-    moved = root.copy()
+    set_rotation(rotation, x, y, z, w)
+    retracted = root.copy()
     for i in range(3):
-        moved[i, 3] += step[i]
+        retracted[i, 3] += step[i]
         for j in range(3):
-            moved[i, j] = (
-                root[i, 0] * turn[0, j] + root[i, 1] * turn[1, j] + root[i, 2] * turn[2, j]
+            retracted[i, j] = (
+                root[i, 0] * rotation[0, j]
+                + root[i, 1] * rotation[1, j]
+                + root[i, 2] * rotation[2, j]
             )
-    return moved
+    return retracted
 
 
 @compiled

@@ -101,12 +101,12 @@ class Skeleton:
 
     def difference(self, start: Pose, end: Pose) -> Array:
         """Returns the step (n,) with ``retract(start, step) = end``; rotations are at most pi."""
-        turns = to_vector(product(conjugate(start.balls), end.balls)).ravel()
+        rotations = to_vector(product(conjugate(start.balls), end.balls)).ravel()
         root = [
             end.root[:3, 3] - start.root[:3, 3],
             to_vector(from_matrix(start.root[:3, :3].T @ end.root[:3, :3])),
         ]
-        return np.concatenate([*(root if self.free else []), turns, end.hinges - start.hinges])
+        return np.concatenate([*(root if self.free else []), rotations, end.hinges - start.hinges])
 
     def violations(self, pose: Pose) -> tuple[Array, Array]:
         """Returns the violation of each limit (R,) [rad] and its Jacobian (R, n) to the dofs."""

@@ -1,4 +1,4 @@
-"""The first pose of a recording, found from its cloud alone."""
+"""Start: the pose and size in the first frames of a recording, estimated from the data alone."""
 
 from regkit.start.search import Start, found_start, given_start
 

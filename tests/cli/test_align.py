@@ -123,7 +123,7 @@ def test_surface_that_slides_along_itself_is_warned_of(regkit, tmp_path, random)
          "with a 4x4 matrix, or one of nearest, identity, centroids, rotations, features; did you "
          "mean 'centroids'?"),
         ("good.txt", ["--start", "two.txt"], "two.txt: 6 numbers; a 4x4 matrix has 16"),
-        ("good.txt", ["--start", "scaled.txt"], "scaled.txt: the matrix is no rigid motion"),
+        ("good.txt", ["--start", "scaled.txt"], "scaled.txt: the matrix is not a rigid motion"),
         ("good.txt", ["--method", "ipc"], "--method ipc: method: no plug-in 'ipc'"),
         ("good.txt", ["--method", "{kind: open3d_icp, distanse: 1}"],
          "method.distanse: no such field"),
@@ -181,6 +181,6 @@ def test_rigid_method_on_a_jointed_body_is_told(regkit, tmp_path):
         "--set", "start={root: {position: [-0.05, -0.05, 3.25], rotation_deg: [180, 0, 0]}}",
     )  # fmt: skip
     assert ended.code == 1
-    assert "method 'open3d_icp' is rigid: the template 'human' has 15 segments" in ended.err
+    assert "method 'open3d_icp' is rigid, but the template 'human' has 15 segm" in ended.err
     report = (tmp_path / "out" / "report.md").read_text()
-    assert "is rigid: the template 'human' has 15 segments" in report
+    assert "is rigid, but the template 'human' has 15 segments" in report

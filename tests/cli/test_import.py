@@ -95,7 +95,7 @@ def test_other_files_are_not_replaced(regkit, tmp_path):
     ("arguments", "complaint"),
     [
         ((BVH, "--scale", 0), "--scale: 0 is no scale; it must be positive"),
-        ((BVH, "--up", "up"), "--up: 'up' is no axis (there are: x, y, z, -x, -y, -z)"),
+        ((BVH, "--up", "up"), "--up: 'up' is not an axis (there are: x, y, z, -x, -y, -z)"),
         ((BVH, "--front", "-y"), "--front: up is y; the front cannot be -y"),
         ((LICENSED / "LICENSE",), "cannot be imported; use .bvh or .urdf"),
         (("none.bvh",), "none.bvh: the file is missing"),

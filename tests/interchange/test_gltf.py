@@ -314,7 +314,7 @@ def test_the_tree_of_flat_bones_must_be_named(tmp_path: Path) -> None:
     assert mesh.labels == ("upper", "lower")
     for parents, message in [
         ({"lower": "uper", "upper": None}, "no bone 'uper'.*did you mean 'upper'"),
-        ({"lower": "upper"}, "no parent is named for the bones upper"),
+        ({"lower": "upper"}, "the bones upper have no parent"),
         ({"lower": "upper", "upper": "lower"}, "0 bones have no bone above them"),
     ]:
         with pytest.raises(DataError, match=message):

@@ -1,6 +1,5 @@
 """Preprocessors, which turn a frame into an observation.
 
-Modules:
-    octree: Octree leaves as Gaussians of their size.
-    points: Points or voxels as Gaussians of equal variance.
+- ``octree``: octree leaves as Gaussians of their size.
+- ``points``: points or voxels as Gaussians of equal variance.
 """

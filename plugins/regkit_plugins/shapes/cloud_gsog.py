@@ -1,4 +1,4 @@
-"""Flat Gaussians at the points of a body's surface."""
+"""The shape model of flat Gaussians at the points of a surface."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from regkit.gaussians.cloud_shape import CloudShape
 
 
 class CloudGeneralizedSumOfGaussians(CloudShape):
-    """A Gaussian at each point of the body's surface that is flat as the surface is there.
+    """A flat Gaussian at each point of the body's surface.
 
-    Its plane is that of the point's neighbourhood, as in generalized ICP (Segal, Haehnel, Thrun,
-    Generalized-ICP, 2009, section III.B).
+    Its plane is estimated from the point's neighbourhood, as in generalized ICP (Segal, Haehnel,
+    Thrun, Generalized-ICP, 2009, section III.B).
     """
 
     kind: Literal["cloud_gsog"] = "cloud_gsog"
 
     flatness: Annotated[float, Field(gt=0.0, le=1.0)] = 0.2
-    """Standard deviation along the surface's normal, as a part of that in the surface."""
+    """Standard deviation along the normal, as a fraction of that in the tangent plane."""
 
     def flat(self) -> float:
-        """The given flatness."""
+        """Returns the flatness."""
         return self.flatness

@@ -1,4 +1,4 @@
-"""Round Gaussians at the points of a body's surface."""
+"""The shape model of isotropic Gaussians at the points of a surface."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from regkit.gaussians.cloud_shape import CloudShape
 
 
 class CloudSumOfGaussians(CloudShape):
-    """A round Gaussian at each point of the body's surface."""
+    """An isotropic Gaussian at each point of the body's surface."""
 
     kind: Literal["cloud_sog"] = "cloud_sog"
 
     def flat(self) -> float:
-        """As deep as it is wide."""
+        """Returns 1: the Gaussians are isotropic."""
         return 1.0

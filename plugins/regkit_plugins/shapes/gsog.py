@@ -1,4 +1,4 @@
-"""G-SoG: a body as a generalized sum of Gaussians, each with a full covariance."""
+"""G-SoG: the shape model of a generalized sum of Gaussians with full covariances."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from regkit_plugins.shapes.surface import Surface, shown
 class GeneralizedSumOfGaussians(ShapeModel):
     """Generalized sum of Gaussians, eqs. 2 and 3.
 
-    Where the template lists none, each of its capsules becomes the Gaussian with the same mean and
-    covariance as the solid capsule.
+    The Gaussians are those that the template lists. If it lists none, each of its capsules becomes
+    the Gaussian with the mean and covariance of the solid capsule.
     """
 
     kind: Literal["gsog"] = "gsog"
@@ -26,10 +26,14 @@ class GeneralizedSumOfGaussians(ShapeModel):
     parameters: ClassVar[type[ShapeParameters] | None] = EllipsoidParameters
 
     surface: Surface = "volume"
-    """Whether data are compared with the whole Gaussian, or with the side that the camera sees."""
+    """Whether kernels compare data with the whole Gaussian, or with its visible surface."""
 
     def bind(self, body: Body) -> Gaussians:
-        """The template's own Gaussians, or the moments of its capsules."""
+        """Returns the template's Gaussians, or those with the moments of its capsules.
+
+        Raises:
+            ConfigError: If the template has neither Gaussians nor capsules.
+        """
         listed = body.shapes.get(self.kind)
         gaussians = _moments_of(body) if listed is None else Gaussians(*ellipsoids(listed))
         return shown(gaussians, self.surface)
@@ -39,7 +43,8 @@ def _moments_of(body: Body) -> Gaussians:
     capsules = body.capsules
     if not len(capsules):
         raise ConfigError(
-            f"the template '{body.name}' has neither shapes.gsog nor capsules to make them from"
+            f"the template '{body.name}' has neither shapes.gsog nor capsules, which shape 'gsog' "
+            "needs"
         )
     moments = [
         _moments(ends, radii) for ends, radii in zip(capsules.ends, capsules.radii, strict=True)
@@ -54,10 +59,10 @@ def _moments_of(body: Body) -> Gaussians:
 
 
 def _moments(ends: Array, radii: Array) -> tuple[Array, Array, Array]:
-    """Centre (3,), axes (3, 3) and standard deviations (3,) of one solid tapered capsule.
+    """Returns centre (3,) [m], axes (3, 3) and standard deviations (3,) [m] of a solid capsule.
 
-    The solid is cut into thin discs at right angles to the axis: a disc of the radius r has the
-    variance r^2/4 across the axis.
+    The moments are integrated over thin discs perpendicular to the axis; a disc of radius r has the
+    variance r^2/4 in each direction of its plane.
     """
     length = float(np.linalg.norm(ends[1] - ends[0]))
     unit = (ends[1] - ends[0]) / length if length > 0.0 else np.array([0.0, 1.0, 0.0])

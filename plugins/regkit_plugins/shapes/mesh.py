@@ -1,4 +1,4 @@
-"""A body as the vertices of its skinned mesh."""
+"""The shape model of the vertices of a skinned mesh."""
 
 from __future__ import annotations
 
@@ -15,28 +15,28 @@ from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError
 
 NEIGHBOURS = 4
-"""The spacing of vertices is the mean distance to so many nearest ones."""
+"""Number of nearest neighbours whose mean distance is the spacing of a vertex."""
 
 
 class Mesh(ShapeModel):
-    """The vertices of the template's skinned mesh with their normals, as ICP takes them.
+    """The vertices of the template's skinned mesh with their normals, as surfels for ICP.
 
-    Vertices near a joint follow the segments on both sides of it, by linear blend skinning.
+    Vertices near a joint are skinned to the segments on both sides, by linear blend skinning.
     """
 
     kind: Literal["mesh"] = "mesh"
     makes: ClassVar[type[Primitives]] = Surfels
 
     def bind(self, body: Body) -> Surfels:
-        """The vertices of the body's surface.
+        """Returns the vertices of the body's surface as surfels.
 
         Raises:
-            ConfigError: If it has none, or one without normals.
+            ConfigError: If the body has no surface, or a surface without normals.
         """
         if body.surface is None:
             raise ConfigError(
-                f"the template '{body.name}' has no mesh; give its YAML one (mesh: FILE.npz), or "
-                "take a shape that is made of capsules or Gaussians"
+                f"the template '{body.name}' has no mesh; add one to its YAML (mesh: FILE.npz), or "
+                "choose a shape model of capsules or Gaussians"
             )
         if body.surface.normals is None:
             raise ConfigError(
@@ -47,6 +47,6 @@ class Mesh(ShapeModel):
 
 
 def _spacings(vertices: Array) -> Array:
-    """How far each vertex (V, 3) is from its neighbours, (V,) [m]."""
+    """Returns the mean distance (V,) [m] of each vertex (V, 3) to its nearest neighbours."""
     distances, _ = cKDTree(vertices).query(vertices, k=min(NEIGHBOURS + 1, len(vertices)))
     return np.asarray(np.asarray(distances)[:, 1:].mean(axis=1))

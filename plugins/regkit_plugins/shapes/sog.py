@@ -1,4 +1,4 @@
-"""SoG: a body as a sum of isotropic Gaussians."""
+"""SoG: the shape model of a sum of isotropic Gaussians."""
 
 from __future__ import annotations
 
@@ -16,8 +16,9 @@ from regkit_plugins.shapes.surface import Surface, shown
 class SumOfGaussians(ShapeModel):
     """Sum of isotropic Gaussians, eqs. 1 and 2.
 
-    Where the template lists none, spheres are strung along its capsules, each with half the
-    capsule's radius as its standard deviation (the deviation of a solid cylinder across its axis).
+    The Gaussians are those that the template lists. If it lists none, they are placed along its
+    capsules, with half the capsule's radius as standard deviation (that of a solid cylinder across
+    its axis).
     """
 
     kind: Literal["sog"] = "sog"
@@ -25,10 +26,14 @@ class SumOfGaussians(ShapeModel):
     parameters: ClassVar[type[ShapeParameters] | None] = BallParameters
 
     surface: Surface = "volume"
-    """Whether data are compared with the whole Gaussian, or with the side that the camera sees."""
+    """Whether kernels compare data with the whole Gaussian, or with its visible surface."""
 
     def bind(self, body: Body) -> Gaussians:
-        """The template's own isotropic Gaussians, or some made from its capsules."""
+        """Returns the template's isotropic Gaussians, or Gaussians along its capsules.
+
+        Raises:
+            ConfigError: If the template has neither Gaussians nor capsules.
+        """
         listed = body.shapes.get(self.kind)
         if listed is None:
             return shown(_strung_along(self.capsules_of(body)), self.surface)

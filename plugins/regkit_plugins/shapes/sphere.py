@@ -1,4 +1,4 @@
-"""A body as a sphere-mesh: its tapered capsules themselves, or spheres strung along them."""
+"""The shape model of a sphere-mesh: tapered capsules, or spheres along them."""
 
 from __future__ import annotations
 
@@ -14,25 +14,24 @@ from regkit.primitives import Primitives, TaperedCapsules
 
 
 class SphereMesh(ShapeModel):
-    """Spheres, and the surfaces that they sweep, along the template's capsules.
+    """The template's capsules, or spheres along them.
 
-    As ``capsules`` it is the sphere-mesh of Tkach, Pauly and Tagliasacchi (Sphere-meshes for
-    real-time hand modeling and tracking, 2016), of pills alone: it has no wedges between three
-    spheres. As ``spheres`` it is the set of spheres of Qian, Sun, Wei, Tang and Sun (Realtime and
-    robust hand tracking from depth, 2014).
+    The variant ``capsules`` is the sphere-mesh of Tkach, Pauly and Tagliasacchi (Sphere-meshes for
+    real-time hand modeling and tracking, 2016), with pills only and no wedges. The variant
+    ``spheres`` is the model of Qian, Sun, Wei, Tang and Sun (Realtime and robust hand tracking from
+    depth, 2014).
     """
 
     kind: Literal["sphere"] = "sphere"
     makes: ClassVar[type[Primitives]] = TaperedCapsules
 
     variant: Literal["capsules", "spheres"] = "capsules"
-    """Whether the spheres at a capsule's ends are joined by the surface that a sphere on the way
-    from one to the other sweeps, or by more spheres."""
+    """Whether the primitives are tapered capsules, or spheres along their axes."""
     spacing: Annotated[float, Field(gt=0.0)] = 1.0
-    """Distance of neighbouring spheres, as a part of their radius; for the spheres alone."""
+    """Distance of neighbouring spheres, as a fraction of their radius; for ``spheres`` only."""
 
     def bind(self, body: Body) -> TaperedCapsules:
-        """The template's capsules, or spheres on their axes.
+        """Returns the template's capsules, or spheres on their axes.
 
         Raises:
             ConfigError: If the template has no capsules.
@@ -44,7 +43,7 @@ class SphereMesh(ShapeModel):
 
 
 def _strung_along(capsules: Capsules, spacing: float) -> Capsules:
-    """Spheres from end to end of each capsule, as capsules of no length."""
+    """Returns spheres along each capsule, as capsules of zero length."""
     owners, along = [], []
     for index, (ends, radii) in enumerate(zip(capsules.ends, capsules.radii, strict=True)):
         length = float(np.linalg.norm(ends[1] - ends[0]))
@@ -60,14 +59,14 @@ def _strung_along(capsules: Capsules, spacing: float) -> Capsules:
 
 
 def _joined(capsules: Capsules) -> TaperedCapsules:
-    """Capsules as primitives."""
+    """Returns capsules as primitives."""
     ends, radii = capsules.ends.copy(), capsules.radii.copy()
     lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-    # Where one sphere holds the other, it is the hull of both.
-    held = np.flatnonzero(np.abs(radii[:, 1] - radii[:, 0]) >= lengths)
-    larger = radii[held].argmax(axis=1)
-    ends[held] = ends[held, larger, None]
-    radii[held] = radii[held, larger, None]
+    # If one sphere contains the other, the capsule is the larger sphere.
+    contained = np.flatnonzero(np.abs(radii[:, 1] - radii[:, 0]) >= lengths)
+    larger = radii[contained].argmax(axis=1)
+    ends[contained] = ends[contained, larger, None]
+    radii[contained] = radii[contained, larger, None]
     halves = 0.5 * np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
     across = 0.5 * radii.mean(axis=1)
     along = 0.5 * (halves + radii.mean(axis=1))

@@ -1,4 +1,4 @@
-"""What of a Gaussian is compared with data: its volume, or the side that a camera sees."""
+"""The choice between Gaussians as volumes and their visible surfaces."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ Surface = Literal["volume", "visible"]
 
 
 def shown(gaussians: Gaussians, surface: Surface) -> Gaussians:
-    """The Gaussians, marked for kernels to take their visible side where there is a camera."""
+    """Returns the Gaussians; ``visible`` ones make kernels use the surface that the camera sees."""
     if surface == "volume":
         return gaussians
     return SurfaceGaussians(

@@ -1,4 +1,4 @@
-"""A cloud or a mesh in a file as a rigid template."""
+"""The template of a rigid cloud or mesh in a file."""
 
 from __future__ import annotations
 
@@ -20,21 +20,21 @@ from regkit.system.arrays import Array
 
 
 class CloudTemplate(Template):
-    """A rigid object: one free segment, whose surface are the points of a cloud or of a mesh.
+    """A rigid object: one free segment with the points of a cloud or mesh as its surface.
 
-    The segment's origin is the middle of the points; markers are given where the file has them.
+    The origin of the segment is the centroid of the points.
     """
 
     kind: Literal["cloud"] = "cloud"
     path: InputPath
-    """The file: a cloud (.ply, .pcd, .xyz, .npz, ...) or a mesh (.ply, .stl, .obj, ...)."""
+    """File of a cloud (.ply, .pcd, .xyz, .npz, ...) or a mesh (.ply, .stl, .obj, ...)."""
     voxel: Annotated[float, Field(gt=0.0)] | None = None
-    """Side of the cubes whose points are averaged to one [m]; every point is taken without it."""
+    """Voxel size for downsampling [m]; by default all points are used."""
     markers: dict[str, Vector] = Field(default_factory=dict)
-    """Named points in the file's coordinates [m], to be compared with reference points."""
+    """Named points in the coordinates of the file [m], for comparison with reference points."""
 
     def description(self) -> BodyDescription:
-        """One free segment.
+        """Returns a description with one free segment.
 
         Raises:
             DataError: If the file cannot be read, or its points do not determine a pose.
@@ -43,15 +43,15 @@ class CloudTemplate(Template):
         return cloud_description(points, self._markers(points))
 
     def given_size(self) -> float | None:
-        """The diagonal of the box around the points [m]."""
+        """Returns the diagonal of the bounding box [m]."""
         return float(np.linalg.norm(np.ptp(self._points(), axis=0)))
 
     def name(self) -> str:
-        """The file's name."""
+        """Returns the name of the file."""
         return self.path.stem
 
     def body(self, size: float) -> Body:
-        """The points as they are; a cloud has one size."""
+        """Returns the body; the size of a cloud is fixed, so ``size`` is ignored."""
         points = self._points()
         return cloud_body(self.name(), points - points.mean(axis=0), self._markers(points))
 
@@ -67,7 +67,7 @@ class CloudTemplate(Template):
 
 @lru_cache(maxsize=8)
 def _read(path: Path, changed: int) -> Array:
-    """The points of a file, which is read again only if it has changed."""
+    """Returns the points of a file, cached until it changes."""
     points = read_cloud(path)
     check_shape(points, place=str(path))
     return points

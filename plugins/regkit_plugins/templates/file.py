@@ -1,4 +1,4 @@
-"""A template of the user's own, in a YAML file."""
+"""A template in the user's YAML file."""
 
 from __future__ import annotations
 
@@ -15,17 +15,18 @@ from regkit_plugins.templates.reading import description_in
 
 
 class FileTemplate(Template):
-    """Any linkage, described in a YAML file.
+    """Any articulated body, described in a YAML file.
 
-    The file is read and checked while the configuration is. Proportions are what the file says,
-    under ``sources``.
+    The file is read and validated together with the configuration. Its ``sources`` name the origin
+    of its proportions.
     """
 
     kind: Literal["file"] = "file"
     path: InputPath
-    """The template's YAML file."""
+    """YAML file of the template."""
     size: Annotated[float, Field(gt=0.0)] | None = None
-    """What the file's ``size`` names [m]; without it, several in its range are tried."""
+    """The body's size, as defined by ``size`` in the file [m]; by default it is estimated within
+    the file's range."""
 
     @model_validator(mode="after")
     def _read_early(self) -> Self:
@@ -33,22 +34,22 @@ class FileTemplate(Template):
             description = self.description()
             description.body(self.kind, description.size.value)
         except RegkitError as error:
-            # This type of error keeps pydantic's input out of the message, which has the path.
+            # This error type keeps pydantic from adding the input to the message with the path.
             raise PydanticCustomError("plugin_error", "{error}", {"error": str(error)}) from error
         return self
 
     def description(self) -> BodyDescription:
-        """What the file says.
+        """Returns the description in the file.
 
         Raises:
-            RegkitError: If the file is missing or wrong.
+            RegkitError: If the file is missing or invalid.
         """
         return description_in(self.path)
 
     def name(self) -> str:
-        """The file's name."""
+        """Returns the name of the file."""
         return self.path.stem
 
     def given_size(self) -> float | None:
-        """The size [m], if it is given."""
+        """Returns the size [m], if it is set."""
         return self.size

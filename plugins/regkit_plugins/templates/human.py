@@ -18,28 +18,28 @@ FILES: Mapping[Build, str] = {
     "small": "human_small.yaml",
     "tall": "human_tall.yaml",
 }
-"""The template's file for each build."""
+"""Template file of each build."""
 
 
 class Human(Template):
     """A person: 15 segments, 20 markers, 58 Gaussians as SoG and 13 as G-SoG.
 
-    Proportions, surface and Gaussians are those of a body of anny, a statistical body model built
-    on the data of MakeHuman; joint limits are clinical ranges of motion. The file itself,
-    ``human.yaml`` or that of another build, names the sources at its top and at the joints.
+    Proportions, surface and Gaussians are fitted to a body of anny, a statistical body model based
+    on MakeHuman data. Joint limits are clinical ranges of motion. The template files, such as
+    ``human.yaml``, cite the sources at the top and at the joints.
     """
 
     kind: Literal["human"] = "human"
     build: Build = "average"
-    """Whose proportions and girths: of the neutral body, of a small, slight one, or of a tall,
-    muscular one. They are those of the bodies of these names that synthetic data have."""
+    """Proportions and girths: of the average body, of a small, slim body, or of a tall, muscular
+    one. They are the same as those of the bodies in synthetic data."""
     height: Annotated[float, Field(ge=0.5, le=2.5)] | None = None
-    """Standing height of the person [m]; without it, several are tried on the first frame."""
+    """Standing height [m]; by default it is estimated in the first frame."""
 
     def description(self) -> BodyDescription:
-        """What the file of the build says."""
+        """Returns the description in the file of the build."""
         return description_in(FOLDER / FILES[self.build])
 
     def given_size(self) -> float | None:
-        """The height [m], if it is given."""
+        """Returns the height [m], if it is set."""
         return self.height

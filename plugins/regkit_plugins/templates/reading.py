@@ -1,4 +1,4 @@
-"""Template files, each read once."""
+"""Cached reading of template files."""
 
 from __future__ import annotations
 
@@ -9,16 +9,17 @@ from regkit.body import BodyDescription, ParametricShape
 from regkit.config.document import Document
 
 FOLDER = Path(__file__).resolve().parent
-"""Where the templates lie that ship with regkit."""
+"""Folder of the shipped templates."""
 
 
 def description_in(path: Path) -> BodyDescription:
-    """The template in a YAML file.
+    """Returns the template in a YAML file.
 
-    It is read again only if it has changed, or other shape models are installed to check it.
+    The result is cached until the file changes, or other shape models are installed that validate
+    it.
 
     Raises:
-        RegkitError: If the file is missing or wrong.
+        RegkitError: If the file is missing or invalid.
     """
     changed = path.stat().st_mtime_ns if path.is_file() else 0
     return _read(path, changed, tuple(ParametricShape.available().items()))

@@ -1,4 +1,4 @@
-"""Clamp: nothing is gained by explaining a point more than once."""
+"""Clamp: limits the overlap that each data point contributes."""
 
 from __future__ import annotations
 
@@ -14,28 +14,28 @@ from regkit.system.arrays import Array
 
 
 class Clamp(Term):
-    """Charges the overlap with a data Gaussian beyond that with itself.
+    """Penalises the overlap with a data Gaussian beyond the data Gaussian's self-overlap.
 
-    With the kernel ``correlation`` it makes of each point's overlap the smaller of the two, as in
-    the trackers with sums of Gaussians before the paper; with other kernels it keeps primitives
-    from being heaped on the same data.
+    With the kernel ``correlation`` it clamps each point's overlap to the self-overlap, as in the
+    SoG trackers before the paper. With other kernels it keeps primitives from concentrating on the
+    same data.
     """
 
     kind: Literal["clamp"] = "clamp"
     accepts: ClassVar[type[Primitives]] = Gaussians
 
     weight: Annotated[float, Field(gt=0.0)] = 1.0
-    """Weight against the kernel's energy."""
+    """Weight relative to the kernel's energy."""
     covariance: Literal["exact", "frozen"] = "exact"
-    """Whether covariances turn with their segments; the same as the kernel's."""
+    """Whether covariances rotate with their segments; use the value of the kernel."""
 
     def bind(self, scene: Scene) -> BoundClamp:
-        """Bind the term to a frame's data."""
+        """Binds the term to the data of a frame."""
         return BoundClamp(self, scene)
 
 
 class BoundClamp(Overlap):
-    """``weight * sum max(0, overlap - self-similarity)`` over the data."""
+    """``weight * sum max(0, overlap - self-overlap)`` over the data."""
 
     def __init__(self, term: Clamp, scene: Scene) -> None:
         frozen = term.covariance == "frozen"
@@ -43,14 +43,14 @@ class BoundClamp(Overlap):
         self._weight = term.weight
 
     def weigh(self, densities: Array, data_weights: Array) -> float:
-        """Only points beyond their own overlap put forces on primitives."""
+        """Returns the energy; only points whose overlap exceeds their self-overlap exert forces."""
         excess = densities.sum(axis=0) - SELF_OVERLAP * data_weights
-        # The derivative of the excess is against that of the energy of an overlap, which is minus.
+        # The energy of an overlap is negative, so the derivative of the excess has a minus sign.
         densities *= -self._weight * (excess > 0.0)
         return self._weight * float(np.maximum(excess, 0.0).sum())
 
     def __call__(self, placed: Placed[Gaussians], *, curvature: bool = False) -> Response:
-        """The energy and its wrenches; its curvature is negative where it counts, and left out."""
+        """Returns energy and wrenches; the curvature is not positive, so the blocks are zero."""
         response = super().__call__(placed)
         blocks = np.zeros((len(placed), 6, 6)) if curvature else None
         return Response(response.energy, response.wrenches, blocks)

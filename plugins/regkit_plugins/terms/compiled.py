@@ -1,4 +1,4 @@
-"""What terms ask of pairs of primitives, in compiled loops."""
+"""Overlaps and occlusions of pairs of primitives in compiled loops."""
 
 from __future__ import annotations
 
@@ -14,7 +14,15 @@ from regkit.system.compiled import compiled
 def overlaps(
     centres: Array, covariances: Array, first: Indices, second: Indices, weights: Array
 ) -> tuple[float, Array, Array]:
-    """The energy, the wrenches (K, 6), and blocks (K, 6, 6) of its curvature, never negative."""
+    """Returns energy, wrenches (K, 6) and positive semidefinite blocks (K, 6, 6) of overlaps.
+
+    Args:
+        centres: Centres of the primitives, (K, 3) [m].
+        covariances: Covariances of the primitives, (K, 3, 3) [m^2].
+        first: Index of the first primitive of each pair, (M,).
+        second: Index of the second primitive of each pair, (M,).
+        weights: Weight of each pair, (M,).
+    """
     energy = 0.0
     wrenches, blocks = np.zeros((len(centres), 6)), np.zeros((len(centres), 6, 6))
     pulled, way = np.empty(3), np.empty(6)
@@ -54,15 +62,16 @@ def overlaps(
 
 @compiled
 def free_rays(targets: Array, centres: Array, axes: Array, radii: Array) -> Array:
-    """How many of each primitive's targets a camera at the origin sees, as a share, (K,).
+    """Returns the fraction (K,) of each primitive's targets that a camera at the origin sees.
 
-    A ray is held by each ellipsoid whose centre is nearer to the camera than the primitive's own.
+    A ray is occluded by any ellipsoid that it intersects and whose centre is nearer to the camera
+    than the primitive's.
 
     Args:
-        targets: (K, M, 3) [m].
-        centres: Of the ellipsoids, (K, 3) [m].
-        axes: (K, 3, 3).
-        radii: Half axes, (K, 3) [m].
+        targets: Target points of each primitive, (K, M, 3) [m].
+        centres: Centres of the ellipsoids, (K, 3) [m].
+        axes: Axes of the ellipsoids, (K, 3, 3).
+        radii: Half axes of the ellipsoids, (K, 3) [m].
     """
     count, samples = targets.shape[:2]
     shares = np.ones(count)
@@ -73,7 +82,7 @@ def free_rays(targets: Array, centres: Array, axes: Array, radii: Array) -> Arra
             for other in range(count):
                 if other == k or (centres[other] ** 2).sum() >= own:
                     continue
-                # In units of its radii an ellipsoid is the unit ball, and rays stay rays.
+                # Scaled by its radii, an ellipsoid is the unit ball, and rays remain rays.
                 along, square = 0.0, 0.0
                 for a in range(3):
                     way[a], eye[a] = 0.0, 0.0

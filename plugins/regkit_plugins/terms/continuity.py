@@ -1,4 +1,4 @@
-"""Continuity: a pose stays near the one that is expected."""
+"""Continuity: keeps the pose close to the prior."""
 
 from __future__ import annotations
 
@@ -16,31 +16,31 @@ from regkit.system.arrays import Array
 
 
 class Continuity(Term):
-    """Half the squared way from the expected pose, as rotation vectors, in units of ``joint_deg``.
+    """Half the squared distance to the prior pose, as rotation vectors in units of ``joint_deg``.
 
-    The root is left free, for it is always seen; what the data say nothing about stays as expected.
+    The root, which is always observed, is free. Unobserved joints stay at the prior.
     """
 
     kind: Literal["continuity"] = "continuity"
 
     weight: Annotated[float, Field(gt=0.0)] = 0.01
-    """Weight against the kernel's energy."""
+    """Weight relative to the kernel's energy."""
     joint_deg: Annotated[float, Field(gt=0.0)] = 20.0
-    """How far a joint turns from frame to frame [deg]."""
+    """Typical rotation of a joint between frames [deg]."""
     joints_deg: dict[str, Annotated[float, Field(gt=0.0)]] = Field(default_factory=dict)
-    """The same of single joints, by segment [deg]."""
+    """Typical rotation of individual joints, by segment [deg]."""
 
     def check(self, body: Body) -> None:
-        """Every joint that is named must be there.
+        """Validates the names of joints.
 
         Raises:
-            ConfigError: If ``joints_deg`` names a joint that there is not.
+            ConfigError: If ``joints_deg`` names an unknown joint.
         """
         for name in self.joints_deg:
             body.skeleton.dofs_of(name)
 
     def bind(self, scene: Scene) -> BoundContinuity:
-        """Bind the term to the pose that is expected."""
+        """Binds the term to the prior pose."""
         skeleton = scene.body.skeleton
         usual = np.full(skeleton.dofs, self.joint_deg)
         for name, degrees in self.joints_deg.items():
@@ -52,13 +52,13 @@ class Continuity(Term):
 
 @dataclass(frozen=True)
 class BoundContinuity(JointEnergy):
-    """``1/2 sum w r^2`` with the step r of the joints from the expected pose.
+    """``1/2 sum w r^2`` with the step r of the joints from the prior pose.
 
     Attributes:
-        skeleton: Whose poses.
-        expected: The pose that costs nothing.
-        weights: w, (n,), equal for the three numbers of a ball joint, and zero for the root.
-        stiffness: The same as a matrix, (n, n).
+        skeleton: The skeleton.
+        expected: The prior pose, with zero energy.
+        weights: w, (n,), equal for the three components of a ball joint, and zero for the root.
+        stiffness: The diagonal matrix of the weights, (n, n).
     """
 
     skeleton: Skeleton
@@ -67,7 +67,10 @@ class BoundContinuity(JointEnergy):
     stiffness: Array
 
     def __call__(self, pose: Pose) -> JointResponse:
-        """The force is w r itself: a rotation vector is the same before and after its rotation."""
+        """Returns the energy, its gradient w r, and its stiffness.
+
+        The gradient is exact, because a rotation leaves its own rotation vector unchanged.
+        """
         step = np.zeros(self.skeleton.dofs)
         step[self.skeleton.ball_dofs] = ball_steps(self.expected.balls, pose.balls).ravel()
         step[self.skeleton.hinge_dofs] = pose.hinges - self.expected.hinges

@@ -1,4 +1,4 @@
-"""Free space: no part of a body is where the camera saw through."""
+"""Free space: keeps the body out of the space that the camera sees as empty."""
 
 from __future__ import annotations
 
@@ -14,37 +14,36 @@ from regkit.registration import Residuals, ResidualSimilarity
 from regkit.registration.robust import PseudoHuber
 
 REACH = 1.0
-"""Where a primitive is sampled besides its centre: so many scales along its longest axis."""
+"""Position of a primitive's samples along its longest axis, in units of its scale."""
 
 
 class FreeSpace(Term):
-    """Draws what is beside the silhouette into it, and what is before the measured depth behind it.
+    """Penalises primitives outside the silhouette, or in front of the measured depth.
 
-    The middle lines of the primitives have to lie behind what the camera measured. Pixels without a
-    measurement are taken as seen through, as those of a background that is out of reach.
-    Without a depth image the term does nothing.
+    The axes of the primitives should be behind the measured surface. Invalid pixels count as free
+    space, like those of a background out of range. Without a depth image the term has no effect.
     """
 
     kind: Literal["free_space"] = "free_space"
 
     weight: Annotated[float, Field(gt=0.0)] = 1.0
-    """Weight against the kernel's energy."""
+    """Weight relative to the kernel's energy."""
     margin: Annotated[float, Field(ge=0.0)] = 0.5
-    """How far before the measured depth a middle line may lie, in smallest scales of it."""
+    """Allowed distance of an axis in front of the measured depth, in units of the primitive's
+    smallest scale."""
 
     def bind(self, scene: Scene) -> BoundFreeSpace:
-        """Bind the term to a frame's depth image."""
+        """Binds the term to the depth image of a frame."""
         return BoundFreeSpace(self, scene)
 
 
 class BoundFreeSpace(ResidualSimilarity):
-    """``sum w (sqrt(1 + (d / s)^2) - 1)`` over points of the primitives.
+    """``sum w (sqrt(1 + (d / s)^2) - 1)`` over samples of the primitives.
 
-    d is how far a point is in free space, beside the silhouette or before it; s is the primitive's
-    smallest scale.
+    d is the distance of a sample inside free space, and s the primitive's smallest scale.
 
     Args:
-        term: Its weight and margin.
+        term: The term.
         scene: The frame.
     """
 
@@ -54,7 +53,7 @@ class BoundFreeSpace(ResidualSimilarity):
         count = len(scales)
         ordered = np.sort(scales, axis=1)
         sizes = ordered[:, 1:].prod(axis=1)
-        # Three points of each primitive, of which one is enough for balls.
+        # Three samples per primitive; a single one is enough for balls.
         self._each = 1 if (ordered[:, 0] == ordered[:, 2]).all() else 3
         self._weights = np.repeat(term.weight * sizes / sizes.sum() / self._each, self._each)
         self._widths = np.repeat(ordered[:, 0], self._each)
@@ -67,7 +66,7 @@ class BoundFreeSpace(ResidualSimilarity):
         self._silhouette = scene.observation.silhouette
 
     def residuals(self, placed: Placed[Any]) -> Residuals:
-        """How far each point is in free space, in scales of its primitive."""
+        """Returns the distance of each sample inside free space, in units of the smallest scale."""
         if self._silhouette is None:
             return _NONE
         arms = (placed.axes @ self._offsets).transpose(0, 2, 1)
@@ -81,4 +80,4 @@ class BoundFreeSpace(ResidualSimilarity):
 
 
 _NONE = Residuals(np.zeros(0, dtype=np.intp), np.zeros(0), np.zeros((0, 6)), np.zeros(0))
-"""No point is in free space."""
+"""The residuals if no sample is in free space."""

@@ -1,4 +1,4 @@
-"""Intersection: no two parts of a body are in the same place."""
+"""Intersection: keeps the parts of a body apart."""
 
 from __future__ import annotations
 
@@ -15,24 +15,24 @@ from regkit.system.arrays import Array, Indices
 from regkit_plugins.terms.compiled import overlaps
 
 REACH = 3.0
-"""Pairs farther apart than so many of their scales together at the start are not looked at."""
+"""Maximum distance of a pair at the start, in units of the sum of their largest scales."""
 
 
 class Intersection(Term):
-    """Correlation of primitives on segments that are not neighbours, as Gaussians of their scales.
+    """Penalises the overlap of primitives on non-adjacent segments, as Gaussians of their scales.
 
-    Each pair's overlap is taken as a part of what it is where both centres fall together, and
-    counts by the smaller one's share of the body.
+    The overlap of each pair is relative to that at coinciding centres, weighted by the smaller
+    primitive's fraction of the body.
     """
 
     kind: Literal["intersection"] = "intersection"
     accepts: ClassVar[type[Primitives]] = Volumes
 
     weight: Annotated[float, Field(gt=0.0)] = 0.3
-    """Weight against the kernel's energy."""
+    """Weight relative to the kernel's energy."""
 
     def bind(self, scene: Scene) -> BoundIntersection:
-        """Bind the term to the pairs of primitives that must not meet."""
+        """Binds the term to the pairs of primitives that may intersect."""
         primitives = scene.placed.primitives
         first, second = _strangers(primitives.segments, scene.body.skeleton)
         apart = scene.placed.centres[first] - scene.placed.centres[second]
@@ -50,9 +50,9 @@ class BoundIntersection(Similarity):
     """``sum w exp(-1/2 d^T (C_a + C_b)^-1 d)`` over M pairs, with d = m_a - m_b.
 
     Attributes:
-        first: Index a of the pairs, (M,).
-        second: Index b, (M,).
-        weights: w, (M,).
+        first: Index a of each pair, (M,).
+        second: Index b of each pair, (M,).
+        weights: Weight w of each pair, (M,).
     """
 
     first: Indices
@@ -60,8 +60,8 @@ class BoundIntersection(Similarity):
     weights: Array
 
     def __call__(self, placed: Placed[Any], *, curvature: bool = False) -> Response:
-        """The energy, exact wrenches, and the part of the curvature that is never negative."""
-        # dE/dm_a = -o u and dE/dC_a = o/2 u u^T, with u = S^-1 d; for b the force is opposite.
+        """Returns the energy, exact wrenches, and the semidefinite part of the curvature."""
+        # dE/dm_a = -o u and dE/dC_a = o/2 u u^T, with u = S^-1 d; b has the opposite force.
         energy, wrenches, blocks = overlaps(
             placed.centres, placed.covariances(), self.first, self.second, self.weights
         )
@@ -69,7 +69,7 @@ class BoundIntersection(Similarity):
 
 
 def _strangers(segments: Indices, skeleton: Skeleton) -> tuple[Indices, Indices]:
-    """The pairs of primitives on different segments that no joint ties directly, (M,) each."""
+    """Returns the pairs of primitives on non-adjacent segments, (M,) each."""
     first, second = np.triu_indices(len(segments), k=1)
     apart = ~skeleton.adjacent[segments[first], segments[second]]
     return first[apart], second[apart]

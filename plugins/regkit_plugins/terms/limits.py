@@ -1,4 +1,4 @@
-"""Limits: joints are drawn back to their ranges."""
+"""Limits: penalises violations of joint limits."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from regkit.skeleton import Pose, Skeleton
 class LimitsTerm(Term):
     """Half the squared violation of every joint limit: hinges, swings and twists.
 
-    It is for solvers that do not keep the limits of ball joints themselves, such as lbfgs.
+    Use it with solvers that do not enforce the limits of ball joints, such as ``lbfgs``.
     """
 
     kind: Literal["limits"] = "limits"
 
     weight: Annotated[float, Field(gt=0.0)] = 0.1
-    """Weight against the kernel's energy."""
+    """Weight relative to the kernel's energy."""
     tolerance_deg: Annotated[float, Field(gt=0.0)] = 10.0
-    """A violation of so much costs half the weight [deg]."""
+    """Violation whose energy is half the weight [deg]."""
 
     def bind(self, scene: Scene) -> BoundLimits:
-        """Bind the term to the body's limits."""
+        """Binds the term to the limits of the body."""
         return BoundLimits(scene.body.skeleton, self.weight / radians(self.tolerance_deg) ** 2)
 
 
@@ -35,15 +35,15 @@ class BoundLimits(JointEnergy):
     """``1/2 w sum v^2`` over all violations v.
 
     Attributes:
-        skeleton: Whose joints.
-        weight: w [1/rad^2].
+        skeleton: The skeleton.
+        weight: Weight w [1/rad^2].
     """
 
     skeleton: Skeleton
     weight: float
 
     def __call__(self, pose: Pose) -> JointResponse:
-        """By the exact derivative of the violations; its curvature is that of Gauss-Newton."""
+        """Returns the energy, its exact gradient, and its Gauss-Newton matrix."""
         violations, jacobian = self.skeleton.violations(pose)
         force = self.weight * violations @ jacobian
         return JointResponse(

@@ -1,4 +1,4 @@
-"""Visibility: what is hidden from the camera explains no data."""
+"""Visibility: reduces the weights of occluded primitives."""
 
 from __future__ import annotations
 
@@ -14,37 +14,37 @@ from regkit_plugins.terms.compiled import free_rays
 
 
 class Visibility(Term):
-    """Weighs each primitive by how much of it the camera sees in the start pose.
+    """Weights each primitive by the fraction that is visible to the camera in the start pose.
 
-    A few points of each primitive's outline are looked at; one is hidden if the ray to it passes
-    through another primitive before. The kernels of surfels have a way of their own.
+    The fraction is estimated from a few points of each primitive; a point is occluded if its ray
+    intersects another primitive in front of it. Kernels of surfels have their own visibility.
     """
 
     kind: Literal["visibility"] = "visibility"
     accepts: ClassVar[type[Primitives]] = Volumes
 
     least: Annotated[float, Field(gt=0.0, le=1.0)] = 0.05
-    """What a wholly hidden primitive still weighs, so that it can come into sight again."""
+    """Weight of a fully occluded primitive, with which it can become visible again."""
 
     def bind(self, scene: Scene) -> VisibilityWeights:
-        """The visible shares; all are one where the camera is not known."""
+        """Returns the weights; all are one if the camera is unknown."""
         if scene.observation.camera is None:
             return VisibilityWeights(np.ones(len(scene.placed)))
         return VisibilityWeights(np.maximum(visible_shares(scene.placed), self.least))
 
 
 def visible_shares(placed: Placed[Primitives]) -> Array:
-    """The share of each primitive that a camera at the origin sees, (K,), from 0 to 1.
+    """Returns the fraction of each primitive that a camera at the origin sees, (K,), from 0 to 1.
 
-    Primitives are taken as ellipsoids of two scales, and looked at in the middle and at four points
-    of the outline that is turned to the camera.
+    Primitives are treated as 2-sigma ellipsoids, and sampled at the centre and at four points
+    half-way along their two longest axes.
     """
     radii = 2.0 * placed.primitives.scales
     return free_rays(_outline(placed, radii), placed.centres, placed.axes, radii)
 
 
 def _outline(placed: Placed[Primitives], radii: Array) -> Array:
-    """The middle and four points half-way to the outline of each primitive, (K, 5, 3) [m]."""
+    """Returns the sample points of each primitive, (K, 5, 3) [m]."""
     longest = np.argsort(radii, axis=1)[:, 1:]
     each = np.arange(len(radii))
     offsets = [

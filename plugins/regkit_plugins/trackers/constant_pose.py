@@ -1,4 +1,4 @@
-"""The tracker that starts each frame where the last one ended."""
+"""The constant-pose tracker: starts each frame from the last pose."""
 
 from __future__ import annotations
 
@@ -16,16 +16,20 @@ class ConstantPose(Tracker):
     kind: Literal["constant_pose"] = "constant_pose"
 
     def bind(self, registrar: Registrar) -> BoundConstantPose:
-        """Nothing is to be prepared."""
+        """Binds the tracker to a registrar."""
         return BoundConstantPose(registrar)
 
 
 @dataclass(frozen=True)
 class BoundConstantPose(BoundTracker):
-    """``ConstantPose`` for one registrar."""
+    """``ConstantPose`` bound to a registrar.
+
+    Attributes:
+        registrar: The registrar.
+    """
 
     registrar: Registrar
 
     def step(self, observation: Observation, past: Past) -> RegistrationResult:
-        """Register the frame from the last pose."""
+        """Registers a frame from the last pose."""
         return self.registrar.register(observation, [past.last.pose], warm_start=past.last)

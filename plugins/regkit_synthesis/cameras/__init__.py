@@ -1,4 +1,4 @@
-"""Depth cameras: known intrinsics, viewpoints, and what a camera sees of a mesh."""
+"""Depth cameras: intrinsics of known models, viewpoints, and ray casting of meshes."""
 
 from regkit_synthesis.cameras.cameras import CAMERAS, CameraChoice, CameraName, camera_of
 from regkit_synthesis.cameras.raycast import RayCaster, View, ray_cast, stored

@@ -1,4 +1,4 @@
-"""Depth cameras that synthetic frames are taken with: known ones, those of files, any numbers."""
+"""Cameras of synthetic depth images: known models, files, or given intrinsics."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ class CameraNumbers(Model):
     fx: Positive
     """Horizontal focal length [px]."""
     fy: Positive | None = None
-    """Vertical focal length [px]; the horizontal one without it."""
+    """Vertical focal length [px]; by default equal to ``fx``."""
     cx: float | None = None
-    """Principal point, columns from the centre of the first [px]; the middle without it."""
+    """Column of the principal point [px]; by default the image centre."""
     cy: float | None = None
-    """Principal point, rows from the centre of the first [px]; the middle without it."""
+    """Row of the principal point [px]; by default the image centre."""
     depth_scale: Positive = 1000.0
     """Depth image units per metre: 1000 for millimetres."""
 
@@ -46,7 +46,7 @@ class CameraNumbers(Model):
 
 
 class CameraFile(Model):
-    """A file with intrinsics, as a recorded recording has."""
+    """A file with intrinsics, such as ``camera.json`` of a recording."""
 
     file: InputPath
     """Open3D's ``PinholeCameraIntrinsic`` JSON."""
@@ -71,20 +71,20 @@ CAMERAS: Mapping[CameraName, CameraNumbers] = {
     "realsense_d435": CameraNumbers(width=848, height=480, fx=424.0),
     "sr305": CameraNumbers(width=320, height=240, fx=238.0, depth_scale=10000.0),
 }
-"""Known cameras; the principal point is in the middle of each.
+"""Known cameras, with the principal point at the image centre.
 
-- ``sr4000``: MESA SR4000, time of flight, 176 x 144 pixels that see 42 by 35 degrees; nominal, not
-  checked against its data sheet.
-- ``kinect_v1``: Microsoft's first Kinect, structured light. Calibrations of single ones give focal
-  lengths of 571 to 594 px; 585 px is that of Nguyen, Izadi and Lovell, rounded.
-- ``realsense_d435``: Intel RealSense D435, active stereo, in the mode of 848 x 480 in which Intel
-  finds its depth best, and with the 90 degrees across of Intel's own formulas.
+- ``sr4000``: MESA SR4000, time of flight, 176 x 144 pixels, field of view 42 by 35 degrees;
+  nominal values, not verified with the data sheet.
+- ``kinect_v1``: Microsoft's first Kinect, structured light. Calibrations of individual devices give
+  focal lengths of 571 to 594 px; 585 px is the rounded value of Nguyen, Izadi and Lovell.
+- ``realsense_d435``: Intel RealSense D435, active stereo, 848 x 480 pixels, the mode that Intel
+  recommends for depth, with the horizontal field of view of 90 degrees of Intel's formulas.
 - ``sr305``: Intel RealSense SR305, coded light, at half its resolution.
 """
 
 
 def _form(value: Any) -> str:
-    """Which of the three forms of a camera a value has."""
+    """Returns the tag of a camera's form: name, file or numbers."""
     if isinstance(value, str):
         return "name"
     named = isinstance(value, CameraFile) or (isinstance(value, dict) and "file" in value)
@@ -101,5 +101,5 @@ CameraChoice = Annotated[
 
 
 def camera_of(choice: CameraName | CameraFile | CameraNumbers) -> CameraFile | CameraNumbers:
-    """The camera that is meant by a name, or the one that is given."""
+    """Returns a camera by its name, or the given one."""
     return CAMERAS[choice] if isinstance(choice, str) else choice

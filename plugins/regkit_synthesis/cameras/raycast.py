@@ -1,4 +1,4 @@
-"""What a depth camera sees of a triangle mesh."""
+"""Ray casting of triangle meshes: depth and incidence angles of each pixel."""
 
 from __future__ import annotations
 
@@ -18,12 +18,11 @@ _LARGEST = np.iinfo(np.uint16).max
 
 @dataclass(frozen=True)
 class View:
-    """What there is to be measured in each pixel.
+    """The exact depth and incidence of each pixel.
 
     Attributes:
-        depth: (H, W) z where the pixel's ray first meets a surface [m]; 0 where it meets none.
-        cosines: (H, W) cosine of the angle between the ray and the surface's normal; 1 where there
-            is none.
+        depth: z of the first intersection of the pixel's ray, (H, W) [m]; 0 if there is none.
+        cosines: Cosine of the angle between ray and surface normal, (H, W); 1 if there is none.
     """
 
     depth: Array
@@ -32,7 +31,7 @@ class View:
 
 @dataclass(frozen=True)
 class RayCaster:
-    """Casts the rays of a camera's pixels on meshes.
+    """Casts the rays of a camera's pixels at meshes.
 
     Attributes:
         camera: The camera.
@@ -41,14 +40,14 @@ class RayCaster:
     camera: Camera
 
     def view(self, vertices: Array, faces: Indices) -> View:
-        """The view of a mesh.
+        """Returns the view of a mesh.
 
-        Open3D's own distances depend in their last bits on the processor; the planes of the
-        triangles that it found do not, and so the noisy image is the same everywhere.
+        The last bits of Open3D's distances depend on the processor. Depths are computed from the
+        planes of the intersected triangles instead, so that images are reproducible.
 
         Args:
-            vertices: (V, 3) in the camera's frame, x right, y down, z forward [m].
-            faces: (F, 3) vertex indices of the triangles.
+            vertices: Vertices in the camera frame (x right, y down, z forward), (V, 3) [m].
+            faces: Vertex indices of the triangles, (F, 3).
 
         Raises:
             DependencyError: If Open3D cannot be loaded.
@@ -75,7 +74,7 @@ class RayCaster:
         return self.camera.rays()
 
     def _window(self, corners: Array) -> tuple[slice, slice]:
-        """The rows and columns that hold the mesh's image: all, if some of it is behind."""
+        """Returns the rows and columns of the mesh's image; all if part of it is behind."""
         if corners[:, 2].min() <= 0.0:
             return slice(None), slice(None)
         pixels = self.camera.projected(corners)
@@ -85,11 +84,11 @@ class RayCaster:
 
 
 def ray_cast(vertices: Array, faces: Indices, camera: Camera) -> Array:
-    """The depth image (H, W) [m] of a mesh: z where a pixel's ray first meets it, 0 elsewhere.
+    """Returns the depth image (H, W) [m] of a mesh; 0 where a pixel's ray misses it.
 
     Args:
-        vertices: (V, 3) in the camera's frame, x right, y down, z forward [m].
-        faces: (F, 3) vertex indices of the triangles.
+        vertices: Vertices in the camera frame (x right, y down, z forward), (V, 3) [m].
+        faces: Vertex indices of the triangles, (F, 3).
         camera: The camera.
 
     Raises:
@@ -99,10 +98,10 @@ def ray_cast(vertices: Array, faces: Indices, camera: Camera) -> Array:
 
 
 def stored(depth: Array, depth_scale: float) -> NDArray[np.uint16]:
-    """A depth image (H, W) [m] in whole units, 0 where there is nothing or it is out of range.
+    """Returns a depth image (H, W) in integer units; 0 for invalid or out-of-range pixels.
 
     Args:
-        depth: (H, W) measured depth [m]; 0 where nothing was measured.
+        depth: Measured depth, (H, W) [m]; 0 for invalid pixels.
         depth_scale: Stored units per metre.
     """
     units = np.rint(depth * depth_scale)
@@ -110,7 +109,7 @@ def stored(depth: Array, depth_scale: float) -> NDArray[np.uint16]:
 
 
 def _first_hits(corners: Array, faces: Indices, rays: Array) -> tuple[NDArray[np.uint32], int]:
-    """The triangle (N,) that each ray (N, 3) from the origin meets first; what stands for none."""
+    """Returns the first triangle (N,) on each ray (N, 3) from the origin, and the code of none."""
     library: Any = load_library("open3d")
     scene = library.t.geometry.RaycastingScene()
     scene.add_triangles(

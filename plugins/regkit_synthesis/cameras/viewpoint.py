@@ -1,4 +1,4 @@
-"""From where a moving body is seen."""
+"""Viewpoints: the pose of the camera relative to a moving body."""
 
 from __future__ import annotations
 
@@ -17,26 +17,25 @@ from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError
 
 _R_CAMERA_GROUND = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
-"""From x left, y backward, z up to x right, y down, z forward: a body looks into the camera."""
+"""From x left, y backward, z up to x right, y down, z forward: a body that faces the camera."""
 
 _MARGIN = 0.03
-"""Part of the image's size that stays free on each side, if the distance is found."""
+"""Margin on each side as a fraction of the image size, if the distance is computed."""
 
 
 class Viewpoint(Model):
-    """A camera that looks at the middle of where the body moves, or stands at a given place."""
+    """A camera that looks at the centre of the body's motion, or has a given position."""
 
     heading_deg: float = 0.0
-    """How far the motion is turned from the direction to the camera, to the image's right [deg]."""
+    """Rotation of the motion from the direction to the camera, to the right of the image [deg]."""
     elevation_deg: Annotated[float, Field(ge=-89.0, le=89.0)] = 0.0
-    """How far the camera looks down from above [deg]."""
+    """Downward pitch of the camera [deg]."""
     distance: Annotated[float, Field(gt=0.0)] | None = None
-    """From the camera to the middle of where the body moves [m]; without it, the shortest from
-    which the whole body stays in the image."""
+    """Distance from the camera to the centre of the motion [m]; by default the shortest at which
+    the whole body stays in the image."""
     place: tuple[float, float, float] | None = None
-    """Where the origin of the motion is, in place of a ``distance``: to the right of the camera,
-    below it and before it, along the axes of a level camera [m]; one that looks down is tilted
-    where it stands."""
+    """Position of the motion's origin, instead of a ``distance``: right of, below and in front of
+    the camera, in the axes of a level camera [m]; pitch rotates the camera in place."""
 
     @model_validator(mode="after")
     def _one_of_them(self) -> Viewpoint:
@@ -45,15 +44,15 @@ class Viewpoint(Model):
         return self
 
     def placed(self, camera: Camera, surface: Callable[[], Array]) -> Array:
-        """``T_camera_ground`` (4, 4).
+        """Returns ``T_camera_ground`` (4, 4).
 
         Args:
             camera: The camera.
-            surface: Gives (N, 3) where the body's surface is in the course of time, in ground axes
-                [m]; it is not asked if the place is given.
+            surface: Function that returns points (N, 3) [m] of the body's surface over time, in
+                ground axes; it is not called if the place is given.
 
         Raises:
-            ConfigError: If no distance is given, and from none the whole body is in the image.
+            ConfigError: If no distance is given, and the body does not fit in the image.
         """
         tilt = vector_to_matrix(np.array([radians(self.elevation_deg), 0.0, 0.0]))
         turn = vector_to_matrix(np.array([0.0, 0.0, radians(self.heading_deg)]))
@@ -67,7 +66,7 @@ class Viewpoint(Model):
 
 
 def _shortest(camera: Camera, points: Array) -> float:
-    """How far the camera must step back to see all of ``points`` (N, 3) in its axes [m]."""
+    """Returns the shortest distance [m] at which all ``points`` (N, 3) are in the image."""
     across = min(camera.cx, camera.width - 1.0 - camera.cx) - _MARGIN * camera.width
     along = min(camera.cy, camera.height - 1.0 - camera.cy) - _MARGIN * camera.height
     if min(across, along) <= 0.0:

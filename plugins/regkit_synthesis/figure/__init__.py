@@ -1,7 +1,7 @@
-"""The human figure: the joints by which sources of motion and bodies meet, and the maps to them.
+"""The human figure: the common joints of motion sources and bodies, and the maps to them.
 
-Neither a source nor a body knows the other: a map of the source and a map of the body, both YAML
-files (``maps/``), say which joint of one human figure each of their joints and bones is.
+Motion sources and bodies are independent of each other. A map of the source and a map of the body,
+both YAML files (``maps/``), assign their joints and bones to the joints of the figure.
 """
 
 from regkit_synthesis.figure.figure import AIMS, FIGURE, check_joints, figure_axes, leg_length

@@ -1,4 +1,4 @@
-"""The joints of a human figure: the names by which sources of motion and bodies meet."""
+"""The joints of the human figure, common to motion sources and bodies."""
 
 from __future__ import annotations
 
@@ -34,9 +34,9 @@ FIGURE: Mapping[str, str] = {
         for joint, parent in _SIDED.items()
     },
 }
-"""Each joint's parent. A joint stands for the segment that it moves: a shoulder for the upper arm,
-a wrist for the hand. ``hand`` is where the fingers begin, ``foot`` where the toes do; left is the
-figure's own left."""
+"""Parent of each joint. A joint represents the segment that it moves: a shoulder the upper arm, a
+wrist the hand. ``hand`` is at the base of the fingers, ``foot`` at the base of the toes. Left is
+the figure's left."""
 
 AIMS: Mapping[str, str] = {
     f"{side}_{joint}": f"{side}_{end}"
@@ -49,14 +49,14 @@ AIMS: Mapping[str, str] = {
         ("knee", "ankle"),
     )
 }
-"""The joint that a segment of a limb points to."""
+"""The joint at the far end of each limb segment."""
 
 
 def check_joints(joints: Collection[str]) -> None:
-    """Refuse names that are no joints of a figure.
+    """Rejects names that are not joints of the figure.
 
     Raises:
-        ValueError: If one is none.
+        ValueError: If a name is unknown.
     """
     for joint in joints:
         if joint not in FIGURE:
@@ -64,18 +64,17 @@ def check_joints(joints: Collection[str]) -> None:
 
 
 def figure_axes(places: Mapping[str, Array]) -> Array:
-    """The axes (3, 3) ``R_ground_figure`` of a figure that stands somewhere at rest.
+    """Returns the axes ``R_ground_figure`` (3, 3) of a figure at rest.
 
-    Its own coordinate axes are the ground's in another order: up is the one that the way from the
-    hips to the head is nearest to, left that of the way from the right hip to the left one. What
-    this returns turns them to x left, y backward, z up.
+    The coordinate axes of the figure are a permutation of the ground's (x left, y backward, z up):
+    up is nearest to the direction from the hips to the head, left to that from the right hip to the
+    left one.
 
     Args:
-        places: (3,) where its hips and its head are, among others.
+        places: Positions (3,) by joint, with hips and head among them.
 
     Raises:
-        DataError: If left and up are the same axis, as in a figure that does not stand or lie
-            straight.
+        DataError: If left and up are the same axis, because the figure is not upright.
     """
     across = places["left_hip"] - places["right_hip"]
     height = places["head"] - (places["left_hip"] + places["right_hip"]) / 2
@@ -88,12 +87,12 @@ def figure_axes(places: Mapping[str, Array]) -> Array:
 
 
 def leg_length(places: Mapping[str, Array]) -> float:
-    """Length of the left thigh and shin [m], which motion is scaled by."""
+    """Returns the length of the left thigh and shin [m], by which motion is scaled."""
     hip, knee, ankle = (places[f"left_{joint}"] for joint in ("hip", "knee", "ankle"))
     return float(np.linalg.norm(knee - hip) + np.linalg.norm(ankle - knee))
 
 
 def _axis(direction: Array) -> Array:
-    """The coordinate axis, with its sign, that is nearest to a direction (3,)."""
+    """Returns the signed coordinate axis that is nearest to a direction (3,)."""
     nearest = int(np.argmax(np.abs(direction)))
     return np.asarray(np.copysign(1.0, direction[nearest]) * np.eye(3)[nearest])

@@ -1,4 +1,4 @@
-"""Which joints of a source of motion are which of a figure."""
+"""Maps from the joints of a motion source to the figure."""
 
 from __future__ import annotations
 
@@ -21,22 +21,23 @@ _NEEDED = (
         for joint in ("shoulder", "elbow", "hip", "knee", "ankle")
     ),
 )
-"""The joints without which a source is no figure."""
+"""The joints that every map must assign."""
 
 
 class JointMap(Model):
-    """How the joints of a source of motion are those of a human figure.
+    """A map from the joints of a motion source to the human figure.
 
-    Joints of the source that are not named here are left unused, unless a body's map names them.
+    Joints of the source that it does not name are unused, unless a body's map names them.
     """
 
     title: str = ""
-    """Which sources it is for."""
+    """Description of the sources that it is for."""
 
     joints: dict[str, str | tuple[str, ...]]
-    """The source's joint for each one of a figure, or several of which the first that there is is
-    taken. ``NAME.end`` is the end site of a BVH joint. A name without a namespace (``mixamorig:``)
-    is found in any. A joint that the source lacks moves with the one before it."""
+    """Joint of the source for each joint of the figure, or several of which the first existing one
+    is used. ``NAME.end`` is the end site of a BVH joint. A name without a namespace
+    (``mixamorig:``) matches in any namespace. A joint that the source lacks moves with its
+    parent."""
 
     @field_validator("joints")
     @classmethod
@@ -50,10 +51,13 @@ class JointMap(Model):
         return joints
 
     def parts(self, names: Collection[str]) -> dict[str, str]:
-        """The source's joint for each joint of the figure, where ``names`` are the source's.
+        """Returns the joint of the source for each joint of the figure.
+
+        Args:
+            names: Names of the source's joints.
 
         Raises:
-            ConfigError: If a joint that is named does not exist.
+            ConfigError: If a named joint does not exist.
         """
         found = {}
         for joint, wanted in self.joints.items():
@@ -68,27 +72,27 @@ class JointMap(Model):
         return found
 
     def fits(self, names: Collection[str]) -> bool:
-        """Whether a source with these joints has all that are named."""
+        """Returns whether a source with these joints has all that the map names."""
         choices = ((one,) if isinstance(one, str) else one for one in self.joints.values())
         return all(_first(names_of_one, names) for names_of_one in choices)
 
 
 def _first(choices: Collection[str], names: Collection[str]) -> str | None:
-    """The first of ``choices`` that is among ``names``."""
+    """Returns the first of ``choices`` that is in ``names``."""
     found = (meant(choice, names) for choice in choices)
     return next((name for name in found if name is not None), None)
 
 
 def parts_of(names: Collection[str], name: str | None, path: Path) -> dict[str, str]:
-    """The joint of a source in the file ``path`` for each joint of a figure.
+    """Returns the joint of a source for each joint of the figure.
 
     Args:
-        names: The source's joints.
-        name: A map that ships, or a YAML file; without it, the first that fits is taken.
-        path: Where the source is, for messages.
+        names: Names of the source's joints.
+        name: Name of a shipped map, or a YAML file; by default the first map that fits.
+        path: File of the source, for messages.
 
     Raises:
-        RegkitError: If there is no map, it is wrong, or it names a joint that the source lacks.
+        RegkitError: If no map fits, or the map is invalid or names a joint that the source lacks.
     """
     if name is None:
         try:

@@ -1,4 +1,4 @@
-"""Maps of joints: YAML files that ship, or the user's own."""
+"""Files of joint maps, shipped or the user's."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from regkit.system.errors import ConfigError
 M = TypeVar("M", bound=Model)
 
 FOLDER = Path(__file__).resolve().parent / "maps"
-"""Where the maps lie that ship with regkit."""
+"""Folder of the shipped maps."""
 
 
 def _located(value: Any) -> Any:
-    """The path of a user's file as a full one; the name of a map that ships as it is."""
+    """Returns the absolute path of a user's file, or the name of a shipped map unchanged."""
     if not isinstance(value, str) or not value.endswith((".yaml", ".yml")):
         return value
     path = Path(value).expanduser()
@@ -27,19 +27,19 @@ def _located(value: Any) -> Any:
 
 
 MapName = Annotated[str, BeforeValidator(_located)]
-"""The name of a map that ships, or a YAML file, relative to the file that names it."""
+"""Name of a shipped map, or a YAML file relative to the file that names it."""
 
 
 def shipped(group: str) -> list[str]:
-    """The names of the maps of a ``group`` that ship: ``sources`` or ``bodies``."""
+    """Returns the names of the shipped maps of a ``group``: ``sources`` or ``bodies``."""
     return sorted(path.stem for path in (FOLDER / group).glob("*.yaml"))
 
 
 def read_map(model: type[M], group: str, name: str) -> M:
-    """The map of this name or in this file.
+    """Returns the shipped map of a name, or the map in a file.
 
     Raises:
-        ConfigError: If there is none of this name, or the file is wrong.
+        ConfigError: If the name is unknown, or the file is invalid.
         DataError: If the file is missing.
     """
     if name.endswith((".yaml", ".yml")):

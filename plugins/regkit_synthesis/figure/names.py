@@ -1,4 +1,4 @@
-"""Names of joints and bones: which of them is meant, and what to say where none is."""
+"""Matching of joint and bone names, and messages about unknown ones."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from collections.abc import Collection
 from regkit.config.model import did_you_mean
 
 _MANY = 30
-"""Of more names than this only the nearest are listed."""
+"""Maximum number of names in a message; of more only the most similar are listed."""
 
 
 def meant(wanted: str, known: Collection[str]) -> str | None:
-    """The name among ``known`` that is meant by ``wanted``, if there is one.
+    """Returns the name in ``known`` that matches ``wanted``, or None.
 
-    A name without a namespace (``mixamorig:``) is found in any.
+    A name without a namespace (``mixamorig:``) matches in any namespace.
     """
     if wanted in known:
         return wanted
@@ -24,7 +24,7 @@ def meant(wanted: str, known: Collection[str]) -> str | None:
 
 
 def instead_of(name: str, known: Collection[str]) -> str:
-    """The end of a message that ``name`` is unknown: what is known, or what of it is near."""
+    """Returns the end of a message about an unknown ``name``: all or similar known names."""
     names = list(known)
     if len(names) <= _MANY:
         return f"{did_you_mean(name, names)} (there are: {', '.join(names)})"

@@ -1,4 +1,4 @@
-"""A figure that stands upright with hanging arms: the rest of clips and keyframes."""
+"""The rest pose of clips and keyframes: a figure that stands upright with hanging arms."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from regkit.system.arrays import Array
 
 _TRUNK = {"pelvis": 0.0, "spine": 0.12, "chest": 0.236151, "neck": 0.40, "head": 0.460045}
-"""Heights above the middle of the hips [m]."""
+"""Heights above the centre of the hips [m]."""
 
 _LIMBS = {
     "collar": (0.03, 0.02405, 0.46),
@@ -33,6 +33,6 @@ def _standing() -> dict[str, Array]:
 
 
 STANDING: Mapping[str, Array] = _standing()
-"""Where the joints of the figure are (3,), from the middle of the hips [m]; x left, y backward,
-z up. It has the size of pybullet's humanoid.urdf, a quarter of what that file says. There, collars,
-hands and feet are missing."""
+"""Positions (3,) [m] of the figure's joints relative to the centre of the hips; x left, y backward,
+z up. The size is that of pybullet's humanoid.urdf scaled by a quarter; collars, hands and feet,
+which that file lacks, are added."""

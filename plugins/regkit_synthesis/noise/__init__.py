@@ -1,4 +1,4 @@
-"""What depth cameras make of what there is to be seen."""
+"""Noise models of depth cameras, and presets of known cameras."""
 
 from regkit_synthesis.noise.model import DepthNoise
 from regkit_synthesis.noise.presets import NOISES, NoiseChoice, NoiseName, noise_of

@@ -1,4 +1,4 @@
-"""Neighbours in a depth image."""
+"""Depth steps and displacements between neighbouring pixels."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ _SIDES = ((0, 1), (0, -1), (1, 0), (-1, 0))
 
 
 def step_across(depth: Array) -> Array:
-    """The step (H, W) [m] from each pixel to that of its four neighbours that differs most.
+    """Returns the largest step (H, W) [m] from each pixel to its four neighbours.
 
-    It is infinite beside a pixel that has no depth, and zero in one; beyond the border of the image
-    there is no neighbour.
+    The step is infinite next to an invalid pixel, and zero at an invalid pixel. Pixels outside of
+    the image are not neighbours.
     """
     inside = np.where(depth > 0.0, depth, np.inf)
     padded = np.pad(inside, 1, mode="edge")
@@ -29,11 +29,11 @@ def step_across(depth: Array) -> Array:
 
 
 def displaced(view: View, shifts: Indices) -> View:
-    """The view in which each pixel sees what the one so many rows and columns away saw.
+    """Returns the view with each pixel replaced by one at an offset.
 
     Args:
-        view: What is seen.
-        shifts: (2, H, W) rows down and columns to the right; the border is not left.
+        view: The view.
+        shifts: Offsets in rows and columns, (2, H, W), clipped to the image.
     """
     height, width = view.depth.shape
     rows, columns = np.indices((height, width)) + shifts

@@ -1,4 +1,4 @@
-"""A depth camera's noise as a whole."""
+"""The complete noise model of a depth camera."""
 
 from __future__ import annotations
 
@@ -19,29 +19,29 @@ from regkit_synthesis.noise.parts import (
 
 
 class DepthNoise(Model):
-    """What a depth camera makes of the true depth; a part that is absent does nothing.
+    """The noise of a depth camera; an absent part has no effect.
 
-    Noise is independent from pixel to pixel and from frame to frame; real cameras also err in
-    patterns that stay, which this leaves out.
+    Noise is independent between pixels and frames. The fixed-pattern noise of real cameras is not
+    modelled.
     """
 
     lateral: LateralNoise | None = None
-    """A pixel measures what is seen a little to its side."""
+    """Lateral noise: a pixel measures the depth of a nearby one."""
     flying: FlyingPixels | None = None
-    """Pixels at edges that measure something between two surfaces."""
+    """Flying pixels: pixels at edges with a depth between two surfaces."""
     axial: AxialNoise | None = None
-    """Gaussian noise of the depth."""
+    """Axial noise: Gaussian noise of the depth."""
     inverse_depth_step: Annotated[float, Field(gt=0.0)] | None = None
-    """Inverse depths are whole multiples of this [1/m]: what triangulates knows its disparity in
-    steps, and this is a step over the focal length [px] and the baseline [m] (Khoshelham and
-    Elberink, Sensors 2012). A time of flight has the units in which the depth is stored."""
+    """Quantisation step of the inverse depth [1/m]: for triangulation, the step of the disparity
+    divided by focal length [px] and baseline [m] (Khoshelham and Elberink, Sensors 2012). A
+    time-of-flight camera is quantised by the stored units only."""
     missing: MissingPixels | None = None
-    """Pixels that measure nothing."""
+    """Invalid pixels."""
 
     def applied(self, view: View, random: np.random.Generator) -> Array:
-        """The depth (H, W) [m] that is measured of a view; 0 where nothing is.
+        """Returns the measured depth (H, W) [m] of a view; 0 for invalid pixels.
 
-        Each part has random numbers of its own: without one of them, the others do the same.
+        Each part has its own random numbers, so disabling one does not change the others.
         """
         lateral, flying, missing = random.spawn(3)
         if self.lateral is not None:
@@ -59,9 +59,9 @@ class DepthNoise(Model):
 
 
 def quantised(depth: Array, step: float) -> Array:
-    """Depths (...) [m] whose inverses are whole multiples of ``step`` [1/m], 0 where there is none.
+    """Returns depths (...) [m] whose inverses are multiples of ``step`` [1/m]; 0 for invalid ones.
 
-    What is so far that its inverse is less than half a step is not measured.
+    A depth whose inverse is less than half a step becomes invalid.
     """
     seen = depth > 0.0
     multiples = np.rint(1.0 / np.where(seen, depth, np.inf) / step)
@@ -70,5 +70,5 @@ def quantised(depth: Array, step: float) -> Array:
 
 
 def plain(sigma: float) -> DepthNoise:
-    """Gaussian noise of one standard deviation [m], whatever the depth."""
+    """Returns Gaussian noise with a constant standard deviation [m]."""
     return DepthNoise(axial=AxialNoise(constant=sigma))

@@ -1,4 +1,4 @@
-"""The noise of known depth cameras."""
+"""Noise models of known depth cameras."""
 
 from __future__ import annotations
 
@@ -46,25 +46,25 @@ NOISES: Mapping[NoiseName, DepthNoise] = {
     ),
     "sr305": DepthNoise(axial=AxialNoise(constant=0.002), missing=MissingPixels(grazing_deg=80.0)),
 }
-"""The noise of each camera.
+"""The noise model of each camera.
 
-- ``sr4000``: nominally 4 mm, of a white target at 2 m, which was not checked against its maker's
-  data sheet; the rest is how a time of flight works.
-- ``kinect_v1``: Nguyen, Izadi and Lovell (2012); steps of 1/8 px over 585 px and 7.5 cm, which are
-  the 2.85 mm at 1 m of Khoshelham and Elberink (2012). Nguyen's figures were measured of depths
-  that have these steps, so that both together are a little more than a Kinect's noise. At half
-  the resolution a pixel is twice as large.
+- ``sr4000``: nominally 4 mm for a white target at 2 m, not verified with the data sheet; the rest
+  is the general behaviour of time of flight.
+- ``kinect_v1``: Nguyen, Izadi and Lovell (2012), with disparity steps of 1/8 px at 585 px and
+  7.5 cm, which are the 2.85 mm at 1 m of Khoshelham and Elberink (2012). Nguyen's measurements
+  include these steps, so the sum slightly exceeds a Kinect's noise. At half the resolution a pixel
+  is twice as large.
 - ``realsense_d435``: Grunnet-Jepsen, Sweetser and Woodfill, Tuning Depth Cameras for Best
-  Performance (Intel): the standard deviation is z^2 times the error of the disparity, some 0.08 px,
-  over 424 px and 5 cm; the disparity has steps of 1/32 px.
-- ``sr305``: 2 mm, of a hand close before it; a choice.
+  Performance (Intel): the standard deviation is z^2 times the disparity error, about 0.08 px,
+  divided by 424 px and 5 cm; the disparity has steps of 1/32 px.
+- ``sr305``: 2 mm for a hand at close range; our choice.
 
-Which share of pixels is missing or flying, and the D435's lateral noise, are choices.
+The fractions of invalid and flying pixels, and the D435's lateral noise, are our choices.
 """
 
 
 def _form(value: Any) -> str:
-    """Which of the three forms of a noise a value has."""
+    """Returns the tag of a noise's form: name, standard deviation or parts."""
     if isinstance(value, str):
         return "name"
     return "model" if isinstance(value, (dict, DepthNoise)) else "sigma"
@@ -80,7 +80,7 @@ NoiseChoice = Annotated[
 
 
 def noise_of(choice: NoiseName | float | DepthNoise) -> DepthNoise:
-    """The noise that is meant by a name or a standard deviation, or the one that is given."""
+    """Returns a noise model by its name or standard deviation, or the given one."""
     if isinstance(choice, DepthNoise):
         return choice
     return NOISES[choice] if isinstance(choice, str) else plain(choice)

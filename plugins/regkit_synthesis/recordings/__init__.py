@@ -1,4 +1,4 @@
-"""Recordings: a take becomes a scene, a scene is rendered, and the frames are kept in a cache."""
+"""Synthetic recordings: a take defines a scene, a scene is rendered, and frames are cached."""
 
 from regkit_synthesis.recordings.cache import RecordingCache
 from regkit_synthesis.recordings.recording import DepthRecording

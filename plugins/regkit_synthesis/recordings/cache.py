@@ -1,4 +1,4 @@
-"""Rendered recordings on disk, each kept under a name that its content decides."""
+"""The content-addressed cache of rendered recordings."""
 
 from __future__ import annotations
 
@@ -16,41 +16,41 @@ from regkit.system.errors import DataError
 from regkit_synthesis.recordings.recording import DepthRecording
 
 _CHECKSUMS = "checksums.json"
-"""The file of an entry that tells the SHA-256 of all others."""
+"""The file of an entry with the SHA-256 of all others."""
 
 _ATTEMPTS = 5
-"""How often an entry is put in place while other processes do the same."""
+"""Number of attempts to put an entry in place while other processes do the same."""
 
 _SCRATCH = ".new-"
-"""How the names of folders begin in which entries are written."""
+"""Prefix of the folders in which entries are written."""
 
 _ABANDONED = 86400.0
-"""Such a folder as old as this is a killed process's, for writing takes seconds [s]."""
+"""Age from which such a folder belongs to a killed process; writing takes seconds [s]."""
 
 
 @dataclass(frozen=True)
 class RecordingCache:
-    """Folders of depth recordings, any of which may be lost or damaged: it is made again.
+    """A folder of rendered recordings; missing or damaged ones are rendered again.
 
     Attributes:
-        folder: Where they are.
+        folder: The folder.
     """
 
     folder: Path
 
     @classmethod
     def of_user(cls) -> RecordingCache:
-        """The one in the user's cache folder."""
+        """Returns the cache in the user's cache folder."""
         return cls(cache_folder() / "synthetic")
 
     def entry(self, key: str, make: Callable[[], DepthRecording]) -> Path:
-        """The folder of a recording, written by whoever needs it first.
+        """Returns the folder of a recording, and renders it if it is missing.
 
-        Several processes may ask for the same one; each finds it whole.
+        Several processes may request the same recording; each gets a complete one.
 
         Args:
-            key: Stands for all that the recording depends on.
-            make: Makes it.
+            key: Digest of everything that the recording depends on.
+            make: Function that renders the recording.
 
         Raises:
             DataError: If the cache cannot be written.
@@ -77,7 +77,7 @@ class RecordingCache:
 
 
 def _put(new: Path, entry: Path, scratch: Path) -> None:
-    """Rename ``new`` to ``entry``, unless another process was faster; what is damaged gives way."""
+    """Renames ``new`` to ``entry`` unless another process was faster; replaces a damaged entry."""
     for attempt in range(_ATTEMPTS):
         try:
             new.rename(entry)
@@ -95,7 +95,7 @@ def _put(new: Path, entry: Path, scratch: Path) -> None:
 
 
 def _remove_abandoned(folder: Path) -> None:
-    """Remove what processes that were killed while they wrote have left; others may do the same."""
+    """Removes the folders of killed processes; other processes may do the same concurrently."""
     for scratch in folder.glob(f"{_SCRATCH}*"):
         try:
             abandoned = time.time() - scratch.stat().st_mtime > _ABANDONED
@@ -111,7 +111,7 @@ def _write_checksums(folder: Path) -> None:
 
 
 def _is_intact(folder: Path) -> bool:
-    """Whether a folder holds all that was written, unchanged."""
+    """Returns whether a folder is complete and unchanged."""
     try:
         sums = json.loads((folder / _CHECKSUMS).read_text(encoding="utf-8"))
         return bool(sums == {name: _checksum(folder / name) for name in _files(folder)})
@@ -120,7 +120,7 @@ def _is_intact(folder: Path) -> bool:
 
 
 def _files(folder: Path) -> list[str]:
-    """The files of a folder and of those in it, but for the checksums."""
+    """Returns all files of a folder, recursively, except the checksums."""
     files = [path for path in folder.rglob("*") if path.is_file() and path.name != _CHECKSUMS]
     return sorted(path.relative_to(folder).as_posix() for path in files)
 

@@ -1,4 +1,4 @@
-"""A name for all that a rendered recording depends on."""
+"""The digest of everything that a rendered recording depends on."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from regkit_synthesis.noise import noise_of
 from regkit_synthesis.recordings.scene import Scene
 
 RENDERER = 1
-"""Version of what renders; it is raised with every change that makes other images of a scene."""
+"""Version of the renderer, incremented with every change that changes images."""
 
 
 def digest(scene: Scene, seed: int, noise_stream: str | None = None) -> str:
-    """The first half of the SHA-256 of a scene and of its noise's seed and stream.
+    """Returns half of the SHA-256 of a scene, and of the seed and stream of its noise.
 
-    It is taken of what is rendered, not of what was written to have it: the vertices, how they
-    follow the bones, and where these are in each frame. So it changes with the bytes of a body's or
-    a motion's file, with the map between them, and with the code that moves the one by the other.
+    The digest covers the rendered content rather than the configuration: vertices, skinning, and
+    bone poses in each frame. So it changes with the files of body and motion, with the map between
+    them, and with the retargeting code.
     """
     sensor, landmarks = scene.sensor, scene.landmarks.values()
     told = [RENDERER, seed, scene.name, scene.source, scene.licence, scene.fps]

@@ -1,4 +1,4 @@
-"""Writes depth recordings in regkit's folder format."""
+"""Writing of depth recordings in regkit's folder format."""
 
 from __future__ import annotations
 
@@ -18,23 +18,23 @@ from regkit.system.errors import DataError
 _HEADER = "sequence.yaml"
 
 _RUN_LENGTHS = 3
-"""zlib's Z_RLE: nearly as small for noise, and its bytes do not depend on how a zlib searches."""
+"""zlib's Z_RLE: nearly as compact for noise, and identical for all implementations of zlib."""
 
 
 @dataclass(frozen=True)
 class DepthRecording:
-    """Depth images with the true joints.
+    """Depth images with ground-truth joints.
 
     Attributes:
-        name: What it is called.
+        name: Name of the recording.
         fps: Frames per second.
         depth_scale: Units of ``depth`` per metre.
-        source: Where it comes from.
-        licence: Under which terms it may be used.
+        source: Source of the data.
+        licence: Licence of the data.
         camera: Intrinsics.
-        depth: (T, H, W) images; 0 where nothing was measured.
-        joints: The names of the J true joints.
-        truth: (T, J, 3) their positions in the camera's frame, x right, y down, z forward [m].
+        depth: Depth images, (T, H, W); 0 for invalid pixels.
+        joints: Names of the J joints.
+        truth: Joint positions in the camera frame (x right, y down, z forward), (T, J, 3) [m].
     """
 
     name: str
@@ -48,10 +48,10 @@ class DepthRecording:
     truth: Array
 
     def write(self, folder: Path) -> None:
-        """Write the folder, all of it or nothing; a recording that was there before is replaced.
+        """Writes the folder atomically, and replaces an existing recording.
 
         Raises:
-            DataError: If something else is there, or the folder cannot be written.
+            DataError: If the folder exists and is not a recording, or cannot be written.
         """
         if folder.exists() and not (folder / _HEADER).is_file():
             raise DataError(
@@ -68,7 +68,7 @@ class DepthRecording:
             ) from None
 
     def _replace(self, folder: Path) -> None:
-        """Write the files beside the folder, and rename them when they are complete."""
+        """Writes the files to a temporary folder, and renames it when complete."""
         with tempfile.TemporaryDirectory(dir=folder.parent, prefix=f".{folder.name}-") as scratch:
             new, old = Path(scratch) / "new", Path(scratch) / "old"
             self.write_into(new)
@@ -77,10 +77,10 @@ class DepthRecording:
             new.rename(folder)
 
     def write_into(self, folder: Path) -> None:
-        """Write the files into a new folder.
+        """Writes the files to a new folder.
 
         Raises:
-            OSError: If that is not possible.
+            OSError: If they cannot be written.
         """
         images = folder / "depth"
         images.mkdir(parents=True)
@@ -93,7 +93,7 @@ class DepthRecording:
             )
 
     def _header(self) -> str:
-        """The text of ``sequence.yaml``; a JSON string is a YAML string, whatever is in it."""
+        """Returns the text of ``sequence.yaml``; JSON strings are valid YAML strings."""
         return (
             f"name: {json.dumps(self.name)}\n"
             f"fps: {self.fps:g}\n"
@@ -103,7 +103,7 @@ class DepthRecording:
         )
 
     def _table(self) -> str:
-        """The text of ``truth.csv``."""
+        """Returns the text of ``truth.csv``."""
         rows = [
             f"{frame},{joint},{x:.6f},{y:.6f},{z:.6f}\n"
             for frame, positions in enumerate(self.truth)

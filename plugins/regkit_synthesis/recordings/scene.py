@@ -1,4 +1,4 @@
-"""A mesh that moves before a depth camera, with the joints whose truth is known."""
+"""Scenes: a moving mesh in front of a depth camera, with ground-truth joints."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Sensor:
 
     Attributes:
         camera: Intrinsics.
-        noise: What it makes of the depth, or the standard deviation of plain Gaussian noise [m].
+        noise: Noise model, or the standard deviation of constant Gaussian noise [m].
         depth_scale: Stored units per metre.
     """
 
@@ -35,27 +35,27 @@ class Sensor:
 
 
 SR4000 = Sensor(CAMERAS["sr4000"].camera(), 0.008, CAMERAS["sr4000"].depth_scale)
-"""Size, opening angle and noise (at a few metres) of a MESA SR4000."""
+"""A MESA SR4000: size, field of view, and noise at a few metres."""
 
 SR305 = Sensor(CAMERAS["sr305"].camera(), 0.002, CAMERAS["sr305"].depth_scale)
-"""An Intel RealSense SR305 at half its resolution, with a hand close before it."""
+"""An Intel RealSense SR305 at half its resolution, with a hand at close range."""
 
 
 @dataclass(frozen=True)
 class Scene:
-    """What is to be rendered.
+    """A scene to render.
 
     Attributes:
-        name: What the recording is called.
-        source: Where the body and its motion come from.
-        licence: Under which terms they may be used.
-        mesh: The body.
-        landmarks: Its joints, by name.
-        bone_poses: The bone poses ``T_camera_bone`` (J, 4, 4) at a time [s].
-        sensor: What looks at it.
-        frames: How many images there are.
-        fps: How many of them per second.
-        markers: Vertices of the mesh whose truth is known beside the joints', by name.
+        name: Name of the recording.
+        source: Source of the body and its motion.
+        licence: Licence of the body and its motion.
+        mesh: The mesh of the body.
+        landmarks: Joints of the body, by name.
+        bone_poses: Function from a time [s] to bone poses ``T_camera_bone`` (J, 4, 4).
+        sensor: The depth camera.
+        frames: Number of frames.
+        fps: Frames per second.
+        markers: Additional markers, by name: vertices of the mesh with recorded positions.
     """
 
     name: str
@@ -71,11 +71,11 @@ class Scene:
 
     @property
     def joints(self) -> tuple[str, ...]:
-        """The names of the joints and of the markers."""
+        """Returns the names of the joints and markers."""
         return (*self.landmarks, *self.markers)
 
     def truth(self) -> Array:
-        """Where joints and markers are in every image (T, L, 3), in the camera's frame [m]."""
+        """Returns positions (T, L, 3) [m] of joints and markers in every frame, in camera axes."""
         skin = some_vertices(self.mesh, np.array([*self.markers.values()], dtype=np.intp))
         return np.array([
             np.concatenate([placed(self.landmarks, self.mesh, pose), skin.posed(pose)])
@@ -83,7 +83,7 @@ class Scene:
         ])  # fmt: skip
 
     def views(self) -> Iterator[View]:
-        """What there is to be seen in every image.
+        """Yields the exact view of every frame.
 
         Raises:
             DependencyError: If Open3D cannot be loaded.
@@ -93,10 +93,10 @@ class Scene:
             yield caster.view(self.mesh.posed(pose), self.mesh.faces)
 
     def rendered(self, random: Callable[[int], np.random.Generator]) -> DepthRecording:
-        """What the sensor measures.
+        """Returns the recording as measured by the sensor.
 
         Args:
-            random: Where the noise of a frame comes from.
+            random: Function that returns the random generator of a frame's noise.
 
         Raises:
             DependencyError: If Open3D cannot be loaded.
@@ -119,5 +119,5 @@ class Scene:
         )
 
     def poses(self) -> list[Array]:
-        """The bone poses ``T_camera_bone`` (J, 4, 4) in every image."""
+        """Returns the bone poses ``T_camera_bone`` (J, 4, 4) of every frame."""
         return [self.bone_poses(frame / self.fps) for frame in range(self.frames)]

@@ -1,4 +1,4 @@
-"""A take: which body moves how, and from where that is seen."""
+"""Takes: a body, its motion, and the viewpoint of the camera."""
 
 from __future__ import annotations
 
@@ -29,22 +29,22 @@ from regkit_synthesis.noise import NoiseChoice
 from regkit_synthesis.recordings.scene import Scene, Sensor
 
 _SPARSE = 8
-"""Every so manieth vertex tells where the body is; they are some centimetres apart."""
+"""Stride of the vertices that sample the body's extent, some centimetres apart."""
 
 
 def _form(value: Any) -> str:
-    """Whether a body or a motion is named, or configured."""
+    """Returns the tag of a body's or motion's form: name or configuration."""
     return "name" if isinstance(value, str) else "config"
 
 
 Body = Annotated[
     Annotated[BodyName, Tag("name")] | Annotated[AnyBody, Tag("config")], Discriminator(_form)
 ]
-"""A body that ships by its name, or any by its ``kind``."""
+"""A shipped body by its name, or any body by its ``kind``."""
 
 
 def _clip(name: str) -> str:
-    """The name of a clip that ships."""
+    """Validates the name of a shipped clip."""
     CLIPS.check_choice(name, None)
     return name
 
@@ -58,44 +58,44 @@ Motion = Annotated[
     Annotated[str, AfterValidator(_clip), Tag("name")] | Annotated[_AnyMotion, Tag("config")],
     Discriminator(_form),
 ]
-"""A clip that ships by its name, or any motion by its ``kind``."""
+"""A shipped clip by its name, or any motion by its ``kind``."""
 
 
 class Take(Model):
-    """One recording that is to be rendered."""
+    """The description of one rendered recording."""
 
     body: Body = "average"
-    """Who moves: ``average``, ``small`` or ``tall``, or a body or hand by its ``kind``."""
+    """The body: ``average``, ``small`` or ``tall``, or a body or hand by its ``kind``."""
     motion: Motion | None = None
-    """How it moves: the name of a clip that ships, or a motion by its ``kind``."""
+    """The motion: the name of a shipped clip, or a motion by its ``kind``."""
     view: Viewpoint = Viewpoint()
-    """From where that is seen."""
+    """The viewpoint of the camera."""
     frames: Annotated[int, Field(ge=1)] = 60
-    """How many images there are."""
+    """Number of frames."""
     subject: str | None = None
-    """What the body is called where subjects have templates of their own; the name of a body that
-    ships without it."""
+    """Name of the subject, for experiments with a template per subject; by default the name of a
+    shipped body."""
     markers: dict[str, Annotated[int, Field(ge=0)]] = Field(default_factory=dict)
-    """Vertices of the body's mesh whose true places are wanted beside its joints, by name."""
+    """Additional markers, by name: vertices of the mesh whose true positions are recorded."""
     noise: NoiseChoice | None = None
-    """What the camera makes of the depth in this take, if that differs from the dataset's."""
+    """Noise of this take; by default that of the dataset."""
     noise_stream: str | None = None
-    """Draw the noise of all frames one after the other from one stream of random numbers, which
-    this names; without it each frame has a stream of its own, which the take's name names."""
+    """Name of one random stream for the noise of all frames; by default each frame has its own
+    stream, derived from the take's name."""
     difficulty: str = ""
-    """A note on what is hard about it."""
+    """A note on the difficulty of the take."""
 
     def subject_name(self) -> str | None:
-        """The subject, if it has a name."""
+        """Returns the name of the subject, if it has one."""
         body = self.body
         if self.subject is None and isinstance(body, (str, ShippedBody, ShippedHand)):
             return body if isinstance(body, str) else body.name
         return self.subject
 
     def random(self, name: str, seed: int) -> Callable[[int], np.random.Generator]:
-        """Where the noise of a frame comes from, in the recording called ``name``.
+        """Returns the random generator of each frame's noise, for the recording ``name``.
 
-        The function that is returned must be asked for the frames in their order.
+        The returned function must be called for the frames in order.
         """
         if self.noise_stream is None:
             return lambda frame: np.random.default_rng([seed, frame, *name.encode()])
@@ -103,16 +103,16 @@ class Take(Model):
         return lambda frame: stream
 
     def scene(self, name: str, sensor: Sensor, fps: float, frames: int) -> Scene:
-        """What is to be rendered.
+        """Returns the scene to render.
 
         Args:
-            name: What the recording is called.
-            sensor: What looks at it.
+            name: Name of the recording.
+            sensor: The depth camera.
             fps: Frames per second.
-            frames: How many, from the first one on; the camera stands where it would for all.
+            frames: Number of frames; the camera's pose is that for all frames of the take.
 
         Raises:
-            RegkitError: If a file is missing or wrong, or the body cannot move so.
+            RegkitError: If a file is missing or invalid, or the motion does not fit the body.
         """
         body_config, motion_config = _body(self.body), _motion(self.motion)
         body = body_config.body()

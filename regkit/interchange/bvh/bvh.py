@@ -183,8 +183,8 @@ class Bvh:
                 if channel.endswith("position"):
                     translations[:, index, axis] = numbers
                 else:
-                    turn = from_vector(np.radians(numbers)[:, None] * np.eye(3)[axis])
-                    rotations[:, index] = product(rotations[:, index], turn)
+                    rotation = from_vector(np.radians(numbers)[:, None] * np.eye(3)[axis])
+                    rotations[:, index] = product(rotations[:, index], rotation)
                 column += 1
         return rotations, translations
 

@@ -36,9 +36,9 @@ def continuous_zyx(rotations: Array) -> Array:
                 np.array([first, middle, last]),
                 np.array([first + np.pi, np.pi - middle, last + np.pi]),
             ]
-        turned = [
+        wrapped = [
             one + 2.0 * np.pi * np.round((before - one) / (2.0 * np.pi)) for one in candidates
         ]
-        before = min(turned, key=lambda one: float(np.abs(one - before).sum()))
+        before = min(wrapped, key=lambda one: float(np.abs(one - before).sum()))
         angles[index] = before
     return angles

@@ -48,8 +48,8 @@ def _one(ends: Array, radii: Array) -> Array:
     second = np.linspace(seam, 0.5 * np.pi, RINGS + 1)
     side = np.cross(along, np.eye(3)[np.argmin(np.abs(along))])
     side /= np.linalg.norm(side)
-    turns = 2.0 * np.pi * np.arange(AROUND) / AROUND
-    ring = np.outer(np.cos(turns), side) + np.outer(np.sin(turns), np.cross(along, side))
+    angles = 2.0 * np.pi * np.arange(AROUND) / AROUND
+    ring = np.outer(np.cos(angles), side) + np.outer(np.sin(angles), np.cross(along, side))
     vertices = [
         end + radius * (np.sin(latitude) * along + np.cos(latitude) * ring)
         for end, radius, latitudes in zip(ends, radii, (first, second), strict=True)

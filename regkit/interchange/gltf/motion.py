@@ -55,7 +55,7 @@ def write_gltf(
     bones = len(mesh.labels)
     first, body = 1, 1 + bones
     relative = _in_parents(mesh, poses)
-    turns, ways = _steady(from_matrix(relative[..., :3, :3])), relative[..., :3, 3]
+    rotations, translations = _steady(from_matrix(relative[..., :3, :3])), relative[..., :3, 3]
     children: list[list[int]] = [[] for _ in range(bones)]
     for bone, parent in enumerate(mesh.parents):
         if parent >= 0:
@@ -66,8 +66,8 @@ def write_gltf(
         *(
             gltf.Node(
                 name=label,
-                translation=ways[0, bone].tolist(),
-                rotation=turns[0, bone].tolist(),
+                translation=translations[0, bone].tolist(),
+                rotation=rotations[0, bone].tolist(),
                 children=children[bone],
             )
             for bone, label in enumerate(mesh.labels)
@@ -77,9 +77,9 @@ def write_gltf(
     times = packed.add(np.arange(len(poses), dtype=np.float64)[:, None] / fps, "<f4", bounds=True)
     animation = gltf.Animation(name=name)
     for bone in range(bones):
-        moves = {"rotation": turns[:, bone]}
-        if np.ptp(ways[:, bone], axis=0).max() > STILL:
-            moves["translation"] = ways[:, bone]
+        moves = {"rotation": rotations[:, bone]}
+        if np.ptp(translations[:, bone], axis=0).max() > STILL:
+            moves["translation"] = translations[:, bone]
         for what, values in moves.items():
             target = gltf.AnimationChannelTarget(node=first + bone, path=what)
             sampler = len(animation.samplers)

@@ -45,24 +45,24 @@ def urdf_template(
         DataError: If a shape is invalid, or the ratio of a coupling is too small.
     """
     names = list(robot.links)
-    turns = {names[0]: axes}
+    rotations = {names[0]: axes}
     bones = []
     for name, link in robot.links.items():
         joint = robot.joints.get(name)
         own: Joint = FreeJoint()
         offset, parent = np.zeros(3), -1
         if joint is not None:
-            above = turns[joint.parent]
-            turns[name] = above @ joint.origin[:3, :3]
+            above = rotations[joint.parent]
+            rotations[name] = above @ joint.origin[:3, :3]
             offset = scale * above @ joint.origin[:3, 3]
             parent = names.index(joint.parent)
             offsets = [
-                turns[name] @ other.origin[:3, 3]
+                rotations[name] @ other.origin[:3, 3]
                 for other in robot.joints.values()
                 if other.parent == name
             ]
-            own = _joint(joint, turns[name], offsets, robot)
-        shapes = capsules_of(link, rigid(turns[name], np.zeros(3)), scale)
+            own = _joint(joint, rotations[name], offsets, robot)
+        shapes = capsules_of(link, rigid(rotations[name], np.zeros(3)), scale)
         bones.append(
             Bone(
                 name=name,
@@ -79,7 +79,7 @@ def urdf_template(
     return ImportedSkeleton.of(bones, path, title, spread=SPREAD)
 
 
-def _joint(joint: UrdfJoint, turn: Array, offsets: list[Array], robot: Urdf) -> Joint:
+def _joint(joint: UrdfJoint, rotation: Array, offsets: list[Array], robot: Urdf) -> Joint:
     if joint.kind == "fixed":
         return FixedJoint()
     if joint.kind == "spherical":
@@ -87,7 +87,7 @@ def _joint(joint: UrdfJoint, turn: Array, offsets: list[Array], robot: Urdf) -> 
     limits = None if joint.limits is None else np.degrees(joint.limits)
     return HingeJoint(
         type="hinge",
-        axis=vector(turn @ joint.axis),
+        axis=vector(rotation @ joint.axis),
         limits_deg=None if limits is None else (float(limits[0]), float(limits[1])),
         coupled=None if joint.mimic is None else _coupling(joint, joint.mimic, robot),
     )

@@ -9,7 +9,7 @@ import pytest
 from regkit.alignment import agreement, align
 from regkit.alignment.rigid_method import Normalization
 from regkit.alignment.weak_motion import weak_motion
-from regkit.cli.register import named_method
+from regkit.cli.choices import method_named
 from regkit.geometry.rigid import inverse, rigid, transformed
 from regkit.geometry.rotation import from_matrix, to_vector, vector_to_matrix
 from regkit.search.rotations import icosahedral
@@ -55,7 +55,7 @@ def pair(lump, random, truth):
 @pytest.mark.filterwarnings("default")  # Other libraries may warn of what they like.
 def test_method_recovers_a_known_motion(pair, truth, name):
     pytest.importorskip(METHODS[name])
-    found = align(*pair, named_method(name), start="centroids")
+    found = align(*pair, method_named(name), start="centroids")
     degrees, metres = errors(found.transform, truth)
     # Round Gaussians slide less, and CPD ends early with its default number of steps.
     assert degrees < (8.0 if name == "probreg_cpd" or "cloud_sog" in name else 3.0)
@@ -68,7 +68,7 @@ def test_rigid_sees_far(lump, random, degrees):
     axis = np.array([1.0, 2.0, -1.0]) / np.sqrt(6.0)
     truth = rigid(vector_to_matrix(np.radians(degrees) * axis), np.array([1.0, 0.0, 0.0]))
     start = "centroids" if degrees < 90.0 else "rotations"
-    found = align(lump, transformed(truth, lump), named_method("rigid"), start=start)
+    found = align(lump, transformed(truth, lump), method_named("rigid"), start=start)
     assert errors(found.transform, truth)[0] < 0.5
 
 
@@ -77,7 +77,7 @@ def test_rigid_stands_outliers_and_partial_overlap(lump, random, truth):
     target = lump[lump[:, 0] > 0.45]
     stray = random.uniform(lump.min(axis=0) - 0.05, lump.max(axis=0) + 0.05, size=(300, 3))
     target = transformed(truth, np.concatenate([target, stray]))
-    found = align(source, target, named_method("rigid"))
+    found = align(source, target, method_named("rigid"))
     degrees, metres = errors(found.transform, truth)
     assert degrees < 2.0
     assert metres < 0.01
@@ -89,7 +89,7 @@ def test_common_motion_of_both_clouds_changes_the_result_as_it_must(lump, truth)
     common = rigid(vector_to_matrix(np.array([0.5, 1.0, -0.7])), np.array([3.0, 1.0, -2.0]))
     both = transformed(common, source), transformed(common, target)
     first, second = (
-        align(*pair, named_method("rigid"), start="centroids").transform
+        align(*pair, method_named("rigid"), start="centroids").transform
         for pair in ((source, target), both)
     )
     degrees, metres = errors(inverse(common) @ second @ common, first)
@@ -99,8 +99,8 @@ def test_common_motion_of_both_clouds_changes_the_result_as_it_must(lump, truth)
 
 def test_exchanged_clouds_give_the_inverse_motion(lump, truth):
     source, target = lump[:900], transformed(truth, lump[600:])
-    there = align(source, target, named_method("rigid")).transform
-    back = align(target, source, named_method("rigid")).transform
+    there = align(source, target, method_named("rigid")).transform
+    back = align(target, source, method_named("rigid")).transform
     degrees, metres = errors(back @ there, np.eye(4))
     assert degrees < 1.0
     assert metres < 0.002
@@ -110,14 +110,14 @@ def test_exchanged_clouds_give_the_inverse_motion(lump, truth):
 def test_method_without_joints_refuses_a_body_that_has_some(name):
     pytest.importorskip(METHODS[name])
     with pytest.raises(ConfigError, match=f"'{name}' is rigid, .* 'human' has 15 segm"):
-        named_method(name).bind(Human(height=1.7).body(1.7))
+        method_named(name).bind(Human(height=1.7).body(1.7))
 
 
 def test_coarse_to_fine_refuses_what_it_cannot_use(linkage):
     with pytest.raises(ConfigError, match="the template 'linkage' has no surface"):
-        named_method("rigid").bind(linkage)
+        method_named("rigid").bind(linkage)
     with pytest.raises(ConfigError, match="shape 'gsog' has no width that could be changed"):
-        named_method("{preset: rigid, shape: gsog}")
+        method_named("{preset: rigid, shape: gsog}")
 
 
 @pytest.mark.parametrize("name", ["small_gicp", "biocpd", "probreg_cpd"])
@@ -127,12 +127,12 @@ def test_missing_library_is_told_with_the_command_that_installs_it(monkeypatch, 
 
     monkeypatch.setattr(importlib, "import_module", missing)
     with pytest.raises(DependencyError, match=r"is not installed; run: pip install"):
-        named_method(name).library()
+        method_named(name).library()
     assert builtins.__import__ is not missing
 
 
 def test_failure_of_a_library_is_told(monkeypatch, lump):
-    method = named_method("open3d_icp")
+    method = method_named("open3d_icp")
 
     def failing(*_):
         raise ValueError("no luck")

@@ -1,4 +1,4 @@
-"""ITOP."""
+"""The ITOP dataset."""
 
 from regkit_plugins.datasets.itop.itop import Itop
 

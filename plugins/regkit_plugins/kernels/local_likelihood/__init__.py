@@ -1,4 +1,4 @@
-"""The likelihood of points under their nearest Gaussians."""
+"""The local-likelihood kernel: the likelihood of points under their nearest Gaussians."""
 
 from regkit_plugins.kernels.local_likelihood.local_likelihood import LocalLikelihood
 

@@ -1,4 +1,4 @@
-"""The distance of points to a mesh."""
+"""The point-to-plane kernel: distances of points to the surfels of a mesh."""
 
 from regkit_plugins.kernels.point_to_plane.point_to_plane import PointToPlane
 

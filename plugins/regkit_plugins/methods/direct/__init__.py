@@ -1,4 +1,4 @@
-"""A kernel's energy minimised over the pose."""
+"""The direct method: minimises the energy of a kernel and terms over the pose."""
 
 from regkit_plugins.methods.direct.direct import Direct
 

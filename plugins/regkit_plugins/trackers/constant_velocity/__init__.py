@@ -1,4 +1,4 @@
-"""Prediction by constant velocity, with recovery."""
+"""The constant-velocity tracker, with recovery of lost bodies."""
 
 from regkit_plugins.trackers.constant_velocity.constant_velocity import ConstantVelocity
 

@@ -1,4 +1,4 @@
-"""The tracker that expects each joint to go on as it moved last."""
+"""The constant-velocity tracker: extrapolates the last motion of each joint."""
 
 from __future__ import annotations
 
@@ -12,39 +12,44 @@ from regkit_plugins.trackers.constant_velocity.recovery import BoundRecovery, Re
 
 
 class ConstantVelocity(Tracker):
-    """Starts each frame where the last motion leads, if that pose fits the frame better."""
+    """Starts each frame from the extrapolated pose, or from the last pose if it fits better."""
 
     kind: Literal["constant_velocity"] = "constant_velocity"
 
     recovery: Recovery | None = Recovery()
-    """How lost limbs are found again; null for not at all."""
+    """Recovery of lost limbs; null disables it."""
 
     def bind(self, registrar: Registrar) -> BoundConstantVelocity:
-        """Prepare the recovery."""
+        """Binds the tracker and its recovery to a registrar."""
         recovery = None if self.recovery is None else self.recovery.bind(registrar)
         return BoundConstantVelocity(registrar, recovery)
 
 
 @dataclass(frozen=True)
 class BoundConstantVelocity(BoundTracker):
-    """``ConstantVelocity`` for one registrar."""
+    """``ConstantVelocity`` bound to a registrar.
+
+    Attributes:
+        registrar: The registrar.
+        recovery: The bound recovery, if it is enabled.
+    """
 
     registrar: Registrar
     recovery: BoundRecovery | None
 
     def step(self, observation: Observation, past: Past) -> RegistrationResult:
-        """Register the frame from the better of the last pose and the predicted one."""
+        """Registers a frame from the better of the last and the extrapolated pose."""
         last = past.last.pose
         candidates = [last]
         if past.before is not None:
             candidates.append(self._predicted(past.before.pose, last))
-        # The prior is the last pose: a hidden limb would run away if it went on as it moved last.
+        # The prior is the last pose, because extrapolation would make an occluded limb drift.
         found = self.registrar.register(observation, candidates, prior=last, warm_start=past.last)
         if self.recovery is None:
             return found
         return self.recovery.checked(observation, found, past)
 
     def _predicted(self, before: Pose, last: Pose) -> Pose:
-        """Where the last step leads if it is taken again, within the limits."""
+        """Returns the pose after repeating the last step, projected onto the limits."""
         bones = self.registrar.body.skeleton
         return bones.limits.projected(bones.retract(last, bones.difference(before, last)))

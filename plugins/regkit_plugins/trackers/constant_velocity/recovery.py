@@ -1,4 +1,4 @@
-"""Recovery: noticing that limbs were lost, and finding them again."""
+"""Recovery: detection of lost limbs, and search for their configuration."""
 
 from __future__ import annotations
 
@@ -15,30 +15,30 @@ from regkit.observation import Observation
 from regkit.search.limb_search import LimbSearch
 
 BEST_SHARE = 0.25
-"""The quarter of the frames with the most inliers says what is usual in a recording."""
+"""Quantile of the outlier fraction over past frames that counts as usual."""
 
 
 class Recovery(Model):
-    """Tries other configurations of each limb, and keeps one that fits the frame better.
+    """Recovers lost limbs by trying other configurations of each limb.
 
-    It searches for lost limbs when a frame has more outliers than is usual in the recording. Of
-    many configurations within the joint limits, it registers the few that best cover the points
-    that the rest of the body leaves over.
+    It searches when a frame has more outliers than usual in the recording. Of many configurations
+    within the joint limits, it registers the few that best match the points that the rest of the
+    body does not explain, and keeps one that fits the frame better.
     """
 
     samples: Annotated[int, Field(ge=2)] = 500
-    """Configurations drawn for each limb."""
+    """Number of sampled configurations per limb."""
     starts: Annotated[int, Field(ge=1)] = 2
-    """How many of these are registered."""
+    """Number of configurations per limb that are registered."""
     gain: Annotated[float, Field(ge=0.0, lt=1.0)] = 0.01
-    """A limb may only jump if the mean inlier probability rises by more than this."""
+    """Minimum increase of the mean inlier probability for accepting a new configuration."""
     alarm: Annotated[float, Field(ge=1.0)] = 1.3
-    """Search when the share of outliers exceeds this many times the usual share, plus ``gain``."""
+    """Search if the fraction of outliers exceeds the usual one by this factor, plus ``gain``."""
     every: Annotated[int, Field(ge=1)] = 20
-    """Search in the first frame, and then every so many frames in any case."""
+    """Number of frames between unconditional searches, which begin in the first frame."""
 
     def bind(self, registrar: Registrar) -> BoundRecovery:
-        """Draw the configurations, which are the same in all frames."""
+        """Samples the configurations, which are the same for all frames."""
         random = np.random.default_rng(0)
         searches = LimbSearch.of_all(registrar.body, random, self.samples)
         return BoundRecovery(self, registrar, tuple(searches))
@@ -46,12 +46,12 @@ class Recovery(Model):
 
 @dataclass(frozen=True)
 class BoundRecovery:
-    """``Recovery`` for one registrar.
+    """``Recovery`` bound to a registrar.
 
     Attributes:
-        recovery: Its configuration.
-        registrar: What registers a frame.
-        searches: One for each limb.
+        recovery: The recovery.
+        registrar: The registrar.
+        searches: The search of each limb.
     """
 
     recovery: Recovery
@@ -64,13 +64,13 @@ class BoundRecovery:
         found: RegistrationResult,
         past: Past,
     ) -> RegistrationResult:
-        """What was found, or a better registration with a limb in another place."""
+        """Returns the registration, or a better one with another configuration of a limb."""
         if not self._alarmed(found, past):
             return found
         return self.recovered(observation, found)
 
     def recovered(self, observation: Observation, found: RegistrationResult) -> RegistrationResult:
-        """The best of what was found and of what the searches lead to, limb after limb."""
+        """Returns the best registration after searching all limbs in turn."""
         best, evaluation = found, self.registrar.evaluate(observation, found.pose)
         cloud = KDTree(observation.points)
         for search in self.searches:
@@ -86,9 +86,9 @@ class BoundRecovery:
         return new.energy < old.energy and gain > self.recovery.gain
 
     def _alarmed(self, found: RegistrationResult, past: Past) -> bool:
-        """Whether there are more outliers than usual, or it is time to search anyway."""
+        """Returns whether there are more outliers than usual, or a search is due."""
         if past.frames % self.recovery.every == 0:
             return True
         usual = float(np.quantile(1.0 - np.array(past.inlier_shares), BEST_SHARE))
-        # What no jump could gain is no reason to search for one.
+        # Excess outliers below ``gain`` cannot lead to an accepted configuration.
         return 1.0 - found.inlier_share > self.recovery.alarm * usual + self.recovery.gain
