@@ -25,6 +25,7 @@ from _rigid_pairs import Pair, bunny
 from threadpoolctl import threadpool_limits
 
 from regkit.alignment import align, read_transform
+from regkit.cli.choices import method_named
 from regkit.clouds import read_cloud
 from regkit.interfaces import Method
 from regkit.system.arrays import Array
@@ -59,10 +60,8 @@ METHODS = {
 
 def methods(distance: float) -> Iterator[tuple[str, Method]]:
     """The methods that are installed."""
-    from regkit.cli.register import named_method
-
     for name, text in METHODS.items():
-        yield name, named_method(text.format(distance=distance))
+        yield name, method_named(text.format(distance=distance))
 
 
 def robustness(points: Array) -> dict[str, dict[str, Any]]:

@@ -15,8 +15,9 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 import regkit
-from regkit.api import Registration
+from regkit.api import Tracking
 from regkit.system.arrays import Array
+from regkit_plugins.shapes.gsog import GeneralizedSumOfGaussians
 
 WIDTH, HEIGHT, FINER = 800, 470, 2
 """Size of the picture [px], and how many times finer it is drawn."""
@@ -136,8 +137,8 @@ def shaded(view: View, centre: Array, shape: Array, colour: Array) -> tuple[Arra
 
 
 @dataclass(frozen=True)
-class Track:
-    """What is drawn of a tracked frame, in the depth camera's axes.
+class Snapshot:
+    """A tracked frame as it is drawn, in the depth camera's axes.
 
     Attributes:
         points: (N, 3) measured points [m].
@@ -156,43 +157,41 @@ class Track:
     ground: float
 
     @classmethod
-    def of(cls, found: Registration, points: Array, ground: float) -> Track:
-        """A registered frame with all points of its depth image."""
-        body = found.body
-        gaussians = body.gaussians["gsog"]
-        placed = gaussians.place(found.segments)
+    def of(cls, tracked: Tracking, index: int, points: Array, ground: float) -> Snapshot:
+        """A frame of a track, with all points of its depth image."""
+        gaussians = GeneralizedSumOfGaussians().bind(tracked.body)
+        placed = gaussians.place(tracked.segments[index])
         spread = placed.axes * gaussians.scales[:, None, :]
-        names = [body.skeleton.names[segment] for segment in gaussians.segments]
+        names = [tracked.body.skeleton.names[segment] for segment in gaussians.segments]
         colours = [
             LEFT if name.startswith("left") else RIGHT if name.startswith("right") else TRUNK
             for name in names
         ]
-        markers = dict(zip(found.joint_names, found.markers, strict=True))
+        markers = dict(zip(tracked.joint_names, tracked.markers[index], strict=True))
         covariances = spread @ spread.transpose(0, 2, 1)
-        return cls(
-            points, placed.centres, covariances, np.array(colours, dtype=float), markers, ground
-        )
+        shades = np.array(colours, dtype=float)
+        return cls(points, placed.centres, covariances, shades, markers, ground)
 
 
-def drawn(track: Track, both: tuple[View, View], presence: float) -> Image.Image:
+def drawn(snapshot: Snapshot, both: tuple[View, View], presence: float) -> Image.Image:
     """One picture; of the model a part, ``presence``, is there: 0 shows the points alone."""
     canvas = np.tile(np.array(PAPER, dtype=float), (FINER * HEIGHT, FINER * WIDTH, 1))
     for view in both:
-        _draw_ground(canvas, view, track)
-        nearest = _draw_model(canvas, view, track, _OPACITY * presence)
-        _draw_points(canvas, view, track, nearest, presence)
+        _draw_ground(canvas, view, snapshot)
+        nearest = _draw_model(canvas, view, snapshot, _OPACITY * presence)
+        _draw_points(canvas, view, snapshot, nearest, presence)
     image = Image.fromarray(np.rint(canvas).astype(np.uint8))
     for view in both:
-        image = _with_bones(image, view, track, presence)
+        image = _with_bones(image, view, snapshot, presence)
     _write(image, both)
     return image.resize((WIDTH, HEIGHT), Image.Resampling.LANCZOS)
 
 
-def _draw_ground(canvas: Array, view: View, track: Track) -> None:
+def _draw_ground(canvas: Array, view: View, snapshot: Snapshot) -> None:
     """A soft shadow on the ground below each foot and between both."""
-    feet = np.array([track.markers[f"{side}_ankle"] for side in ("left", "right")])
+    feet = np.array([snapshot.markers[f"{side}_ankle"] for side in ("left", "right")])
     for x, _, z in (*feet, feet.mean(axis=0)):
-        (spot,) = view.pixels(view.moved(np.array([[x, track.ground, z]])))
+        (spot,) = view.pixels(view.moved(np.array([[x, snapshot.ground, z]])))
         across, along = FINER * 44.0, FINER * 6.0
         columns = slice(int(max(spot[0] - 3 * across, 0)), int(spot[0] + 3 * across))
         rows = slice(int(spot[1] - 3 * along), int(spot[1] + 3 * along))
@@ -203,13 +202,13 @@ def _draw_ground(canvas: Array, view: View, track: Track) -> None:
         part *= 1.0 - 0.09 * np.exp(-far)[..., None]
 
 
-def _draw_model(canvas: Array, view: View, track: Track, opacity: float) -> Array:
+def _draw_model(canvas: Array, view: View, snapshot: Snapshot, opacity: float) -> Array:
     """Blend the front of all ellipsoids into the canvas; their depth in each pixel [m]."""
     nearest = np.full(canvas.shape[:2], np.inf)
     colours = np.zeros_like(canvas)
     rotation = view.T_view_camera[:3, :3]
     for centre, covariance, colour in zip(
-        view.moved(track.centres), track.covariances, track.colours, strict=True
+        view.moved(snapshot.centres), snapshot.covariances, snapshot.colours, strict=True
     ):
         shape = np.linalg.inv(4.0 * rotation @ covariance @ rotation.T)
         pixels, depth, shades = shaded(view, centre, shape, colour)
@@ -222,9 +221,11 @@ def _draw_model(canvas: Array, view: View, track: Track, opacity: float) -> Arra
     return nearest
 
 
-def _draw_points(canvas: Array, view: View, track: Track, nearest: Array, presence: float) -> None:
+def _draw_points(
+    canvas: Array, view: View, snapshot: Snapshot, nearest: Array, presence: float
+) -> None:
     """Blend the points into the canvas, fainter where the model hides them."""
-    points = view.moved(track.points)
+    points = view.moved(snapshot.points)
     at = np.rint(view.pixels(points)).astype(int)
     hidden = points[:, 2] > nearest[at[:, 1], at[:, 0]] + 0.02
     opacity = np.where(hidden, 0.9 - 0.72 * presence, 0.9)
@@ -236,14 +237,14 @@ def _draw_points(canvas: Array, view: View, track: Track, nearest: Array, presen
             canvas[rows, columns] = before + share[:, None] * (np.array(POINT) - before)
 
 
-def _with_bones(image: Image.Image, view: View, track: Track, presence: float) -> Image.Image:
+def _with_bones(image: Image.Image, view: View, snapshot: Snapshot, presence: float) -> Image.Image:
     """The picture with bones and markers over it."""
     over = image.copy()
     pen = ImageDraw.Draw(over)
     places = dict(
         zip(
-            track.markers,
-            view.pixels(view.moved(np.array(list(track.markers.values())))),
+            snapshot.markers,
+            view.pixels(view.moved(np.array(list(snapshot.markers.values())))),
             strict=True,
         )
     )
@@ -269,15 +270,15 @@ def _write(image: Image.Image, both: tuple[View, View]) -> None:
         pen.text(at, view.title, fill=(110, 120, 134), font=font, anchor="ms")
 
 
-def pictures(tracks: list[Track]) -> Iterator[Image.Image]:
+def pictures(snapshots: list[Snapshot]) -> Iterator[Image.Image]:
     """The points alone, the model that appears in them, the walk, and the model that goes."""
-    both = views(np.mean([track.markers["pelvis"] for track in tracks], axis=0))
+    both = views(np.mean([snapshot.markers["pelvis"] for snapshot in snapshots], axis=0))
     for presence in (0.0, 0.0, 0.0, 0.0, 0.0, 0.25, 0.5, 0.75):
-        yield drawn(tracks[0], both, presence)
-    for track in tracks:
-        yield drawn(track, both, 1.0)
+        yield drawn(snapshots[0], both, presence)
+    for snapshot in snapshots:
+        yield drawn(snapshot, both, 1.0)
     for presence in (1.0, 1.0, 1.0, 0.66, 0.33):
-        yield drawn(tracks[-1], both, presence)
+        yield drawn(snapshots[-1], both, presence)
 
 
 def write_animation(recording_folder: Path, file: Path) -> None:
@@ -285,10 +286,11 @@ def write_animation(recording_folder: Path, file: Path) -> None:
     walk = regkit.load_recording(recording_folder)
     tracked = regkit.track(walk, regkit.load_template("human", height=1.63))
     ground = _SOLE + float(tracked.markers[..., 1].max())
-    tracks = [
-        Track.of(tracked[index], frame.points, ground) for index, frame in enumerate(walk.frames())
+    snapshots = [
+        Snapshot.of(tracked, index, frame.points, ground)
+        for index, frame in enumerate(walk.frames())
     ]
-    first, *others = pictures(tracks)
+    first, *others = pictures(snapshots)
     first.save(
         file,
         save_all=True,
