@@ -160,13 +160,6 @@ def test_schema_check_names_the_changed_copies(regkit, tmp_path):
     assert [file.read_bytes() for file in changed] == before
 
 
-def test_schema_check_fails_where_there_is_none(regkit, tmp_path):
-    ended = regkit("schema", tmp_path, "--check")
-    assert ended.code == 1
-    assert len(ended.err.splitlines()) == 5
-    assert not list(tmp_path.iterdir())
-
-
 def test_schema_describes_the_fields_of_every_plugin(regkit, tmp_path):
     """An editor shows the docstrings; a plug-in of a file is in it as any other."""
     file = tmp_path / "mine.py"
