@@ -4,7 +4,7 @@ PYTHON ?= python3
 ready := .venv/.ready
 bin := .venv/bin
 
-.PHONY: help demo test lint docs pictures samples templates schemas lock benchmarks clean
+.PHONY: help demo test test-long lint docs pictures samples templates schemas lock benchmarks clean
 
 help: ## Show this help
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -17,7 +17,10 @@ demo: $(ready) ## Track a person in a depth recording with SoG, G-SoG and the de
 	@$(bin)/regkit run docs/examples/demo.yaml
 
 test: $(ready) lint ## Run every check
-	@$(bin)/pytest -q --numprocesses auto --dist loadfile
+	@$(bin)/pytest -q --numprocesses auto --dist worksteal
+
+test-long: $(ready) ## Run what a release needs besides: fuzzing, soaks, long walks
+	@$(bin)/pytest -q --numprocesses auto --dist worksteal -m "long or hypothesis" --hypothesis-profile long
 
 lint: $(ready)
 	@$(bin)/ruff check .

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
+from hypothesis import settings
 from places import REFERENCE
 from small_experiment import Files, Started, small
 
@@ -24,6 +25,10 @@ from regkit.testing.samples import LINKAGE
 # tests start; they press it as a terminal does.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+settings.register_profile("short", max_examples=30, deadline=None, derandomize=True)
+settings.register_profile("long", max_examples=500, deadline=None)
+settings.load_profile("short")
 
 # A console keeps the width that it is told when it is made; without it, it asks each time.
 os.environ.pop("COLUMNS", None)

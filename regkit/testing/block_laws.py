@@ -9,7 +9,7 @@ from regkit.body import Body
 from regkit.testing.bound import Bound
 from regkit.testing.cases import Pair
 from regkit.testing.differences import best_length
-from regkit.testing.laws import Laws
+from regkit.testing.laws import Laws, checked_on_every
 from regkit.testing.verdict import require
 
 TOO_FAR = 32.0
@@ -45,6 +45,7 @@ class BlockLaws(Laws):
             "largest entry; clip the weights of residuals at zero", look_at=at,
         )  # fmt: skip
 
+    @checked_on_every("option")
     def test_kernel_blocks_fit_its_forces(self, bound: Bound, random: np.random.Generator) -> None:
         """A force acts only where there is stiffness, and the step has about the right length."""
         x, problem = bound.near_start(random), bound.problem()

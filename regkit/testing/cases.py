@@ -21,6 +21,11 @@ Examples = Mapping[str, Options | Sequence[Options]]
 """Options by kind, or by ``group.kind`` where two groups have one of that name."""
 
 
+Scope = Literal["class", "pair", "option"]
+"""How much of what is installed a law is checked on, from little to much: every class once; every
+pair of a kernel's or a term's class with that of a shape; every named option besides."""
+
+
 @dataclass(frozen=True)
 class Case:
     """A plug-in with options, or the reason why there is none.
@@ -33,6 +38,7 @@ class Case:
         plugin: The plug-in, if it could be made.
         missing: The required fields that no example gives.
         broken: Why it cannot be loaded.
+        scope: The least scope of the laws that are checked on it.
     """
 
     slot: type[Plugin]
@@ -42,6 +48,7 @@ class Case:
     plugin: Plugin | None = None
     missing: tuple[str, ...] = ()
     broken: str = ""
+    scope: Scope = "class"
 
 
 @dataclass(frozen=True)
@@ -52,11 +59,13 @@ class Pair:
         plugin: The kernel or the term.
         shape: The shape.
         name: The identifier of a test.
+        scope: The least scope of the laws that are checked on it.
     """
 
     plugin: Plugin
     shape: ShapeModel
     name: str
+    scope: Scope = "class"
 
 
 def cases(subjects: Sequence[str | type[Plugin]], examples: Examples) -> list[Case]:
@@ -92,16 +101,29 @@ def cases(subjects: Sequence[str | type[Plugin]], examples: Examples) -> list[Ca
 
 
 def pairs(found: Sequence[Case], slot: type[Kernel] | type[Term]) -> list[Pair]:
-    """Kernels or terms with all shapes whose primitives they accept, of which one is an own."""
-    return [
-        Pair(one.plugin, two.plugin, f"{one.name}-{two.name}")
-        for one in found
-        if isinstance(one.plugin, slot)
-        for two in found
-        if isinstance(two.plugin, ShapeModel)
-        and (one.own or two.own)
-        and accepts(one.plugin, two.plugin)
-    ]
+    """Kernels or terms with the shapes whose primitives they accept, one of which is an own.
+
+    A kernel is tried with every shape. A term looks at the primitives alone: it is tried with one
+    shape for each type of them. Other options of a kernel or a term are tried with one shape.
+    """
+    made = []
+    for one in found:
+        if not isinstance(one.plugin, slot):
+            continue
+        partners = {
+            (two.plugin.makes if slot is Term else two.name): (two.plugin, two)
+            for two in reversed(found)  # The first of a type comes last, and stays.
+            if isinstance(two.plugin, ShapeModel)
+            and (one.own or two.own)
+            and accepts(one.plugin, two.plugin)
+        }
+        for index, (shape, two) in enumerate(reversed(partners.values())):
+            other = one.scope == "option" or (index > 0 and two.scope == "option")
+            scope: Scope = "option" if other else "pair" if index else "class"
+            made.append(Pair(one.plugin, shape, f"{one.name}-{two.name}", scope))
+            if one.scope == "option":
+                break
+    return made
 
 
 def accepts(plugin: Kernel | Term, shape: ShapeModel) -> bool:
@@ -134,10 +156,11 @@ def _cases_of(slot: type[Plugin], kind: str, own: bool, examples: Examples) -> I
     group = slot.group.removeprefix("regkit.")
     given = examples.get(f"{group}.{kind}", examples.get(kind))
     tried: list[Options] = [given] if isinstance(given, Mapping) else list(given or [{}])
-    for options in tried:
+    for index, options in enumerate(tried):
         name = kind if len(tried) == 1 else "-".join([kind, *_leaves(options)])
+        scope: Scope = "option" if index else "class"
         try:
-            yield Case(slot, kind, name, own, plugin.model_validate(options))
+            yield Case(slot, kind, name, own, plugin.model_validate(options), scope=scope)
         except ValidationError as error:
             missing = [str(each["loc"][0]) for each in error.errors() if each["type"] == "missing"]
             if given is not None:
@@ -146,13 +169,13 @@ def _cases_of(slot: type[Plugin], kind: str, own: bool, examples: Examples) -> I
             broken = "" if missing else f"{group}.{kind} has defaults that {_misfit(error)}"
             yield Case(slot, kind, name, own, missing=tuple(missing), broken=broken)
             return
-        for change in _other_choices(plugin, options):
+        for change in _other_choices(plugin, options) if index == 0 else ():
             field, value = next(iter(change.items()))
             try:
                 changed = plugin.model_validate({**options, **change})
             except ValidationError:
                 continue  # The choice needs others, which an example can make.
-            yield Case(slot, kind, f"{name}-{field}={value}", own, changed)
+            yield Case(slot, kind, f"{name}-{field}={value}", own, changed, scope="option")
 
 
 def _misfit(error: ValidationError) -> str:

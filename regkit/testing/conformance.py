@@ -46,10 +46,12 @@ def conformance(
 ) -> type[Conformance]:
     """The laws of plug-ins as a class of tests, to be bound to a name that begins with ``Test``.
 
-    Each plug-in is tried with its defaults, and once with every other value of each field that has
-    a few named ones. Kernels and terms are tried with every shape whose primitives they accept, and
-    shapes with every kernel and term. A plug-in with required fields is skipped, with the reason,
-    unless there is an example. A test class may be derived from this one to add laws of one's own,
+    Each law is checked once for each class, with its defaults or the first example. Kernels are
+    tried with every shape whose primitives they accept, shapes with every kernel, and terms with
+    one shape for each type of primitives that they accept. The laws of gradients and blocks are
+    checked with every other example and with every value of each field that has a few named ones
+    besides. A plug-in with required fields is skipped, with the reason, unless there is an
+    example. A test class may be derived from this one to add laws of one's own,
     or to override the fixtures ``body`` and ``rigid_body``, what shapes and methods are tried on.
 
     Args:

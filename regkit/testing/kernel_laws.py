@@ -14,6 +14,7 @@ from regkit.testing.block_laws import BlockLaws
 from regkit.testing.bound import Bound
 from regkit.testing.cases import Pair
 from regkit.testing.differences import Slopes
+from regkit.testing.laws import checked_on_every
 from regkit.testing.samples import moved_pose, posed, surface_data
 from regkit.testing.shape_laws import attached
 from regkit.testing.verdict import copied, require, same
@@ -28,6 +29,7 @@ FAR_AWAY = np.array([0.0, 0.0, 5.0])
 class KernelLaws(BlockLaws):
     """Laws of kernels, beside those of their blocks."""
 
+    @checked_on_every("option")
     @pytest.mark.parametrize("smoothing", [0.0, 0.02])
     def test_kernel_gradient_is_the_derivative_of_its_energy(
         self, bound: Bound, random: np.random.Generator, smoothing: float
@@ -66,6 +68,21 @@ class KernelLaws(BlockLaws):
             look_at=at,
         )  # fmt: skip
 
+    def test_kernel_answers_for_the_point_after_a_step_in_place(
+        self, bound: Bound, random: np.random.Generator
+    ) -> None:
+        """Solvers may write their next point into the array that holds the last one."""
+        problem, x = bound.problem(), bound.near_start(random)
+        problem.value_and_gradient(x)
+        x += bound.near_start(random)
+        stepped = problem.value_and_gradient(x)
+        anew = bound.problem().value_and_gradient(x.copy())
+        require(
+            same(stepped, anew), bound.kernel, "answers for the point before a step in place: the "
+            f"energy is {stepped[0]:.6g} for {anew[0]:.6g}; cache nothing by the identity of an "
+            "array", look_at=bound.answer,
+        )  # fmt: skip
+
     def test_kernel_takes_a_point_of_twice_the_weight_for_two(self, bound: Bound) -> None:
         """Weights say how much data a point stands for, whether the energy is a sum or a mean."""
         # One variance, since a kernel may take the mean of them.
@@ -90,6 +107,7 @@ class KernelLaws(BlockLaws):
             "observation's weights", look_at=bound.answer,
         )  # fmt: skip
 
+    @checked_on_every("pair")
     @pytest.mark.parametrize("camera", [False, True], ids=["blind", "seen"])
     def test_kernel_is_left_alone_by_a_common_motion(self, bound: Bound, camera: bool) -> None:
         """Body and data moved together: the same energy, and forces that turn with them.
@@ -118,6 +136,7 @@ class KernelLaws(BlockLaws):
             "primitives' centres", look_at=bound.answer,
         )  # fmt: skip
 
+    @checked_on_every("pair")
     def test_kernel_prefers_the_body_where_the_data_are(
         self, pair: Pair, body: Body, random: np.random.Generator
     ) -> None:

@@ -2,28 +2,46 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import ClassVar
+from collections.abc import Callable, Mapping, Sequence
+from typing import ClassVar, TypeVar, get_args
 
 import numpy as np
 import pytest
 
 from regkit.body import Body
-from regkit.testing.cases import Case, Pair
+from regkit.testing.cases import Case, Pair, Scope
 from regkit.testing.samples import linkage, lump
+
+Law = TypeVar("Law", bound=Callable[..., None])
+
+
+def checked_on_every(scope: Scope) -> Callable[[Law], Law]:
+    """Mark a law that is not of a class alone, but of each pair of classes or each option."""
+
+    def marked(law: Law) -> Law:
+        law.scope = scope  # type: ignore[attr-defined]
+        return law
+
+    return marked
 
 
 class Laws:
-    """Tests that take a plug-in, or a pair of them, as their argument."""
+    """Tests that take a plug-in, or a pair of them, as their argument.
+
+    A law is checked once for each class of plug-ins, unless ``checked_on_every`` says otherwise.
+    """
 
     parameters: ClassVar[Mapping[str, Sequence[Case | Pair]]] = {}
     """The cases by the name of the argument."""
 
     def pytest_generate_tests(self, metafunc: pytest.Metafunc) -> None:
         """Give each test the cases of its argument."""
+        scopes = get_args(Scope)
+        checked = scopes[: 1 + scopes.index(getattr(metafunc.function, "scope", "class"))]
         for argument, cases in self.parameters.items():
             if argument in metafunc.fixturenames:
-                metafunc.parametrize(argument, [_parameter(argument, each) for each in cases])
+                chosen = [_parameter(argument, each) for each in cases if each.scope in checked]
+                metafunc.parametrize(argument, chosen)
 
     @pytest.fixture
     def body(self) -> Body:

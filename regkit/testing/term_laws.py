@@ -16,7 +16,7 @@ from regkit.registration import RegistrationProblem, TangentCoordinates
 from regkit.system.errors import RegkitError
 from regkit.testing.cases import Pair
 from regkit.testing.differences import Slopes
-from regkit.testing.laws import Laws
+from regkit.testing.laws import Laws, checked_on_every
 from regkit.testing.samples import data_of, posed
 from regkit.testing.shape_laws import attached
 from regkit.testing.verdict import copied, require, same
@@ -53,6 +53,7 @@ class TermLaws(Laws):
         placed = primitives.place(body.place(start).transforms)
         return Scene(body, data_of(body, start, random), start, placed), primitives
 
+    @checked_on_every("option")
     def test_term_gradient_is_the_derivative_of_its_energy(
         self, term_pair: Pair, scene: tuple[Scene, Primitives], random: np.random.Generator
     ) -> None:

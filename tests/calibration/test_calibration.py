@@ -263,7 +263,6 @@ def test_hidden_parts_are_not_missed():
     assert weights @ distances.lengths < 0.5 * even @ everywhere.lengths
 
 
-@pytest.mark.slow
 def test_known_proportions_are_found(random):
     shape = Shape(HUMAN)
     truth = unlike(shape, random)
@@ -288,7 +287,6 @@ def test_known_proportions_are_found(random):
     assert np.abs(one.lengths / other.lengths - 1.0).mean() < 0.4 * before
 
 
-@pytest.mark.slow
 def test_noise_makes_a_body_neither_thinner_nor_thicker(random):
     shape = Shape(HUMAN)
     size = HUMAN.size.value

@@ -157,7 +157,7 @@ def test_rigid_and_jointed_methods_stand_in_one_experiment(regkit, tmp_path):
     example = VIEWS.parents[2] / "rigid.yaml"
     direct = "{kind: direct, shape: cloud_gsog, kernel: local_likelihood, solver: gauss_newton}"
     ended = regkit(
-        "run", example, "--out", tmp_path / "out", "--set", "dataset.frames=3",
+        "run", example, "--out", tmp_path / "out", "--no-figures", "--set", "dataset.frames=3",
         "--set", f"methods={{rigid: {{preset: rigid}}, icp: open3d_icp, direct: {direct}, "
         "best: {preset: best}}",
     )  # fmt: skip
@@ -176,7 +176,7 @@ def test_rigid_method_on_a_jointed_body_is_told(regkit, tmp_path):
     pytest.importorskip("open3d")
     example = VIEWS.parents[2] / "demo.yaml"
     ended = regkit(
-        "run", example, "--out", tmp_path / "out", "--set", "dataset.frames=1",
+        "run", example, "--out", tmp_path / "out", "--no-figures", "--set", "dataset.frames=1",
         "--set", "methods={icp: open3d_icp}", "--set", "template={kind: human, height: 1.7}",
         "--set", "start={root: {position: [-0.05, -0.05, 3.25], rotation_deg: [180, 0, 0]}}",
     )  # fmt: skip

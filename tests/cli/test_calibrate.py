@@ -14,7 +14,6 @@ def subject(tmp_path):
     return tmp_path / "subject.yaml"
 
 
-@pytest.mark.slow
 def test_calibrate_writes_a_template_that_experiments_can_use(regkit, files, subject):
     recording = files.data / "first"
     ended = regkit("calibrate", recording, *HUMAN, "--out", subject)
@@ -36,7 +35,15 @@ def test_calibrate_writes_a_template_that_experiments_can_use(regkit, files, sub
     assert np.median(np.abs(gaps)) < 0.012
     template = f"template={{kind: file, path: {subject}}}"
     ended = regkit(
-        "run", files.experiment, "--out", files.out, "--set", template, "--set", "start=null"
+        "run",
+        files.experiment,
+        "--out",
+        files.out,
+        "--no-figures",
+        "--set",
+        template,
+        "--set",
+        "start=null",
     )
     assert ended.code == 0, ended.err
     # A template may be replaced, and be calibrated further.
@@ -44,7 +51,6 @@ def test_calibrate_writes_a_template_that_experiments_can_use(regkit, files, sub
     assert again.code == 0, again.err
 
 
-@pytest.mark.slow
 def test_calibrate_takes_an_experiments_data_template_and_start(regkit, files, subject):
     ended = regkit("calibrate", files.experiment, "--recording", "second", "--out", subject)
     assert ended.code == 0, ended.err

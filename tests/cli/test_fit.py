@@ -37,7 +37,13 @@ def test_a_fitted_body_tracks_as_the_shipped_one_does(regkit, files, out):
     fitted = f"{{kind: file, path: {out}, size: {read(out).size.value}}}"
     for name in ("{kind: human, height: 1.633}", fitted):
         results = files._replace(out=files.out / str(len(errors)))
-        settings = ("--set", f"template={name}", "--set", "dataset.recordings=[first]")
+        settings = (
+            "--no-figures",
+            "--set",
+            f"template={name}",
+            "--set",
+            "dataset.recordings=[first]",
+        )
         ended = regkit("run", files.experiment, "--out", results.out, *settings)
         assert ended.code == 0, ended.err
         errors.append(results.metrics()["gsog"]["mean"]["joint_error_raw_cm"])

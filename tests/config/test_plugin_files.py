@@ -64,7 +64,7 @@ def test_shape_of_a_plugin_file_is_run(regkit, files, tmp_path):
     file = tmp_path / "beads.py"
     file.write_text(SHAPE)
     add_method(files.experiment, "beads", "{kind: beads, factor: 0.7}")
-    refused = regkit("run", files.experiment, "--out", files.out)
+    refused = regkit("run", files.experiment, "--out", files.out, "--no-figures")
     assert refused.code == 1
     installed = ", ".join(ShapeModel.available())
     assert f"no plug-in 'beads' in regkit.shapes (installed: {installed})" in refused.err
@@ -90,7 +90,7 @@ def test_plugin_file_that_is_broken_is_told(regkit, files, tmp_path, text, expec
     file = tmp_path / "mine.py"
     if text is not None:
         file.write_text(text)
-    ended = regkit("run", files.experiment, "--out", files.out, "--plugin", file)
+    ended = regkit("run", files.experiment, "--out", files.out, "--no-figures", "--plugin", file)
     assert ended.code == 1
     assert ended.err.replace(str(file), "FILE").startswith(f"error: {expected}")
     assert not files.out.exists()
@@ -117,7 +117,7 @@ def test_fault_of_a_plugin_stops_only_its_own_method(regkit, files, tmp_path):
 def test_plugin_that_declares_too_little_is_refused(regkit, files, tmp_path, old, new, expected):
     path = tmp_path / "faulty.py"
     path.write_text(FAULTY.replace(old, new))
-    ended = regkit("run", files.experiment, "--out", files.out, "--plugin", path)
+    ended = regkit("run", files.experiment, "--out", files.out, "--no-figures", "--plugin", path)
     assert ended.code == 1
     assert ended.err.startswith(f"error: {path}: ")
     assert expected in ended.err
@@ -132,7 +132,7 @@ def test_plugin_that_declares_too_little_is_refused(regkit, files, tmp_path, old
 )
 def test_plug_in_of_the_how_to_pages_runs(regkit, files, file, method):
     ended = regkit(
-        "run", files.experiment, "--out", files.out, "--plugin", EXAMPLES / file,
+        "run", files.experiment, "--out", files.out, "--no-figures", "--plugin", EXAMPLES / file,
         "--set", f"methods.mine={method}", "--only", "mine", *QUICK,
     )  # fmt: skip
     assert ended.code == 0, ended.err

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from jsonschema import Draft202012Validator
 from places import ROOT
@@ -164,10 +164,6 @@ def check_alike(name: str, model: type[BaseModel], data: Any, told: str) -> None
         assert not unknown, f"{told}: only pydantic refuses it: {unknown}"
 
 
-def alike(count: int) -> Any:
-    return settings(max_examples=count, deadline=None, derandomize=True)
-
-
 BEST = {"preset": "best"}
 
 
@@ -265,19 +261,16 @@ def test_joint_is_right_or_wrong_for_both(name, field, value, right):
     assert (not complaints(model, data)) == right
 
 
-@alike(250)
 @given(mutants(EXPERIMENTS))
 def test_experiments_are_accepted_by_both_or_refused_by_both(mutant):
     check_alike("experiment", SweptExperiment, *mutant)
 
 
-@alike(100)
 @given(mutants(TEMPLATES))
 def test_templates_are_accepted_by_both_or_refused_by_both(mutant):
     check_alike("template", BodyDescription, *mutant)
 
 
-@alike(60)
 @given(mutants(DATASETS))
 def test_datasets_are_accepted_by_both_or_refused_by_both(mutant):
     data, told = mutant
@@ -285,7 +278,6 @@ def test_datasets_are_accepted_by_both_or_refused_by_both(mutant):
         check_alike("dataset", Dataset, data, told)
 
 
-@alike(150)
 @given(mutants(METHODS))
 def test_methods_are_accepted_by_both_or_refused_by_both(mutant):
     data, told = mutant

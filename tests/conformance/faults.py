@@ -167,7 +167,24 @@ def answering(change: str) -> tuple[str, str]:
     return "    def residuals(", ANSWERS.replace("CHANGE", change)
 
 
+REMEMBERS = """    seen = None
+
+    def __call__(self, placed, *, curvature=False):
+        if self.seen is not placed.primitives:
+            self.seen, self.answer = placed.primitives, super().__call__(placed)
+        return self.answer
+
+    def residuals("""
+"""A kernel that takes an array which it has seen for a point which it has seen."""
+
+
 KERNEL_FAULTS = {
+    "remembers": (
+        "    def residuals(",
+        REMEMBERS,
+        "test_kernel_answers_for_the_point_after_a_step_in_place",
+        "cache nothing by the identity of an array",
+    ),
     "torque": (
         "np.cross(offsets[each, owners], normals)",
         "-np.cross(offsets[each, owners], normals)",

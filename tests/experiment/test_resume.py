@@ -30,7 +30,15 @@ from regkit.system.errors import DataError
 
 def test_finished_run_does_nothing_again(regkit, files):
     steps = counting()
-    arguments = ("run", files.experiment, "--out", files.out, "--set", "tracker=counting")
+    arguments = (
+        "run",
+        files.experiment,
+        "--out",
+        files.out,
+        "--no-figures",
+        "--set",
+        "tracker=counting",
+    )
     assert regkit(*arguments).code == 0
     assert len(steps) == 2 * FRAMES
     before, metrics = files.written(), files.metrics()
@@ -42,7 +50,15 @@ def test_finished_run_does_nothing_again(regkit, files):
 
 def test_resumed_run_does_only_what_is_missing(regkit, files):
     steps = counting()
-    arguments = ("run", files.experiment, "--out", files.out, "--set", "tracker=counting")
+    arguments = (
+        "run",
+        files.experiment,
+        "--out",
+        files.out,
+        "--no-figures",
+        "--set",
+        "tracker=counting",
+    )
     regkit(*arguments)
     before, metrics = files.written(), files.metrics()
     (files.out / "gsog" / "second" / "measure.json").unlink()
@@ -90,7 +106,15 @@ def test_interrupted_run_is_completed_later(regkit, files, interrupt):
 
             return Stepping(registrar, grow_impatient)
 
-    arguments = ("run", files.experiment, "--out", files.out, "--set", "tracker=impatient")
+    arguments = (
+        "run",
+        files.experiment,
+        "--out",
+        files.out,
+        "--no-figures",
+        "--set",
+        "tracker=impatient",
+    )
     ended = regkit(*arguments)
     assert ended.code == 130
     assert ended.err.endswith(
@@ -104,10 +128,10 @@ def test_interrupted_run_is_completed_later(regkit, files, interrupt):
 
 
 def test_damaged_measure_is_told_and_the_rest_is_kept(regkit, files):
-    regkit("run", files.experiment, "--out", files.out)
+    regkit("run", files.experiment, "--out", files.out, "--no-figures")
     damaged = files.out / "gsog" / "first" / "measure.json"
     damaged.write_text("{")
-    ended = regkit("run", files.experiment, "--out", files.out)
+    ended = regkit("run", files.experiment, "--out", files.out, "--no-figures")
     assert ended.code == 1
     assert f"gsog on first failed: {damaged}: damaged" in ended.err
     assert "delete the file to have the recording done again" in ended.err
@@ -119,7 +143,13 @@ def test_folder_of_another_configuration_is_refused(regkit, files):
     regkit("run", files.experiment, "--out", files.out, *QUICK)
     before = files.written()
     ended = regkit(
-        "run", files.experiment, "--out", files.out, "--set", "methods.gsog.solver.memory=3"
+        "run",
+        files.experiment,
+        "--out",
+        files.out,
+        "--no-figures",
+        "--set",
+        "methods.gsog.solver.memory=3",
     )
     assert ended.code == 1
     assert ended.err.startswith(
@@ -131,7 +161,7 @@ def test_folder_of_another_configuration_is_refused(regkit, files):
 def test_folder_with_other_files_is_refused_and_left_alone(regkit, files):
     files.out.mkdir()
     (files.out / "thesis.tex").write_text("precious")
-    ended = regkit("run", files.experiment, "--out", files.out)
+    ended = regkit("run", files.experiment, "--out", files.out, "--no-figures")
     assert ended.code == 1
     assert ended.err == (
         f"error: {files.out}: the folder holds other files; choose a new or an empty one\n"
@@ -178,18 +208,17 @@ def test_what_a_kill_left_of_a_report_is_removed(regkit, files):
 
 def test_difference_to_the_folder_is_named(regkit, files):
     regkit("run", files.experiment, "--out", files.out, *QUICK)
-    ended = regkit("run", files.experiment, "--out", files.out, "--set",
+    ended = regkit("run", files.experiment, "--out", files.out, "--no-figures", "--set",
                    "preprocessor=octree", *QUICK)  # fmt: skip
     assert "preprocessor.kind is points there and octree here" in ended.err
 
 
-@pytest.mark.slow
 def test_killed_run_is_completed_later(regkit, files, started):
     """Killed as hard as can be, while a track is half done and another is finished."""
     whole = files.out.with_name("whole")
     add_method(files.experiment, "sog", "sog")
-    assert regkit("run", files.experiment, "--out", whole).code == 0
-    run = started("run", files.experiment, "--out", files.out)
+    assert regkit("run", files.experiment, "--out", whole, "--no-figures").code == 0
+    run = started("run", files.experiment, "--out", files.out, "--no-figures")
     run.wait_for(files.out / "gsog" / "first" / "measure.json")
     run.process.send_signal(signal.SIGKILL)
     run.process.wait()
@@ -197,7 +226,7 @@ def test_killed_run_is_completed_later(regkit, files, started):
     left.parent.mkdir(parents=True, exist_ok=True)
     left.touch()
     before = files.written()
-    assert regkit("run", files.experiment, "--out", files.out).code == 0
+    assert regkit("run", files.experiment, "--out", files.out, "--no-figures").code == 0
     kept = {name: when for name, when in before.items() if name.startswith("gsog/first")}
     assert kept == {name: when for name, when in files.written().items() if name in kept}
     assert figures_but_times(files.out) == figures_but_times(whole)
@@ -206,7 +235,7 @@ def test_killed_run_is_completed_later(regkit, files, started):
 
 def test_two_runs_in_one_folder_are_refused(regkit, files):
     with locked(files.out):
-        ended = regkit("run", files.experiment, "--out", files.out)
+        ended = regkit("run", files.experiment, "--out", files.out, "--no-figures")
         assert ended.code == 1
         assert f"another run (process {os.getpid()} on " in ended.err
         assert "is writing there" in ended.err

@@ -115,7 +115,7 @@ def test_config_holds_every_default_and_runs_again(regkit, done, tmp_path):
     """The written configuration is itself an experiment, with the same outcome."""
     config = done.out / "config.yaml"
     assert "gradient_tolerance: 0.0001" in config.read_text()
-    ended = regkit("run", config, "--out", tmp_path / "out", "--only", "gsog")
+    ended = regkit("run", config, "--out", tmp_path / "out", "--no-figures", "--only", "gsog")
     assert ended.code == 0
     assert ended.err == ""
     assert "gsog" in ended.out
@@ -130,14 +130,14 @@ def test_config_holds_every_default_and_runs_again(regkit, done, tmp_path):
 def test_resolved_configuration_can_be_run_again(regkit, files, tmp_path):
     assert regkit("run", files.experiment, "--out", files.out, *QUICK).code == 0
     again = tmp_path / "again"
-    assert regkit("run", files.out / "config.yaml", "--out", again).code == 0
+    assert regkit("run", files.out / "config.yaml", "--out", again, "--no-figures").code == 0
     assert (again / "config.yaml").read_text() == (files.out / "config.yaml").read_text()
 
 
 def test_figures_are_null_without_truth(regkit, files):
     for path in files.data.glob("*/truth.csv"):
         path.unlink()
-    assert regkit("run", files.experiment, "--out", files.out).code == 0
+    assert regkit("run", files.experiment, "--out", files.out, "--no-figures").code == 0
     figures = files.metrics()["gsog"]
     for row in (figures["mean"], figures["recordings"]["first"]):
         for name in (
@@ -153,7 +153,9 @@ def test_figures_are_null_without_truth(regkit, files):
 
 
 def test_recording_of_one_frame_is_run(regkit, files):
-    ended = regkit("run", files.experiment, "--out", files.out, "--set", "dataset.frames=1")
+    ended = regkit(
+        "run", files.experiment, "--out", files.out, "--no-figures", "--set", "dataset.frames=1"
+    )
     assert ended.code == 0
     figures = files.metrics()["gsog"]["recordings"]["second"]
     assert figures["frames"] == 1

@@ -12,7 +12,7 @@ from regkit.system.errors import DataError
 
 def test_out_that_is_a_file_is_refused(regkit, files):
     files.out.write_text("precious")
-    ended = regkit("run", files.experiment, "--out", files.out)
+    ended = regkit("run", files.experiment, "--out", files.out, "--no-figures")
     assert ended.code == 1
     assert "this is a file, not a folder" in ended.err
     assert files.out.read_text() == "precious"
@@ -22,7 +22,7 @@ def test_bad_recording_does_not_stop_the_others(regkit, files):
     """What was finished is kept, the reason is told, and once mended the run is completed."""
     image = files.data / "first" / "depth" / "000001.png"
     content = damage(image)
-    ended = regkit("run", files.experiment, "--out", files.out)
+    ended = regkit("run", files.experiment, "--out", files.out, "--no-figures")
     assert ended.code == 1
     reason = f"{image}: the image is damaged or cut short"
     assert f"gsog on first failed: {reason}" in ended.err
@@ -39,7 +39,7 @@ def test_bad_recording_does_not_stop_the_others(regkit, files):
 
     before = files.written()
     image.write_bytes(content)
-    assert regkit("run", files.experiment, "--out", files.out).code == 0
+    assert regkit("run", files.experiment, "--out", files.out, "--no-figures").code == 0
     after = files.written()
     assert {name: after[name] for name in before} == before
     assert len(after) == 2 * len(before)
@@ -47,7 +47,13 @@ def test_bad_recording_does_not_stop_the_others(regkit, files):
 
 def test_frame_that_holds_too_little_is_told(regkit, files):
     ended = regkit(
-        "run", files.experiment, "--out", files.out, "--set", "preprocessor.crop.far=1.0"
+        "run",
+        files.experiment,
+        "--out",
+        files.out,
+        "--no-figures",
+        "--set",
+        "preprocessor.crop.far=1.0",
     )
     assert ended.code == 1
     assert "first/depth/000000.png: 0 of the frame's" in ended.err
@@ -86,7 +92,9 @@ def test_only_an_unknown_method_is_refused(regkit, files):
 
 
 def test_setting_that_is_wrong_is_told(regkit, files):
-    ended = regkit("run", files.experiment, "--out", files.out, "--set", "dataset.frames=none")
+    ended = regkit(
+        "run", files.experiment, "--out", files.out, "--no-figures", "--set", "dataset.frames=none"
+    )
     assert ended.code == 1
     assert ended.err.startswith("error: --set dataset.frames=none: dataset.frames: input should")
     assert not files.out.exists()
@@ -95,7 +103,7 @@ def test_setting_that_is_wrong_is_told(regkit, files):
 def test_joint_that_is_misspelt_is_told_before_anything_is_computed(regkit, files):
     steps = counting()
     ended = regkit(
-        "run", files.experiment, "--out", files.out,
+        "run", files.experiment, "--out", files.out, "--no-figures",
         "--set", "tracker=counting", "--set", "dataset.joints={head: haed}",
     )  # fmt: skip
     assert ended.code == 1
@@ -106,7 +114,7 @@ def test_joint_that_is_misspelt_is_told_before_anything_is_computed(regkit, file
 
 def test_missing_camera_stops_only_its_own_recording(regkit, files):
     (files.data / "first" / "camera.json").unlink()
-    ended = regkit("run", files.experiment, "--out", files.out)
+    ended = regkit("run", files.experiment, "--out", files.out, "--no-figures")
     assert ended.code == 1
     assert "camera.json: the file is missing" in ended.err
     recordings = files.metrics()["gsog"]["recordings"]
@@ -131,7 +139,7 @@ def test_start_that_does_not_fit_the_template_is_told_before_the_run(regkit, fil
         "rotation_deg: [180, 0, 0]}", "rotation_deg: [180, 0, 0]}, joints: {left_shinn: 3}"
     )
     files.experiment.write_text(text)
-    ended = regkit("run", files.experiment, "--out", files.out)
+    ended = regkit("run", files.experiment, "--out", files.out, "--no-figures")
     assert ended.err.startswith(
         f"error: {files.experiment}:5: start: there is no joint 'left_shinn'"
     )

@@ -39,7 +39,7 @@ def test_variants_of_a_method_stand_side_by_side(regkit, files):
     # What was written is an experiment without a sweep, and is run again as it is.
     before = figures_but_times(files.out)
     again = files.out.with_name("again")
-    assert regkit("run", files.out / "config.yaml", "--out", again).code == 0
+    assert regkit("run", files.out / "config.yaml", "--out", again, "--no-figures").code == 0
     assert figures_but_times(again) == before
 
 
@@ -71,7 +71,7 @@ def test_settings_have_folders_of_their_own_and_one_table(regkit, files):
     assert "voxel: 0.08" in coarse
     # The whole is run again from what was written, and has nothing to do.
     before = {path: path.stat().st_mtime_ns for path in files.out.rglob("measure.json")}
-    assert regkit("run", files.out / "config.yaml", "--out", files.out).code == 0
+    assert regkit("run", files.out / "config.yaml", "--out", files.out, "--no-figures").code == 0
     assert before == {path: path.stat().st_mtime_ns for path in files.out.rglob("measure.json")}
 
 
@@ -192,7 +192,7 @@ def test_variants_have_names_fit_for_folders(values, expected):
 
 def test_subject_that_nobody_is_is_refused(regkit, files):
     append(files, "subjects: {anna: {kind: human, height: 1.6}}\n")
-    ended = regkit("run", files.experiment, "--out", files.out)
+    ended = regkit("run", files.experiment, "--out", files.out, "--no-figures")
     assert ended.code == 1
     assert ended.err.startswith(
         "error: subjects: no recording shows a subject 'anna' (there are: none)"

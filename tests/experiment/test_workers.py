@@ -59,7 +59,7 @@ def serial(tmp_path_factory):
     """The figures of two methods, worked out in one process."""
     files = small(tmp_path_factory.mktemp("serial"))
     add_method(files.experiment, "sog", "sog")
-    run(Experiment.read(files.experiment), files.out)
+    run(Experiment.read(files.experiment), files.out, figures=False)
     return figures_but_times(files.out)
 
 
@@ -85,9 +85,8 @@ def deadly(files, tmp_path):
     return options
 
 
-@pytest.mark.slow
 def test_figures_of_two_processes_are_those_of_one(regkit, files, serial):
-    ended = regkit("run", files.experiment, "--out", files.out, "--jobs", 2)
+    ended = regkit("run", files.experiment, "--out", files.out, "--no-figures", "--jobs", 2)
     assert (ended.code, ended.err) == (0, "")
     assert figures_but_times(files.out) == serial
     environment = json.loads((files.out / "environment.json").read_text())
@@ -95,14 +94,14 @@ def test_figures_of_two_processes_are_those_of_one(regkit, files, serial):
     assert not list(files.out.rglob(".*"))
 
 
-@pytest.mark.slow
 def test_killed_process_loses_nothing(regkit, files, serial, deadly):
-    ended = regkit("run", files.experiment, "--out", files.out, "--jobs", 2, *deadly(1))
+    ended = regkit(
+        "run", files.experiment, "--out", files.out, "--no-figures", "--jobs", 2, *deadly(1)
+    )
     assert (ended.code, ended.err) == (0, "")
     assert figures_but_times(files.out) == serial
 
 
-@pytest.mark.slow
 def test_track_that_kills_every_process_fails_alone(regkit, files, deadly):
     ended = regkit("run", files.experiment, "--out", files.out, "--jobs", 2, *QUICK, *deadly(99))
     assert ended.code == 1
@@ -111,7 +110,6 @@ def test_track_that_kills_every_process_fails_alone(regkit, files, deadly):
     assert files.metrics()["sog"]["recordings"]["first"]["frames"] == 1
 
 
-@pytest.mark.slow
 def test_figures_of_a_dask_cluster_are_those_of_one_process(regkit, files, serial, deadly):
     """Two workers; one of them is killed in its work, and a new one takes its place."""
     from distributed import LocalCluster
@@ -120,13 +118,10 @@ def test_figures_of_a_dask_cluster_are_those_of_one_process(regkit, files, seria
         n_workers=2, threads_per_worker=2, dashboard_address="127.0.0.1:0", silence_logs=50
     ) as dask:
         scheme = f"dask:{dask.scheduler_address}"
-        whole = regkit("run", files.experiment, "--out", files.out, "--cluster", scheme)
-        assert (whole.code, whole.err) == (0, "")
-        assert figures_but_times(files.out) == serial
-        out = files.out.with_name("killed")
-        ended = regkit("run", files.experiment, "--out", out, "--cluster", scheme, *deadly(1))
+        options = ("--cluster", scheme, "--no-figures", *deadly(1))
+        ended = regkit("run", files.experiment, "--out", files.out, *options)
         assert (ended.code, ended.err) == (0, "")
-        assert figures_but_times(out) == serial
+        assert figures_but_times(files.out) == serial
 
 
 def test_plug_in_that_workers_do_not_know_is_refused(regkit, files):
@@ -179,12 +174,11 @@ def test_worker_that_cannot_serve_says_why(tmp_path):
     assert not (tmp_path / "out").exists()
 
 
-@pytest.mark.slow
 def test_interrupt_ends_the_processes_and_the_run_is_completed_later(
     regkit, files, serial, started
 ):
     """Ctrl-C, as a terminal sends it: to the run and all of its processes."""
-    begun = started("run", files.experiment, "--out", files.out, "--jobs", 2)
+    begun = started("run", files.experiment, "--out", files.out, "--no-figures", "--jobs", 2)
     begun.wait_for(files.out / "environment.json")
     os.killpg(begun.process.pid, signal.SIGINT)
     told = begun.process.communicate(timeout=60)[1]
@@ -193,5 +187,5 @@ def test_interrupt_ends_the_processes_and_the_run_is_completed_later(
         "stopping; Ctrl-C again ends at once",
         f"interrupted; what was finished is kept: repeat with --out {files.out}",
     ]
-    assert regkit("run", files.experiment, "--out", files.out).code == 0
+    assert regkit("run", files.experiment, "--out", files.out, "--no-figures").code == 0
     assert figures_but_times(files.out) == serial

@@ -103,7 +103,7 @@ def test_human_text_reads_back_as_the_same_template(tmp_path: Path) -> None:
     assert again.model_copy(update={"mesh": body.mesh}) == body
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_templates_can_be_made_again(tmp_path: Path) -> None:
     """What is made is what is shipped, but for the last digits on another processor."""
     for name, template in templates().items():

@@ -16,7 +16,6 @@ PAGES = {page.path.relative_to(ROOT).as_posix(): page for page in pages()}
 LEFT_OUT = {block.place: block for page in PAGES.values() for block in page.blocks if block.reason}
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name, page in PAGES.items() if page.blocks])
 def test_blocks_of_page_run(name, tmp_path, monkeypatch, regkit):
     monkeypatch.chdir(tmp_path)
@@ -53,7 +52,6 @@ def test_every_group_of_plugins_has_a_page():
         assert f"```{{plugins}} {slot.group}\n```" in text
 
 
-@pytest.mark.slow
 def test_pages_build_without_a_warning(tmp_path):
     from sphinx.cmd.build import build_main
 

@@ -74,7 +74,6 @@ def test_start_of_a_hand_lies_on_its_surface(hand_recording: Path):
     assert distance < 0.008
 
 
-@pytest.mark.slow
 def test_person_is_tracked_through_real_recordings(regkit, reference_data: Path, tmp_path: Path):
     ended = regkit(
         "run",
@@ -96,7 +95,6 @@ def test_person_is_tracked_through_real_recordings(regkit, reference_data: Path,
         assert figures["surface_distance_mm"] < 20.0
 
 
-@pytest.mark.slow
 def test_hand_is_tracked_through_a_real_recording(regkit, hand_recording: Path, tmp_path: Path):
     ended = regkit(
         "run",

@@ -57,7 +57,6 @@ def test_identical_values_have_an_interval_of_no_width():
     assert bootstrapped(np.full(9, 2.5), "mean") == (2.5, 2.5)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("statistic", ["mean", "median"])
 def test_values_that_only_rounding_tells_apart_are_identical(statistic):
     values = np.array([100.0] * 5 + [np.nextafter(100.0, 0.0)])

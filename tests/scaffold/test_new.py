@@ -39,7 +39,6 @@ def run(environment: dict[str, str], *arguments: object, at: Path = ROOT):
     )  # fmt: skip
 
 
-@pytest.mark.slow
 def test_new_packages_pass_conformance_as_they_are_written(packages, environment):
     tests = [folder / "tests" for folder in packages.values()]
     ended = run(
@@ -60,22 +59,19 @@ def installed(packages, environment, monkeypatch) -> dict[str, Path]:
     return packages
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("what", ["shape", "kernel", "solver", "dataset"])
 def test_example_of_a_new_package_runs(regkit, installed, tmp_path, what):
     ended = regkit(
         "run", installed[what] / "example.yaml", "--out", tmp_path, "--set", "dataset.frames=1",
-        "--only", "rigid" if what == "dataset" else f"odd_{what}",
+        "--no-figures", "--only", "rigid" if what == "dataset" else f"odd_{what}",
     )  # fmt: skip
     assert ended.code == 0, ended.err
 
 
-@pytest.mark.slow
 def test_example_of_a_new_template_is_valid(regkit, installed):
     assert regkit("validate", installed["template"] / "example.yaml").code == 0
 
 
-@pytest.mark.slow
 def test_new_packages_are_written_as_regkit_is(packages, environment):
     folders = packages.values()
     for command in ("check", "format --check"):

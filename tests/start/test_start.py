@@ -138,7 +138,6 @@ def test_given_start_of_an_unknown_joint_is_refused(lamp):
         given_start(FileTemplate(path=lamp, size=1.0), description)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("name", "worst_cm"), [("demo", 4.0), ("hand", 2.5)])
 def test_start_of_the_samples_is_near_the_truth(name, worst_cm):
     """The mean over the joints of the first frame, of a body whose size is not told."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import pytest
 from pydantic import TypeAdapter
@@ -11,10 +13,15 @@ from regkit.interfaces import Dataset
 PRESET = TypeAdapter(Dataset).validate_python({"preset": "smmc_like"})
 
 
-@pytest.mark.slow
+@cache
+def scene_of(name):
+    """Two seconds of a recording, which several tests look at."""
+    return PRESET.takes[name].scene(name, PRESET.sensor(), PRESET.fps, 60)
+
+
 @pytest.mark.parametrize("name", PRESET.takes)
 def test_recording_shows_a_whole_body_that_moves_without_jumps(name):
-    scene = PRESET.takes[name].scene(name, PRESET.sensor(), PRESET.fps, 60)
+    scene = scene_of(name)
     camera = scene.sensor.camera
     for pose in scene.poses()[::12]:
         pixels = camera.projected(scene.mesh.posed(pose))
@@ -27,10 +34,9 @@ def test_recording_shows_a_whole_body_that_moves_without_jumps(name):
     assert np.linalg.norm(np.diff(steps, axis=0), axis=-1).max() < 0.3
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", PRESET.takes)
 def test_recording_begins_facing_the_camera(name):
-    scene = PRESET.takes[name].scene(name, PRESET.sensor(), PRESET.fps, 1)
+    scene = scene_of(name)
     truth = dict(zip(scene.joints, scene.truth()[0], strict=True))
     left = truth["left_hip"] - truth["right_hip"]
     assert abs(np.degrees(np.arctan2(left[2], left[0]))) < 75.0

@@ -59,7 +59,7 @@ def test_hard_limits_are_kept(kind, solver, coordinates, random):
     # Hinges are bounds to it, too.
     free = method.model_copy(update={"solver": Solver.load("lbfgs")(), "hard_limits": False})
     free, pressed = free.bind(body), 0
-    for _ in range(10):
+    for _ in range(5):
         data, start = beyond_limits(body, random)
         found = registrar.register(data, [start])
         assert body.skeleton.limits.violation(found.pose).max() <= 1e-6
@@ -70,7 +70,7 @@ def test_hard_limits_are_kept(kind, solver, coordinates, random):
         # Without limits the data would pull the pose beyond them; else nothing was tested.
         pulled = free.register(data, [start]).pose
         pressed += body.skeleton.limits.violation(pulled).max() > 0.01
-    assert pressed >= 8 or kind == "hand"
+    assert pressed >= 4 or kind == "hand"
 
 
 def test_solvers_agree_where_no_limit_holds(linkage, random):

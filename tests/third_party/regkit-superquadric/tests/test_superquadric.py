@@ -176,9 +176,9 @@ def test_solids_that_a_template_lists_are_fitted_with_their_exponents(tmp_path):
             assert np.linalg.norm(one - other) < 0.03
 
 
-@pytest.mark.slow
 def test_example_runs_beside_icp_with_measures_and_pictures(tmp_path):
-    ended = regkit("run", EXAMPLE, "--out", tmp_path / "out", "--set", "dataset.frames=3")
+    ended = regkit("run", EXAMPLE, "--out", tmp_path / "out", "--set", "dataset.frames=2",
+                   "--no-figures")  # fmt: skip
     assert ended.returncode == 0, ended.stderr
     methods = json.loads((tmp_path / "out" / "metrics.json").read_text())["methods"]
     assert set(methods) == {"superquadric", "icp"}
