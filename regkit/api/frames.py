@@ -41,6 +41,11 @@ class GivenFrames(Recording):
         """The frames as they are."""
         yield from self.given
 
+    def some(self, indices: Iterable[int]) -> Iterator[tuple[int, Frame]]:
+        """Only these frames."""
+        for index in sorted(set(indices)):
+            yield index, self.given[index]
+
     def truth(self) -> None:
         """Arrays bring no reference joints."""
 

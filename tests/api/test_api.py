@@ -126,6 +126,26 @@ def test_frame_of_a_track_is_a_registration(tracking):
         tracking[FRAMES]
 
 
+@pytest.mark.parametrize("part", [slice(1, 3), slice(None), slice(-1, None), slice(None, None, 2)])
+def test_slice_of_a_track_is_a_track(tracking, walk, part):
+    some = tracking[part]
+    indices = range(FRAMES)[part]
+    assert len(some) == len(indices)
+    np.testing.assert_array_equal(some.markers, tracking.markers[part])
+    np.testing.assert_array_equal(some[0].markers, tracking[indices[0]].markers)
+    np.testing.assert_array_equal(some[-1].points, tracking[indices[-1]].points)
+    truth = walk.truth()
+    errors = [tracking[at].error(dict(zip(truth.joints, truth.positions[at], strict=True)))
+              for at in indices]  # fmt: skip
+    assert some.error(truth) == pytest.approx(np.mean(errors), rel=0.05)
+    assert str(indices[0]) in some[0].rows()["frame"]
+
+
+def test_slice_without_a_frame_is_an_index_error(tracking):
+    with pytest.raises(IndexError, match="of 4"):
+        tracking[3:1]
+
+
 def test_error_takes_the_truth_in_every_form(tracking, walk):
     truth = walk.truth()
     by_name = {name: truth.positions[:, at] for at, name in enumerate(truth.joints)}
