@@ -69,7 +69,8 @@ nitpick_ignore_regex = [
     # Names that stand for a type, for which there is nothing to link to.
     (
         r"py:class",
-        r"TypeAliasForwardRef|ArrayLike|Choice|Cloud|Frames|Intrinsics|Measured|Reference",
+        r"TypeAliasForwardRef|ArrayLike|Choice|Cloud|Deviation|Frames|Intrinsics|Measured|Reference|"
+        r"Vector",
     ),
     (r"py:class", r"Figure|Field|0\.0|(dict|tuple)\[str"),
     # Tables of fields describe the content of YAML files.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Annotated, ClassVar
 
 import numpy as np
@@ -130,13 +130,21 @@ class BodyDescription(SkeletonDescription):
 
     def unchecked(self) -> dict[str, str]:
         """Why shape models that the template lists cannot be loaded, by their kind."""
-        return {
-            kind: one.reason
-            for kind, by_segment in self.shapes.items()
-            for several in by_segment.values()
-            for one in several
-            if isinstance(one, UncheckedParameters)
-        }
+        return {one.kind: one.reason for one in self._unchecked()}
+
+    def check_shapes(self) -> None:
+        """Refuse a template whose shapes cannot all be stretched and fitted.
+
+        Raises:
+            ConfigError: If it lists a shape model that cannot be loaded.
+        """
+        for one in self._unchecked():
+            one.refuse()
+
+    def _unchecked(self) -> Iterator[UncheckedParameters]:
+        for by_segment in self.shapes.values():
+            for several in by_segment.values():
+                yield from (one for one in several if isinstance(one, UncheckedParameters))
 
     def _surface(self, segments: tuple[str, ...], scale: float) -> SkinnedSurface | None:
         return None if self.mesh is None else surface_in(self.mesh, segments).scaled(scale)

@@ -63,7 +63,7 @@ class UncheckedParameters(ShapeParameters):
         Raises:
             ConfigError: Always.
         """
-        self._refuse()
+        self.refuse()
 
     def moments(self) -> tuple[Array, Array]:
         """Nobody knows.
@@ -71,7 +71,7 @@ class UncheckedParameters(ShapeParameters):
         Raises:
             ConfigError: Always.
         """
-        self._refuse()
+        self.refuse()
 
     @classmethod
     def fitted(cls, points: Array, like: Self | None = None) -> Self:
@@ -81,13 +81,18 @@ class UncheckedParameters(ShapeParameters):
             ConfigError: Always.
         """
         assert like is not None
-        like._refuse()
+        like.refuse()
 
     def yaml(self) -> str:
         """As it stands."""
         return json.dumps(self.given, ensure_ascii=False)
 
-    def _refuse(self) -> Never:
+    def refuse(self) -> Never:
+        """Say which shape model is needed.
+
+        Raises:
+            ConfigError: Always.
+        """
         raise ConfigError(
             f"parameters of '{self.kind}' cannot be changed or fitted without their shape model "
             f"({self.reason}); install it, or remove them from the template",

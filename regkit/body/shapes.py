@@ -60,12 +60,12 @@ class _ByKind:
             try:
                 parameters = ParametricShape.parameters_of(kind)
                 if parameters is not None:
-                    listed = handler(TypeAdapter(_form(parameters)).core_schema)
+                    listed = handler(_schema(parameters))
                     told = f"By segment, the primitives of the shape model '{kind}'."
                     properties[kind] = {"description": told, **listed}
             except (PluginError, PydanticInvalidForJsonSchema):
                 continue
-        other = handler(TypeAdapter(_form(dict[str, Any])).core_schema)
+        other = handler(_schema(dict[str, Any]))
         return {"type": "object", "properties": properties, "additionalProperties": other}
 
 
@@ -73,15 +73,15 @@ Shapes = Annotated[dict[str, dict[str, tuple[ShapeParameters, ...]]], _ByKind]
 """The primitives of each kind of shape model on each segment."""
 
 
-def _form(parameters: Any) -> Any:
-    """The type of what is listed of one kind, by segment."""
-    return dict[str, tuple[parameters, ...]]
+def _schema(parameters: Any) -> CoreSchema:
+    """What is listed of one kind: by segment, the parameters of each primitive."""
+    return TypeAdapter(dict[str, tuple[parameters, ...]]).core_schema
 
 
 def _validated(value: Any) -> dict[str, dict[str, tuple[ShapeParameters, ...]]]:
     """Each kind as the class of its shape model checks it."""
     fields = {
-        kind: core_schema.typed_dict_field(TypeAdapter(_form(_listed_of(kind))).core_schema)
+        kind: core_schema.typed_dict_field(_schema(_listed_of(kind)))
         for kind in (value if isinstance(value, Mapping) else ())
     }
     validator = SchemaValidator(core_schema.typed_dict_schema(fields))

@@ -26,9 +26,16 @@ class Shape:
 
     Attributes:
         template: What has factors of one.
+
+    Raises:
+        ConfigError: If the template lists a shape model that cannot be loaded.
     """
 
     template: BodyDescription
+
+    def __post_init__(self) -> None:
+        """Refuse what could not be stretched."""
+        self.template.check_shapes()
 
     @cached_property
     def groups(self) -> Groups:

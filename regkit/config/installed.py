@@ -83,8 +83,10 @@ def installed(group: str) -> dict[str, Installed]:
         # An editable distribution may be seen twice.
         if all(other.value != point.value for other in points):
             points.append(point)
+    # The name of a distribution is read from its files, which takes longer than all the rest.
     return {
-        name: Installed(tuple(sorted(points, key=_brought_by))) for name, points in found.items()
+        name: Installed(tuple(sorted(points, key=_brought_by) if len(points) > 1 else points))
+        for name, points in found.items()
     }
 
 

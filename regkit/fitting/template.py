@@ -75,9 +75,7 @@ class FittedTemplate:
         if not template.shapes:
             raise DataError("the template lists no shapes, so that none can be fitted")
         added = {kind: parameters_of(kind) for kind in shapes if kind not in template.shapes}
-        for kind, reason in template.unchecked().items():
-            place = f"shapes.{kind} of the template"
-            raise ConfigError(f"cannot be fitted without its shape model: {reason}", place=place)
+        template.check_shapes()
         owners = owners_of_bones(mesh, template, bones)
         starts = mesh.rest[:, :3, 3]
         joints = {name: starts[bone] for name, bone in first_bones(mesh, owners).items()}

@@ -12,6 +12,7 @@ from regkit.testing.dataset_laws import DatasetLaws
 from regkit.testing.kernel_laws import KernelLaws
 from regkit.testing.laws import Laws
 from regkit.testing.method_laws import MethodLaws
+from regkit.testing.parameter_laws import ParameterLaws
 from regkit.testing.partner_laws import KernelPartnerLaws, ShapePartnerLaws
 from regkit.testing.plugin_laws import PluginLaws
 from regkit.testing.preprocessor_laws import PreprocessorLaws
@@ -26,7 +27,7 @@ LAWS: Mapping[str, tuple[type[Laws], ...]] = {
     "dataset": (DatasetLaws,),
     "template": (TemplateLaws,),
     "preprocessor": (PreprocessorLaws,),
-    "shape": (ShapeLaws, ShapePartnerLaws),
+    "shape": (ShapeLaws, ParameterLaws, ShapePartnerLaws),
     "kernel": (KernelPartnerLaws,),
     "pair": (KernelLaws,),
     "term_pair": (TermLaws,),

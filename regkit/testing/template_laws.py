@@ -2,25 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 import pytest
 
-from regkit.body import Body, ListedShape, Mirror, Scaling, ShapeParameters, Stretch
-from regkit.config.yaml import yaml_data
+from regkit.body import Body, ListedShape
 from regkit.geometry.rigid import rigid
 from regkit.interfaces import Template
 from regkit.testing.laws import Laws
 from regkit.testing.verdict import require, same
-
-DEFORMATIONS = (
-    (Scaling(1.3), 1.3 * np.eye(3)),
-    (Stretch.along(np.array([0.0, 1.0, 0.0]), 1.2, 0.9), np.diag([0.9, 1.2, 0.9])),
-    (Mirror(), np.diag([-1.0, 1.0, 1.0])),
-)
-"""What primitives are tried in, and what it does to points."""
 
 
 class TemplateLaws(Laws):
@@ -102,38 +93,6 @@ class TemplateLaws(Laws):
                 f"is off by {by:.2g} m", look_at=at,
             )  # fmt: skip
 
-    def test_template_shapes_follow_the_segment(self, template: Template) -> None:
-        """Primitives that are scaled, stretched or mirrored do so as points of their segment."""
-        for kind, one in _listed(template):
-            mean, covariance = one.moments()
-            for deformation, matrix in DEFORMATIONS:
-                after, spread = one.deformed(deformation).moments()
-                by = float(np.abs(after - matrix @ mean).max())
-                require(
-                    by < 1e-9, template, f"lists '{kind}' whose parameters leave the middle behind "
-                    f"by {by:.2g} m in a {type(deformation).__name__}", look_at=type(one).deformed,
-                )  # fmt: skip
-                if isinstance(deformation, Stretch):
-                    continue  # A stretched primitive may keep its own form, such as a sphere.
-                by = float(np.abs(spread - matrix @ covariance @ matrix.T).max())
-                require(
-                    by < 1e-9, template, f"lists '{kind}' whose covariance is off by {by:.2g} m^2 "
-                    f"in a {type(deformation).__name__}", look_at=type(one).deformed,
-                )  # fmt: skip
-
-    def test_template_shapes_are_written_as_they_are_read(self, template: Template) -> None:
-        """To the decimals of a template's file."""
-        for kind, one in _listed(template):
-            text = one.yaml()
-            read = type(one).model_validate(yaml_data(text, "yaml"))
-            for before, after in zip(one.moments(), read.moments(), strict=True):
-                by = float(np.abs(before - after).max())
-                require(
-                    by < 1e-3 * (1.0 + np.abs(before).max()), template,
-                    f"lists '{kind}' that are written as {text}, and read with moments off by "
-                    f"{by:.2g}", look_at=type(one).yaml,
-                )  # fmt: skip
-
     def test_template_markers_have_names_of_their_own(
         self, template: Template, grown: Body
     ) -> None:
@@ -173,10 +132,3 @@ def _means(listed: ListedShape[Any], transforms: np.ndarray) -> np.ndarray:
     means = np.array([one.moments()[0] for one in listed.parameters]).reshape(-1, 3, 1)
     carriers = transforms[listed.segments]
     return np.asarray((carriers[:, :3, :3] @ means)[:, :, 0] + carriers[:, :3, 3])
-
-
-def _listed(template: Template) -> Iterator[tuple[str, ShapeParameters]]:
-    """The primitives that a template lists, with the kind of their shape model."""
-    for kind, listed in template.body(template.candidate_sizes()[-1]).shapes.items():
-        for one in listed.parameters:
-            yield kind, one

@@ -22,6 +22,7 @@ from regkit.body import (
 from regkit.body.groups import Groups
 from regkit.body.proportions import Proportions
 from regkit.body.writing import template_text
+from regkit.calibration.shape import Shape
 from regkit.config.document import Document
 from regkit.config.plugin import register
 from regkit.fitting.template import parameters_of
@@ -216,8 +217,9 @@ def test_parameters_without_their_shape_model_are_kept_word_for_word(read, tmp_p
 
 def test_parameters_without_their_shape_model_are_not_stretched(read):
     description = read(UNKNOWN)
-    with pytest.raises(ConfigError, match=r"shapes\.unheard: .*no plug-in 'unheard'"):
-        unlike(description).applied(description)
+    for stretched in (unlike(description).applied, Shape):
+        with pytest.raises(ConfigError, match=r"shapes\.unheard: .*no plug-in 'unheard'"):
+            stretched(description)
 
 
 def test_parameters_without_their_shape_model_stand_on_segments_too(complaint):

@@ -126,3 +126,45 @@ def test_a_mesh_in_centimetres_is_refused(regkit, tmp_path, out):
     ended = regkit("fit", tmp_path / "large.npz", "--map", BODY_MAP, "--out", out)
     assert ended.code == 1
     assert "must be in metres" in ended.err
+
+
+def test_a_shape_model_that_the_template_does_not_list_is_fitted_as_one_that_it_lists(
+    regkit, tmp_path, out
+):
+    listed = (FOLDER / "human.yaml").read_text()
+    gsog, sog = listed.index("  gsog: "), listed.index("  sog: ")
+    template = tmp_path / "sog.yaml"
+    template.write_text(listed[:gsog] + listed[sog : listed.index("\n# The skin")])
+    skin, expected = FOLDER / "human_mesh.npz", tmp_path / "expected.yaml"
+    assert regkit("fit", skin, "--out", expected).code == 0
+    ended = regkit("fit", skin, "--template", template, "--shape", "gsog", "--out", out)
+    assert ended.code == 0, ended.err
+    fitted, expected = read(out).shapes["gsog"], read(expected).shapes["gsog"]
+    assert {len(own) for own in fitted.values()} == {1}
+    assert len(fitted) == len(read(out).segments)
+    for name in ("pelvis", "chest", "left_thigh", "right_upper_arm"):
+        assert fitted[name] == expected[name]
+
+
+@pytest.mark.parametrize(
+    ("kind", "complaint"),
+    [("sphere", "--shape sphere: "), ("gsg", "did you mean 'gsog'?")],
+)
+def test_a_shape_model_that_cannot_be_fitted_is_refused(regkit, out, kind, complaint):
+    ended = regkit("fit", FOLDER / "human_mesh.npz", "--shape", kind, "--out", out)
+    assert ended.code == 1
+    assert complaint in ended.err
+    assert not out.exists()
+
+
+def test_a_template_whose_shape_model_is_not_installed_is_not_fitted(regkit, tmp_path, out):
+    file = tmp_path / "strange.yaml"
+    text = (FOLDER / "human.yaml").read_text().partition("\n# The skin")[0].rstrip()
+    file.write_text(text + "\n  unheard: {chest: [{width: 1}]}\n")
+    ended = regkit("validate", file)
+    assert (ended.code, ended.out) == (0, f"{file}: a valid template\n")
+    assert f"{file}:{len(text.splitlines()) + 1}: shapes.unheard" in ended.err
+    ended = regkit("fit", FOLDER / "human_mesh.npz", "--template", file, "--out", out)
+    assert ended.code == 1
+    assert "shapes.unheard: " in ended.err
+    assert not out.exists()

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from regkit.body import BodyDescription, ParametricShape
 from regkit.config.document import Document
+from regkit.config.registry import registered
 
 FOLDER = Path(__file__).resolve().parent
 """Folder of the shipped templates."""
@@ -15,14 +16,14 @@ FOLDER = Path(__file__).resolve().parent
 def description_in(path: Path) -> BodyDescription:
     """Returns the template in a YAML file.
 
-    The result is cached until the file changes, or other shape models are installed that validate
+    The result is cached until the file changes, or other shape models are registered that validate
     it.
 
     Raises:
         RegkitError: If the file is missing or invalid.
     """
     changed = path.stat().st_mtime_ns if path.is_file() else 0
-    return _read(path, changed, tuple(ParametricShape.available().items()))
+    return _read(path, changed, tuple(registered(ParametricShape.group).items()))
 
 
 @lru_cache(maxsize=32)
