@@ -34,8 +34,11 @@ COMMANDS = {
 }
 """What the list of commands says of each: the first paragraph of the command's docstring."""
 
-RENAMED_OPTIONS = {"calibrate": {"--sequence": "--recording"}}
-"""Options that a command had before, and the options that it has now."""
+RENAMED_OPTIONS = {
+    "calibrate": {"--sequence": "--recording"},
+    "register": {name: f"align {name}" for name in ("--min-fitness", "--start", "--voxel")},
+}
+"""Options that a command had before, and what they are called now."""
 
 
 class Commands(TyperGroup):
