@@ -30,12 +30,15 @@ COMMANDS = {
     "fields.",
     "new": "Begin a package with a plug-in of your own, which passes conformance as it is written.",
     "schema": "Write the JSON Schemas of experiments and their parts, for editors.",
-    "doctor": "Say what is installed and what is missing, with the command that mends it.",
+    "doctor": "Check the installation, and name the command that repairs each fault.",
 }
 """What the list of commands says of each: the first paragraph of the command's docstring."""
 
-RENAMED_OPTIONS = {"calibrate": {"--sequence": "--recording"}}
-"""Options that a command had before, and the options that it has now."""
+RENAMED_OPTIONS = {
+    "calibrate": {"--sequence": "--recording"},
+    "register": {name: f"align {name}" for name in ("--min-fitness", "--start", "--voxel")},
+}
+"""Options that a command had before, and what they are called now."""
 
 
 class Commands(TyperGroup):
@@ -82,7 +85,7 @@ def regkit() -> None:
 
 
 def main() -> None:
-    """Run the command line; what a user can mend ends with a message and the exit code 1."""
+    """Run the command line; an error that a user can correct is printed, with the exit code 1."""
     when_compiling(tell_compiling)
     try:
         app()

@@ -26,8 +26,8 @@ LIBRARIES = {name: name for name in ("numpy", "scipy", "numba", "pydantic", "mat
 
 
 def doctor() -> None:
-    """Say what is installed and what is missing, with the command that mends it."""
-    table = Table("what", "state", "to mend it")
+    """Check the installation, and name the command that repairs each fault."""
+    table = Table("what", "state", "repair")
     findings = [_python(), *(_library(*names) for names in LIBRARIES.items())]
     findings += [_plugins(), _cache()]
     for what, state, cure in findings:

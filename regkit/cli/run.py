@@ -42,7 +42,7 @@ def run(
         list[str] | None, typer.Option(metavar="METHOD", help="Run only this method.")
     ] = None,
     jobs: Annotated[
-        int, typer.Option(min=1, metavar="N", help="Work in so many processes of this machine.")
+        int, typer.Option(min=1, metavar="N", help="Number of processes that do the work.")
     ] = 1,
     cluster: Annotated[
         str | None,

@@ -26,7 +26,7 @@ class Installed:
     """What is installed under one name of a group.
 
     Attributes:
-        points: The entry points of that name; of more than one, none can be had.
+        points: The entry points of that name; if there are several, none of them is usable.
     """
 
     points: tuple[EntryPoint, ...]

@@ -63,7 +63,7 @@ class Model(BaseModel):
 
 
 def misplaced(model: type[Model], message: str, *location: str) -> ValidationError:
-    """An error of a whole model, told at the field in it that is to be mended."""
+    """An error of a whole model that names one of its fields as the place."""
     problem = PydanticCustomError("value_error", "{message}", {"message": message})
     details = InitErrorDetails(type=problem, loc=location, input=None)
     return ValidationError.from_exception_data(model.__name__, [details])

@@ -63,7 +63,7 @@ def _changed(slot: Slot, name: str, changes: Mapping[str, Any]) -> dict[str, Any
 
 
 def _whole(slot: Slot, name: str) -> dict[str, Any]:
-    """The configuration in a preset, which is valid as it is: mistakes are told in its file."""
+    """The configuration in a preset, which must be valid by itself; an error names its own file."""
     document = preset(slot.group, name)
     kind = document.data.get("kind")
     if not isinstance(kind, str):

@@ -1,4 +1,4 @@
-"""In what two configurations differ."""
+"""The differences of two configurations."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 TOLD = 3
-"""So many differences are told."""
+"""At most this many differences are listed."""
 
 
 def differences(there: Any, here: Any) -> str:

@@ -1,4 +1,4 @@
-"""Who is told how far a run is."""
+"""Who follows the progress of a run."""
 
 from __future__ import annotations
 
@@ -8,26 +8,26 @@ from regkit.system.errors import RegkitError
 
 
 class Progress(Protocol):
-    """Who wants to know how far a run is, and may end it by raising ``KeyboardInterrupt``."""
+    """Follows the progress of a run, and may end the run by raising ``KeyboardInterrupt``."""
 
     def planned(self, tracks: int, finished: int) -> None:
-        """A run begins: so many recordings times methods, of which some were finished before."""
+        """A run begins: its tracks (recordings times methods), and how many are finished."""
 
     def begin(self, label: str, frames: int | None) -> None:
-        """A track of so many frames is begun, or a recording is made ready."""
+        """A track of ``frames`` frames begins, or a recording is prepared."""
 
     def advance(self) -> None:
-        """One more frame is done of the only thing that is being done; workers do not tell."""
+        """One more frame of the current track is done; workers do not report it."""
 
     def wait(self) -> None:
         """Nothing has ended for a moment; workers are busy."""
 
     def end(self, label: str, tracks: int, error: RegkitError | None) -> None:
-        """What was begun has ended, or failed, and with it so many of the planned tracks."""
+        """What had begun has ended or failed, and with it this number of the planned tracks."""
 
 
 class Silent(Progress):
-    """Wants to know nothing."""
+    """Follows nothing."""
 
     def planned(self, tracks: int, finished: int) -> None:
         """Nothing."""

@@ -41,7 +41,7 @@ def run(
     Args:
         experiment: What to run; the experiments of a sweep are run into folders of their own.
         folder: Where to.
-        progress: Who is told.
+        progress: Who follows the progress.
         only: Names of the methods to run, with all their variants; all of them if it is empty.
         workers: Who does the work; this process without them.
         figures: Whether the report's figures are drawn; it has its tables in any case.

@@ -1,4 +1,4 @@
-"""Errors that a user can cause, each with the place where it can be mended."""
+"""Errors that a user can cause, each with the place to correct."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ class RegkitError(Exception):
 
     Args:
         message: What is wrong, naming the value, and what would be right.
-        place: Where it can be mended: ``file:line: field``, a file, or a command-line option.
+        place: What to correct: ``file:line: field``, a file, or a command-line option.
     """
 
     def __init__(self, message: str, *, place: str | None = None) -> None:
@@ -38,4 +38,4 @@ class PluginError(RegkitError):
 
 
 class DependencyError(RegkitError):
-    """A library or system package is missing; the message holds the command to mend it."""
+    """A library or system package is missing; the message holds the command that installs it."""

@@ -4,7 +4,7 @@ import copy
 from typing import Any
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from regkit.config.changes import with_changes, with_value
@@ -12,10 +12,11 @@ from regkit.system.errors import ConfigError
 
 KEYS = st.sampled_from("abc")
 SINGLE = st.integers() | st.booleans() | st.floats(allow_nan=False)
-DATA = st.recursive(
-    SINGLE, lambda inner: st.dictionaries(KEYS, inner, max_size=3) | st.lists(inner, max_size=3)
-)
+PARTS = st.dictionaries(KEYS, SINGLE, max_size=2) | st.lists(SINGLE, max_size=2)
+DATA = SINGLE | PARTS | st.dictionaries(KEYS, PARTS, max_size=2) | st.lists(PARTS, max_size=2)
 MAPPINGS = st.dictionaries(KEYS, DATA, max_size=3)
+
+seeded = settings(max_examples=50, deadline=None, derandomize=True)
 
 
 def at(data: Any, location: tuple[str | int, ...]) -> Any:
@@ -35,6 +36,7 @@ def paths(data: Any, way: tuple[str, ...] = ()) -> list[tuple[str, ...]]:
     return found
 
 
+@seeded
 @given(data=MAPPINGS, value=DATA, choice=st.data())
 def test_value_stands_at_the_end_of_its_path_and_nothing_else_changes(data, value, choice):
     before = copy.deepcopy(data)
@@ -49,18 +51,21 @@ def test_value_stands_at_the_end_of_its_path_and_nothing_else_changes(data, valu
         assert at(changed, there) == at(data, there)
 
 
+@seeded
 @given(data=MAPPINGS, changes=MAPPINGS)
 def test_changes_made_twice_are_those_made_once(data, changes):
     once = with_changes(data, changes)
     assert with_changes(once, changes) == once
 
 
+@seeded
 @given(data=MAPPINGS)
 def test_data_do_not_change_by_what_they_hold(data):
     assert with_changes(data, data) == data
     assert with_changes(data, {}) == data
 
 
+@seeded
 @given(data=MAPPINGS, key=KEYS, value=SINGLE)
 def test_one_change_is_one_value(data, key, value):
     assert with_changes(data, {key: value}) == with_value(data, (key,), value)[0]

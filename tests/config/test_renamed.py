@@ -99,11 +99,24 @@ def test_plug_in_of_an_old_group_is_told_by_who_names_it_and_by_the_doctor(
     assert "regkit.preprocessors" in ended.out
 
 
-def test_old_option_is_answered(regkit, tmp_path):
-    for option in (("--sequence", "a"), ("--sequence=a",)):
-        ended = regkit("calibrate", tmp_path, *option)
-        assert ended.code == 2
-        assert "'--sequence' is now called '--recording'" in ended.err
+@pytest.mark.parametrize(
+    ("arguments", "answer"),
+    [
+        (("calibrate", "a", "--sequence", "b"), "'--sequence' is now called '--recording'"),
+        (("calibrate", "a", "--sequence=b"), "'--sequence' is now called '--recording'"),
+        (("register", "a.ply", "b.ply", "--voxel", "1"), "'--voxel' is now called 'align --voxel'"),
+    ],
+)
+def test_old_option_is_answered(regkit, arguments, answer):
+    ended = regkit(*arguments)
+    assert ended.code == 2
+    assert answer in ended.err
+
+
+def test_old_command_is_answered(regkit):
+    ended = regkit("register", "a.ply", "b.ply")
+    assert ended.code == 1
+    assert "is now called 'align" in ended.err
 
 
 def test_old_names_of_the_api_are_answered():

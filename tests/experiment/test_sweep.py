@@ -147,7 +147,7 @@ def test_sweep_that_cannot_be_is_told_with_its_line(files, sweep, expected):
 
 def test_one_experiment_is_not_read_from_a_sweep(files):
     append(files, SIGMAS)
-    with pytest.raises(ConfigError, match=r"small.yaml:8: sweep: many experiments, and one"):
+    with pytest.raises(ConfigError, match=r"small.yaml:8: sweep: .*many experiments"):
         Experiment.read(files.experiment)
     assert list(Experiment.read(files.experiment, ["sweep={}"]).methods) == ["gsog"]
 

@@ -14,7 +14,7 @@ from regkit.experiment.sweeps.sweep import combinations
 from regkit.system.errors import ConfigError
 
 TOLD = 5
-"""So many mistakes are told of a sweep, in which one mistake can have many copies."""
+"""At most this many errors of a sweep are listed, in which one error can have many copies."""
 
 
 @dataclass(frozen=True)

@@ -33,10 +33,10 @@ products, which the last bits of results depend on, is one for the whole process
 
 @dataclass(frozen=True)
 class Packed:
-    """What a worker is told.
+    """A task in a form that another process can read.
 
     Attributes:
-        config: The experiment, as JSON has it.
+        config: The experiment as JSON.
         plugins: Files with plug-ins, to be run first.
         lock: The run that wants the work.
         version: Of the regkit that asks.

@@ -27,7 +27,7 @@ class Schedule:
         return not self._ready and not self._waiting
 
     def next(self, workers: int) -> Task | None:
-        """The task to begin now, if there is one, where so many workers are to be kept busy."""
+        """The task to begin now; recordings are prepared until ``workers`` tracks are ready."""
         if self._openings and len(self._ready) < workers:
             return self._openings.popleft()
         return self._ready.popleft() if self._ready else None
