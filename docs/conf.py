@@ -69,8 +69,8 @@ nitpick_ignore_regex = [
     # Names that stand for a type, for which there is nothing to link to.
     (
         r"py:class",
-        r"TypeAliasForwardRef|ArrayLike|Choice|Cloud|Deviation|Frames|Intrinsics|Measured|Reference|"
-        r"Vector",
+        r"TypeAliasForwardRef|ArrayLike|Beginning|Choice|Cloud|Deviation|Frames|Intrinsics|Measured"
+        r"|Reference|Vector",
     ),
     (r"py:class", r"Figure|Field|0\.0|(dict|tuple)\[str"),
     # Tables of fields describe the content of YAML files.
@@ -81,5 +81,5 @@ nitpick_ignore_regex = [
     (r"py:class", r"regkit\.registration\.constraints\._Rows"),
     (r"py:class", r"regkit\.config\.model\._from_its_folder"),
     (r"py:class", r"regkit\.testing\.conformance\.Conformance"),
-    (r"py:(class|obj)", r"(.*\.)?(P|S|M|P_co|S_co)"),
+    (r"py:(class|obj)", r"(.*\.)?(P|S|M|T|P_co|S_co)"),
 ]
