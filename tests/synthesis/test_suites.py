@@ -11,7 +11,7 @@ from regkit.body import BodyDescription
 from regkit.config.document import Document
 from regkit_plugins.datasets.synthetic import Synthetic
 from regkit_plugins.presets import HANDS, PEOPLE
-from regkit_plugins.templates.reading import FOLDER
+from regkit_plugins.templates import FOLDER
 
 PRESETS = {path.stem: Document.read(path).validated(Synthetic) for path in (PEOPLE, HANDS)}
 PEOPLE_TAKES = [("people", name) for name in PRESETS["people"].takes]

@@ -7,11 +7,11 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from regkit.body import Body, EllipsoidParameters, ShapeParameters, ellipsoids
+from regkit.gaussians.surface import Surface, shown
 from regkit.interfaces import ShapeModel
 from regkit.primitives import Gaussians, Primitives
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError
-from regkit_plugins.shapes.surface import Surface, shown
 
 
 class GeneralizedSumOfGaussians(ShapeModel):

@@ -7,10 +7,10 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from regkit.body import BallParameters, Body, ShapeParameters, ellipsoids
+from regkit.gaussians.surface import Surface, shown
 from regkit.geometry.capsules import Capsules
 from regkit.interfaces import ShapeModel
 from regkit.primitives import Gaussians, Primitives
-from regkit_plugins.shapes.surface import Surface, shown
 
 
 class SumOfGaussians(ShapeModel):

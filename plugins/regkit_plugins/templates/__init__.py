@@ -5,3 +5,8 @@
 - ``cloud``: a rigid point cloud or mesh.
 - ``reading``: not a plug-in; cached reading of template files.
 """
+
+from pathlib import Path
+
+FOLDER = Path(__file__).resolve().parent
+"""Folder of the shipped templates."""

@@ -8,10 +8,10 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from regkit.body import BodyDescription
+from regkit.body.reading import description_in
 from regkit.config.model import InputPath
 from regkit.interfaces.template import Template
 from regkit.system.errors import RegkitError
-from regkit_plugins.templates.reading import description_in
 
 
 class FileTemplate(Template):

@@ -8,8 +8,9 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from regkit.body import BodyDescription
+from regkit.body.reading import description_in
 from regkit.interfaces.template import Template
-from regkit_plugins.templates.reading import FOLDER, description_in
+from regkit_plugins.templates import FOLDER
 
 Build = Literal["average", "small", "tall"]
 

@@ -19,10 +19,10 @@ from regkit.primitives import Gaussians
 from regkit.skeleton import PoseDescription
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError, DataError
+from regkit_plugins.templates import FOLDER
 from regkit_plugins.templates.file import FileTemplate
 from regkit_plugins.templates.hand import Hand
 from regkit_plugins.templates.human import Human
-from regkit_plugins.templates.reading import FOLDER
 from regkit_synthesis.assets import ASSETS as SHIPPED
 from regkit_synthesis.templates.hand_layout import hand_layout
 from regkit_synthesis.templates.human_layout import human_layout

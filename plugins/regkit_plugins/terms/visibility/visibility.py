@@ -10,7 +10,7 @@ from pydantic import Field
 from regkit.interfaces import Scene, Term, VisibilityWeights
 from regkit.primitives import Placed, Primitives, Volumes
 from regkit.system.arrays import Array
-from regkit_plugins.terms.compiled import free_rays
+from regkit_plugins.terms.visibility.compiled import free_rays
 
 
 class Visibility(Term):

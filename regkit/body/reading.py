@@ -5,12 +5,10 @@ from __future__ import annotations
 from functools import lru_cache
 from pathlib import Path
 
-from regkit.body import BodyDescription, ParametricShape
+from regkit.body.description import BodyDescription
+from regkit.body.shapes import ParametricShape
 from regkit.config.document import Document
 from regkit.config.registry import registered
-
-FOLDER = Path(__file__).resolve().parent
-"""Folder of the shipped templates."""
 
 
 def description_in(path: Path) -> BodyDescription:

@@ -12,7 +12,7 @@ from regkit.interfaces import Response, Scene, Similarity, Term
 from regkit.primitives import Placed, Primitives, Volumes
 from regkit.skeleton import Skeleton
 from regkit.system.arrays import Array, Indices
-from regkit_plugins.terms.compiled import overlaps
+from regkit_plugins.terms.intersection.compiled import overlaps
 
 REACH = 3.0
 """Maximum distance of a pair at the start, in units of the sum of their largest scales."""
