@@ -105,6 +105,15 @@ class GaussianSimilarity(Similarity):
         parts = [self._part(group, view, levers) for group in self._groups]
         return reduce(Response.__add__, parts)
 
+    def energy(self, placed: Placed[Gaussians]) -> float:
+        """The energy alone, without moments."""
+        view, total = self._view(placed), 0.0
+        for group in self._groups:
+            densities, _ = self._densities(group, view)
+            energy = self.weigh(densities, group.weights)
+            total += -float(densities.sum()) if energy is None else energy
+        return total
+
     def _part(self, group: _Group, view: Seen, levers: Array | None) -> Response:
         """What the data of one variance contribute."""
         densities, precisions = self._densities(group, view)

@@ -44,6 +44,10 @@ class Similarity(ABC):
     def __call__(self, placed: Placed[Any], *, curvature: bool = False) -> Response:
         """The energy of primitives in the world, its derivative, and the stiffness if asked for."""
 
+    def energy(self, placed: Placed[Any]) -> float:
+        """The energy alone, where that takes less than all of the response."""
+        return self(placed).energy
+
     def inlier_probability(self, placed: Placed[Any]) -> Array | None:
         """The probability (N,) that each point is an inlier; None if the kernel cannot tell."""
         return None

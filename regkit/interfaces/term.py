@@ -74,6 +74,9 @@ class Term(Plugin, ABC):
     accepts: ClassVar[type[Primitives]] = Primitives
     """The primitives that it can look at."""
 
+    weighs: ClassVar[bool] = False
+    """Whether it gives visibility weights, which the kernel is bound with, and not an energy."""
+
     def check(self, body: Body) -> None:
         """Refuse a body that the term cannot be used with, before any frame is read.
 

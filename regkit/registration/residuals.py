@@ -48,6 +48,9 @@ class Residuals:
 
         The wrenches are exact; the blocks are those of Gauss-Newton with the loss's weights.
         """
+        if not len(self.owners):
+            blocks = np.zeros((count, 6, 6)) if curvature else None
+            return Response(self.constant, np.zeros((count, 6)), blocks)
         sizes, parts = self.sizes, 1 if self.values.ndim == 1 else self.values.shape[1]
         wrenches, blocks = accumulated_residuals(
             self.owners,

@@ -190,6 +190,16 @@ class KernelLaws(BlockLaws):
             f"those on the body's surface by {share:.2g}", look_at=at,
         )  # fmt: skip
 
+    def test_kernel_energy_alone_is_that_of_its_response(self, bound: Bound) -> None:
+        """Candidates are compared by the energy alone, which a kernel may compute faster."""
+        similarity, placed = bound.similarity(), bound.placed()
+        alone, whole = similarity.energy(placed), similarity(placed).energy
+        require(
+            bool(np.isclose(alone, whole, rtol=1e-9, atol=1e-12)), bound.kernel,
+            f"has the energy {alone:.6g} alone and {whole:.6g} in its response",
+            look_at=type(similarity).energy,
+        )  # fmt: skip
+
     def test_kernel_is_deterministic_and_changes_nothing(self, bound: Bound) -> None:
         """Bound twice it answers the same, to the last bit, and writes to nothing it is given."""
         placed = bound.placed()

@@ -100,6 +100,11 @@ class TermLaws(Laws):
         """One factor from 0 to 1 for each primitive, or a number."""
         term = cast(Term, term_pair.plugin)
         effect = term.bind(scene[0])
+        require(
+            isinstance(effect, VisibilityWeights) == term.weighs, term,
+            f"gives {type(effect).__name__}, but declares weighs = {term.weighs}",
+            look_at=type(term),
+        )  # fmt: skip
         if not isinstance(effect, VisibilityWeights):
             problem = _problem(effect, scene)
             energy, _ = problem.value_and_gradient(problem.start)

@@ -19,7 +19,7 @@ from regkit.interfaces import (
     VisibilityWeights,
 )
 from regkit.observation import Observation
-from regkit.primitives import Primitives
+from regkit.primitives import Placed, Primitives
 from regkit.registration import COORDINATES
 from regkit.skeleton import Pose
 from regkit.system.errors import DataError
@@ -91,14 +91,17 @@ class BoundDirect(Registrar):
         prior: Pose | None,
         smoothing: float,
     ) -> tuple[FrameEnergy, Pose]:
-        """The candidate of least energy, each bound at its own pose, and what it is bound to."""
-        energies = [
-            self._bound(observation, pose, prior or candidates[0], smoothing) for pose in candidates
-        ]
-        if len(candidates) == 1:
-            return energies[0], candidates[0]
-        pairs = zip(energies, candidates, strict=True)
-        return min(pairs, key=lambda pair: pair[0].similarity(pair[1]))
+        """The candidate of the least similarity, and the energy bound to it.
+
+        All candidates are compared under the binding at the first one.
+        """
+        first = candidates[0]
+        scene, weighted, kernel = self._kernel(observation, first, prior or first, smoothing)
+        if len(candidates) > 1:
+            best = min(candidates, key=lambda pose: kernel.energy(self._placed(weighted, pose)))
+            if best is not first:
+                return self._bound(observation, best, prior or first, smoothing), best
+        return self._completed(scene, weighted, kernel), first
 
     def _check_limits(self, pose: Pose) -> None:
         """Refuse what was promised not to happen.
@@ -122,21 +125,38 @@ class BoundDirect(Registrar):
         self, observation: Observation, pose: Pose, prior: Pose, smoothing: float
     ) -> FrameEnergy:
         """The kernel and all terms bound to a frame at a pose."""
-        placed = self.primitives.place(self.body.place(pose).transforms)
+        return self._completed(*self._kernel(observation, pose, prior, smoothing))
+
+    def _kernel(
+        self, observation: Observation, pose: Pose, prior: Pose, smoothing: float
+    ) -> tuple[Scene, Primitives, Similarity]:
+        """The kernel bound to a frame at a pose, with the visible weights of the primitives."""
+        placed = self._placed(self.primitives, pose)
         scene = Scene(self.body, observation, prior, placed)
-        effects = {
-            f"terms[{index}] ({term.kind})": term.bind(scene)
-            for index, term in enumerate(self.method.terms)
-        }
         primitives = self.primitives
-        for effect in effects.values():
-            if isinstance(effect, VisibilityWeights):
+        for term in self.method.terms:
+            if term.weighs:
+                effect = term.bind(scene)
+                assert isinstance(effect, VisibilityWeights)
                 primitives = replace(primitives, weights=primitives.weights * effect.factors)
         placed = replace(placed, primitives=primitives)
-        return FrameEnergy(
-            self.body,
-            primitives,
-            self.method.kernel.bind(observation, placed, smoothing=smoothing),
-            {name: one for name, one in effects.items() if isinstance(one, Similarity)},
-            tuple(one for one in effects.values() if isinstance(one, JointEnergy)),
-        )
+        kernel = self.method.kernel.bind(observation, placed, smoothing=smoothing)
+        return scene, primitives, kernel
+
+    def _completed(self, scene: Scene, primitives: Primitives, kernel: Similarity) -> FrameEnergy:
+        """The kernel with all terms that are energies."""
+        terms: dict[str, Similarity] = {}
+        joints: list[JointEnergy] = []
+        for index, term in enumerate(self.method.terms):
+            if term.weighs:
+                continue
+            effect = term.bind(scene)
+            if isinstance(effect, JointEnergy):
+                joints.append(effect)
+            else:
+                assert isinstance(effect, Similarity)
+                terms[f"terms[{index}] ({term.kind})"] = effect
+        return FrameEnergy(self.body, primitives, kernel, terms, tuple(joints))
+
+    def _placed(self, primitives: Primitives, pose: Pose) -> Placed[Primitives]:
+        return primitives.place(self.body.place(pose).transforms)

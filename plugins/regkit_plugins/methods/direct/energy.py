@@ -33,14 +33,10 @@ class FrameEnergy:
     terms: Mapping[str, Similarity]
     joints: tuple[JointEnergy, ...]
 
-    def similarity(self, pose: Pose) -> float:
-        """The kernel's energy in a pose."""
-        return self.kernel(self.primitives.place(self.body.place(pose).transforms)).energy
-
     def total(self, pose: Pose) -> float:
         """The energy of the kernel and all terms in a pose."""
         placed = self.primitives.place(self.body.place(pose).transforms)
-        energies = [similarity(placed).energy for similarity in (self.kernel, *self.terms.values())]
+        energies = [one.energy(placed) for one in (self.kernel, *self.terms.values())]
         return sum(energies) + sum(joint(pose).energy for joint in self.joints)
 
     def inlier_probability(self, pose: Pose) -> Array:

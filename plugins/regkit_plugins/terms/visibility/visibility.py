@@ -22,6 +22,7 @@ class Visibility(Term):
 
     kind: Literal["visibility"] = "visibility"
     accepts: ClassVar[type[Primitives]] = Volumes
+    weighs: ClassVar[bool] = True
 
     least: Annotated[float, Field(gt=0.0, le=1.0)] = 0.05
     """Weight of a fully occluded primitive, with which it can become visible again."""
