@@ -59,7 +59,7 @@ class UtdMhad(Dataset):
             )
         names = {path: path.stem.removesuffix("_depth") for path in files}
         wanted = [path for path, name in names.items() if self.wanted(name)]
-        # If none is wanted, all are listed, so that a misspelt name is answered with those there are.
+        # If none is wanted, all are returned: the answer to a misspelt name lists them.
         return [self._recording(path, names[path]) for path in wanted or files]
 
     def _recording(self, path: Path, name: str) -> UtdRecording:
