@@ -20,7 +20,7 @@ from rich.table import Table
 
 from regkit.body import Body
 from regkit.experiment import Experiment
-from regkit.interfaces import Method, RegistrationResult, Solver
+from regkit.interfaces import Method, Past, RegistrationResult, Solver
 from regkit.observation import Observation
 from regkit.registration import RegistrationProblem
 from regkit.skeleton import Pose
@@ -89,11 +89,12 @@ def tracked(
         for name in ("normal_equations", "value_and_gradient")
     }
     with patch.multiple(RegistrationProblem, **looked_at):
-        past = [RegistrationResult.given(start)]
+        past, found = Past.start(start), []
         begun = time.perf_counter()
         for observation in data:
-            past.append(follower.step(observation, past))
-        return past[1:], time.perf_counter() - begun, evaluating
+            found.append(follower.step(observation, past))
+            past = past.followed_by(found[-1])
+        return found, time.perf_counter() - begun, evaluating
 
 
 def main() -> None:

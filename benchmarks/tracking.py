@@ -18,7 +18,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from regkit.experiment import Experiment
-from regkit.interfaces import BoundTracker, RegistrationResult
+from regkit.interfaces import BoundTracker, Past, RegistrationResult
 from regkit.observation import Frame
 from regkit.start import found_start
 from regkit.system.optional import one_blas_thread
@@ -54,21 +54,22 @@ class Bench:
         self.frames = list(recording.frames())
         self.preprocessor = experiment.preprocessor
         start = found_start(experiment.template, self.preprocessor.preprocess(self.frames[0]))
-        self.start = RegistrationResult.given(start.pose)
+        self.start = Past.start(start.pose)
         self.follower: BoundTracker = (method.tracker or experiment.tracker).bind(
             method.bind(start.body)
         )
 
     def track(self) -> Iterator[RegistrationResult]:
         """Track the recording once, from the depth images on."""
-        past = [self.start]
+        past = self.start
         for frame in self.frames:
             assert frame.camera is not None
             assert frame.depth is not None
             points = frame.camera.back_projected(frame.depth)
             seen = Frame(points, frame.camera, frame.depth, frame.place)
-            past.append(self.follower.step(self.preprocessor.preprocess(seen), past))
-            yield past[-1]
+            found = self.follower.step(self.preprocessor.preprocess(seen), past)
+            past = past.followed_by(found)
+            yield found
 
     def seconds(self) -> float:
         """The least time for the recording over several rounds."""

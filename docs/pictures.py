@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from animation import write_animation
+from _animation import write_animation
 from matplotlib.figure import Figure
 
 import regkit

@@ -86,7 +86,7 @@ class Pdt13(Dataset):
                 place=str(self.root),
             )
         wanted = [name for name in files if self.wanted(name)]
-        # If none is, all are told, so that a misspelt name can be set right.
+        # If none is wanted, all are returned: the answer to a misspelt name lists them.
         return [self._recording(name, files[name]) for name in wanted or files]
 
     def _recording(self, name: str, path: Path) -> Recording:

@@ -59,7 +59,7 @@ class UtdMhad(Dataset):
             )
         names = {path: path.stem.removesuffix("_depth") for path in files}
         wanted = [path for path, name in names.items() if self.wanted(name)]
-        # If none is, all are told, so that a misspelt name can be set right.
+        # If none is wanted, all are returned: the answer to a misspelt name lists them.
         return [self._recording(path, names[path]) for path in wanted or files]
 
     def _recording(self, path: Path, name: str) -> UtdRecording:

@@ -25,6 +25,7 @@ from regkit_synthesis.figure.figure import figure_axes
 from regkit_synthesis.figure.map_files import MapName
 from regkit_synthesis.hands.config import GesturesConfig
 from regkit_synthesis.motion.config import MotionConfig
+from regkit_synthesis.motion.motion import Motion
 
 
 @dataclass(frozen=True)
@@ -55,16 +56,28 @@ class HumanBody(MovableBody):
         """The joints whose truth is known, by name."""
         return self.map.landmarks(self.mesh)
 
-    def moved(self, motion: MotionConfig | GesturesConfig) -> Callable[[float], Array]:
+    def moved_by(self, config: MotionConfig | GesturesConfig) -> Callable[[float], Array]:
         """The bone poses ``T_ground_bone`` (J, 4, 4) at a time [s] of a motion.
 
         Raises:
             ConfigError: If it is a motion of hands, or the map names a joint that the source of the
                 motion lacks.
         """
-        if isinstance(motion, GesturesConfig):
+        if isinstance(config, GesturesConfig):
             raise ConfigError("gestures are a motion of a hand, and this body is a person")
-        return retargeted(motion.motion(), self.mesh, self.map, grounded=motion.grounded)
+        return self.moved(config.motion(), grounded=config.grounded)
+
+    def moved(self, motion: Motion, *, grounded: bool = True) -> Callable[[float], Array]:
+        """The bone poses ``T_ground_bone`` (J, 4, 4) at a time [s] of a motion.
+
+        Args:
+            motion: The motion.
+            grounded: Whether the body is set on the ground; see ``retargeted``.
+
+        Raises:
+            ConfigError: If the map names a joint that the source of the motion lacks.
+        """
+        return retargeted(motion, self.mesh, self.map, grounded=grounded)
 
 
 def human_landmarks(mesh: SkinnedMesh) -> dict[str, Landmark]:

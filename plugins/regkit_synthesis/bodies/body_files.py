@@ -41,7 +41,7 @@ def _export(path: Path, shape: int) -> SkinnedMesh | None:
                 return None
             arrays = {key: file[_EXPORT.get(key, key)] for key in KEYS}
     except (OSError, ValueError):
-        # Whatever is wrong with the file is told by who reads it as a mesh file.
+        # Reading it as a mesh file reports its faults.
         return None
     count = len(arrays["rest_vertices"])
     if not 0 <= shape < count:

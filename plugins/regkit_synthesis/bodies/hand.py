@@ -26,15 +26,15 @@ class HandBody(MovableBody):
         """The wrist, and the joints and tips of the fingers, by name."""
         return hand_landmarks(self.mesh)
 
-    def moved(self, motion: MotionConfig | GesturesConfig) -> Callable[[float], Array]:
+    def moved_by(self, config: MotionConfig | GesturesConfig) -> Callable[[float], Array]:
         """The bone poses ``T_ground_bone`` (J, 4, 4) at a time [s] of gestures.
 
         Raises:
             ConfigError: If the motion is a person's.
         """
-        if not isinstance(motion, GesturesConfig):
+        if not isinstance(config, GesturesConfig):
             raise ConfigError("a hand moves by a motion of the kind 'gestures'")
-        hand = motion.motion()
+        hand = config.motion()
         retarget = HandRetarget.of(self.mesh, hand.gestures.poses[0])
         return lambda time: retarget.bone_poses(hand.gestures.at(time), hand.palm(time))
 

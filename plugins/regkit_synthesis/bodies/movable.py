@@ -30,7 +30,7 @@ class MovableBody(ABC):
         """The joints whose truth is known, by name."""
 
     @abstractmethod
-    def moved(self, motion: MotionConfig | GesturesConfig) -> Callable[[float], Array]:
+    def moved_by(self, config: MotionConfig | GesturesConfig) -> Callable[[float], Array]:
         """The bone poses ``T_ground_bone`` (J, 4, 4) at a time [s] of a motion.
 
         Raises:

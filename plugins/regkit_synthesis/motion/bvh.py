@@ -20,7 +20,7 @@ def read_bvh(
 ) -> SampledMotion:
     """Read a BVH file, at rest where all its angles are zero.
 
-    Which way it looks and what is up is told by its hips and its head at rest.
+    Its hips and its head at rest tell where front and up are.
 
     Args:
         path: The file.

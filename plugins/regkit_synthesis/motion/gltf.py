@@ -25,7 +25,7 @@ def read_gltf(
 ) -> SampledMotion:
     """Read an animation of a rigged body, at rest as its mesh is bound to its bones.
 
-    Which way it looks and what is up is told by its hips and its head at rest.
+    Its hips and its head at rest tell where front and up are.
 
     Args:
         path: A ``.glb`` or ``.gltf`` file.

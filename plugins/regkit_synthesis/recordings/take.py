@@ -118,7 +118,7 @@ class Take(Model):
         body = body_config.body()
         for marker, vertex in self.markers.items():
             _check_marker(marker, vertex, body.landmarks, len(body.mesh.vertices))
-        moved = body.moved(motion_config)
+        moved = body.moved_by(motion_config)
 
         def surface() -> Array:
             skin = some_vertices(body.mesh, np.arange(0, len(body.mesh.vertices), _SPARSE))

@@ -58,7 +58,7 @@ class OrganizedClouds(Dataset, ABC):
                 place=str(self.root),
             )
         wanted = [path for path in files if self.wanted(path.stem)]
-        # If none is, all are told, so that a misspelt name can be set right.
+        # If none is wanted, all are returned: the answer to a misspelt name lists them.
         return [self._recording(path) for path in wanted or files]
 
     def _recording(self, path: Path) -> Recording:
