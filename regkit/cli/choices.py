@@ -63,12 +63,14 @@ def parsed(text: str, option: str) -> Any:
     return yaml_data(text, f"{option} {text}")
 
 
-def template_named(text: str) -> Template:
-    """The template that ``--template`` names.
+def template_named(text: str | None) -> Template:
+    """The template that ``--template`` names; the default one without it.
 
     Raises:
         ConfigError: If there is none, or its file is wrong.
     """
+    if text is None:
+        return Template.parse(Template.default(), place="--template", field="template")
     return Template.parse(parsed(text, "--template"), place=f"--template {text}", field="template")
 
 
