@@ -52,12 +52,9 @@ class Source(Model):
                 f"only an experiment's values can be changed; {path} is a folder",
                 place=f"--set {setting}",
             )
-        place = str(path)
         return cls(
-            dataset=Dataset.parse(Dataset.in_folder(path), place=place, field="dataset"),
-            template=Template.parse(Template.default(), place=place, field="template")
-            if template is None
-            else template_named(template),
+            dataset=Dataset.parse(Dataset.in_folder(path), place=str(path), field="dataset"),
+            template=template_named(template),
         )
 
     def recording(self, name: str | None) -> Recording:
@@ -70,7 +67,7 @@ class Source(Model):
             return self.dataset.only(name)
 
     def calibration(self, frames: int) -> Calibration:
-        """How the subject is calibrated, in so many frames."""
+        """How the subject is calibrated, in ``frames`` frames."""
         return Calibration(
             template=self.template, preprocessor=self.preprocessor, start=self.start, frames=frames
         )

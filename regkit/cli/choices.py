@@ -10,9 +10,10 @@ from regkit.config.changes import Location
 from regkit.config.document import Document
 from regkit.config.model import Model
 from regkit.config.plugin import slot_default
-from regkit.config.yaml import yaml_data
+from regkit.config.yaml import yaml_value
 from regkit.interfaces import Method, Preprocessor, Template, Tracker
 from regkit.skeleton import PoseDescription
+from regkit.system.errors import ConfigError
 
 
 class Choices(Model):
@@ -60,15 +61,20 @@ def parsed(text: str, option: str) -> Any:
     """
     if not text.lstrip().startswith("{"):
         return text
-    return yaml_data(text, f"{option} {text}")
+    try:
+        return yaml_value(text)
+    except ConfigError as error:
+        raise error.at(f"{option} {text}") from None
 
 
-def template_named(text: str) -> Template:
-    """The template that ``--template`` names.
+def template_named(text: str | None) -> Template:
+    """The template that ``--template`` names; the default one without it.
 
     Raises:
         ConfigError: If there is none, or its file is wrong.
     """
+    if text is None:
+        return Template.parse(Template.default(), place="--template", field="template")
     return Template.parse(parsed(text, "--template"), place=f"--template {text}", field="template")
 
 

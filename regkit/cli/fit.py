@@ -36,13 +36,14 @@ def fit(
         ),
     ],
     template: Annotated[
-        str,
+        str | None,
         typer.Option(
             metavar="TEMPLATE",
             help="Whose joints it gets: a name such as hand, a template's YAML file, or a mapping "
-            "such as '{kind: hand, side: left}'.",
+            "such as '{kind: hand, side: left}'. (default: a person)",
+            show_default=False,
         ),
-    ] = "human",
+    ] = None,
     bones: Annotated[
         Path | None,
         typer.Option(
@@ -66,7 +67,7 @@ def fit(
         Path, typer.Option(metavar="FILE", help="The template to write, or to replace.")
     ] = Path("fitted.yaml"),
     vertices: Annotated[
-        int, typer.Option(min=50, help="So many of the mesh's vertices are kept.")
+        int, typer.Option(min=50, help="How many of the mesh's vertices are kept.")
     ] = 1500,
     shape: Annotated[
         list[str] | None,

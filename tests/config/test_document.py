@@ -148,7 +148,7 @@ segments:
         ("  hand:", "  arm:", "FILE:4: not valid YAML: found duplicate key \"arm\""),
         ("[0, 90]", "[90, 0]", "FILE:3: segments.arm.joint.limits_deg: limits are reversed: "
          "[90.0, 0.0]; write [0.0, 90.0]"),
-        ("axis: x", "axis: [0, 0, 0]", "FILE:3: segments.arm.joint.axis: an axis must not be zero"),
+        ("axis: x", "axis: [0, 0, 0]", "FILE:3: segments.arm.joint.axis: the axis [0.0, 0.0, 0.0]"),
         ("type: hinge", "type: hing", "FILE:3: segments.arm.joint: input tag 'hing' found using "
          "'type' does not match any of the expected tags: 'free', 'fixed', 'hinge', 'universal', "
          "'ball'"),
@@ -176,7 +176,7 @@ def test_template_error_names_the_place(file, linkage_text, more, expected):
 
 def test_unknown_joint_of_a_stance_is_refused(file, linkage_text):
     file.write_text(linkage_text + "stances: {odd: {joints: {elbow: 10}}}\n")
-    with pytest.raises(ConfigError, match=r"stances.odd of thing: there is no joint 'elbow'"):
+    with pytest.raises(ConfigError, match=r"^stances.odd of thing: .*'elbow'"):
         Document.read(file).validated(BodyDescription).body("thing", 1.0)
 
 

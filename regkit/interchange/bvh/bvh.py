@@ -15,9 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from regkit.geometry.rotation import IDENTITY, from_vector, product, to_matrix
 from regkit.interchange.bvh.hierarchy import (
-    CHANNELS,
     BvhJoint,
     hierarchy_text,
     in_file_order,
@@ -25,23 +23,11 @@ from regkit.interchange.bvh.hierarchy import (
     row,
 )
 from regkit.interchange.bvh.lines import Lines
+from regkit.interchange.bvh.pose import BvhPose, posed, relative_motion
 from regkit.interchange.gltf.slerp import slerp
 from regkit.system.arrays import Array, read_only
 from regkit.system.errors import DataError
 from regkit.system.files import write_text
-
-
-@dataclass(frozen=True, eq=False)
-class BvhPose:
-    """The world transforms of all joints.
-
-    Attributes:
-        rotations: R_world_joint, (J, 3, 3); the identity at rest.
-        positions: Positions in the world, (J, 3) [m].
-    """
-
-    rotations: Array
-    positions: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,7 +134,7 @@ class Bvh:
             IndexError: If there is no such frame.
         """
         rotations, translations = self._relative
-        return self._placed(rotations[index], translations[index])
+        return posed(self.joints, rotations[index], translations[index])
 
     def at(self, time: float) -> BvhPose:
         """Returns the pose at ``time`` [s], with spherical interpolation of each joint's rotation.
@@ -165,41 +151,15 @@ class Bvh:
         right = min(left + 1, len(self.frames) - 1)
         share = exact - left
         rotations, translations = self._relative
-        return self._placed(
+        return posed(
+            self.joints,
             slerp(rotations[left], rotations[right], share),
             (1.0 - share) * translations[left] + share * translations[right],
         )
 
     @cached_property
     def _relative(self) -> tuple[Array, Array]:
-        """Rotations (F, J, 4) and positions (F, J, 3) [m] of joints relative to their parents."""
-        count = len(self.frames)
-        rotations = np.tile(IDENTITY, (count, len(self.joints), 1))
-        translations = np.tile([joint.offset for joint in self.joints], (count, 1, 1))
-        column = 0
-        for index, joint in enumerate(self.joints):
-            for channel in joint.channels:
-                axis, numbers = CHANNELS.index(channel) % 3, self.frames[:, column]
-                if channel.endswith("position"):
-                    translations[:, index, axis] = numbers
-                else:
-                    rotation = from_vector(np.radians(numbers)[:, None] * np.eye(3)[axis])
-                    rotations[:, index] = product(rotations[:, index], rotation)
-                column += 1
-        return rotations, translations
-
-    def _placed(self, rotations: Array, translations: Array) -> BvhPose:
-        """Returns the pose of rotations (J, 4) and positions (J, 3) relative to the parents."""
-        relative = to_matrix(rotations)
-        placed = BvhPose(relative.copy(), translations.copy())
-        for index, joint in enumerate(self.joints):
-            if joint.parent >= 0:
-                parent = placed.rotations[joint.parent]
-                placed.rotations[index] = parent @ relative[index]
-                placed.positions[index] = (
-                    placed.positions[joint.parent] + parent @ translations[index]
-                )
-        return placed
+        return relative_motion(self.joints, self.frames)
 
 
 def _frames(lines: Lines, count: int, channels: int) -> Array:
