@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from messages import tells
 
 from regkit.body import BodyDescription
 from regkit.config.document import Document
@@ -79,7 +80,7 @@ def test_calibrate_refuses_what_it_cannot_use(regkit, files, subject, options, c
 def test_calibrate_refuses_what_is_no_folder(regkit, tmp_path, subject):
     ended = regkit("calibrate", tmp_path / "nothing", "--out", subject)
     assert ended.code == 1
-    assert ended.err == f"error: {tmp_path / 'nothing'}: there is no such file\n"
+    assert tells(ended.err, at=f"{tmp_path / 'nothing'}", of="no such file")
     ended = regkit("calibrate", tmp_path, "--out", subject)
     assert ended.code == 1
     assert "no recording here" in ended.err
