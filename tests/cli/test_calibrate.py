@@ -64,7 +64,7 @@ def test_calibrate_takes_an_experiments_data_template_and_start(regkit, files, s
         (("--template", "humn"), "no plug-in 'humn' in regkit.templates"),
         (("--template", "{kind: human, hight: 2}"), "template.hight: no such field"),
         (("--template", "none.yaml"), "none.yaml: there is no such file"),
-        (("--template", "{kind"), "--template {kind: not valid YAML"),
+        (("--template", "{kind"), "not valid YAML"),
         (("--recording", "frist"), "--recording: no recording 'frist'"),
         ((), "--recording: there are 2 recordings (first, second); name one"),
         (("--set", "dataset.frames=1"), "only an experiment's values can be changed"),
