@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import pytest
+from messages import tells
 
 from regkit.body import BodyDescription
 from regkit.config.document import Document
@@ -46,30 +47,29 @@ def test_valid_experiment_is_read(file):
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "expected"),
+    ("old", "new", "at", "of"),
     [
-        ("shape: gsog", "shape: gsg", "FILE:9: methods.gsog.shape: no plug-in 'gsg' in "
-         f"regkit.shapes (installed: {', '.join(ShapeModel.available())}); did you mean 'gsog'?"),
+        ("shape: gsog", "shape: gsg", "FILE:9: methods.gsog.shape",
+         ("'gsg'", "regkit.shapes", *ShapeModel.available(), "did you mean 'gsog'?")),
         ("kind: lbfgs", "kind: lbfgs, max_iteration: 5", "FILE:11: "
-         "methods.gsog.solver.max_iteration: no such field (there are: gradient_tolerance, kind, "
-         "max_iterations, memory, value_tolerance); did you mean 'max_iterations'?"),
+         "methods.gsog.solver.max_iteration", ("no such field", "value_tolerance",
+         "did you mean 'max_iterations'?")),
         ("kind: lbfgs", "kind: lbfgs, max_iterations: many", "FILE:11: "
-         "methods.gsog.solver.max_iterations: input should be a valid integer; it is 'many'"),
+         "methods.gsog.solver.max_iterations", ("integer", "'many'")),
         ("kind: lbfgs", "kind: lbfgs, max_iterations: 0", "FILE:11: "
-         "methods.gsog.solver.max_iterations: input should be greater than or equal to 1; it is 0"),
-        ("height: 1.7", "height: .nan", "FILE:5: template.height: input should be a finite number; "
-         "it is nan"),
-        ("kind: correlation", "covariance: exact", "FILE:10: methods.gsog.kernel: expected a name "
-         f"or a mapping with a 'kind' (installed: {', '.join(Kernel.available())})"),
-        ("    shape: gsog\n", "", "FILE:7: methods.gsog.shape: field required"),
-        ("name: test", "name: a/b", "FILE:1: name: 'a/b' names a folder: use letters, digits, '-', "
-         "'_' and '.', and begin with a letter or digit"),
-        ("  gsog:", "  Figures:", "FILE:7: methods.Figures: 'Figures' is what a run calls "
-         "something else in its folder; take another"),
+         "methods.gsog.solver.max_iterations", ("greater than or equal to 1", "it is 0")),
+        ("height: 1.7", "height: .nan", "FILE:5: template.height", ("finite", "nan")),
+        ("kind: correlation", "covariance: exact", "FILE:10: methods.gsog.kernel",
+         ("'kind'", *Kernel.available())),
+        ("    shape: gsog\n", "", "FILE:7: methods.gsog.shape", "required"),
+        ("name: test", "name: a/b", "FILE:1: name", ("'a/b'", "letters, digits")),
+        ("  gsog:", "  Figures:", "FILE:7: methods.Figures", "'Figures'"),
     ],
 )  # fmt: skip
-def test_experiment_error_names_the_place(file, old, new, expected):
-    assert complaint(file, EXPERIMENT.replace(old, new), Experiment) == expected
+def test_experiment_error_names_the_place(file, old, new, at, of):
+    message = complaint(file, EXPERIMENT.replace(old, new), Experiment)
+    assert len(message.splitlines()) == 1
+    assert tells(message, at=at, of=of), message
 
 
 def test_every_error_is_told_at_once(file):
@@ -86,9 +86,8 @@ def test_repeated_key_is_refused(file):
 
 
 def test_broken_yaml_is_told_with_its_line(file):
-    assert complaint(file, "name: [1, 2\nmore: 3\n", Experiment).startswith(
-        "FILE:2: not valid YAML"
-    )
+    message = complaint(file, "name: [1, 2\nmore: 3\n", Experiment)
+    assert tells(message, at="FILE:2", of="not valid YAML")
 
 
 def test_missing_file_is_told(tmp_path):
@@ -97,9 +96,7 @@ def test_missing_file_is_told(tmp_path):
 
 
 def test_document_that_is_no_mapping_is_refused(file):
-    assert complaint(file, "- 1\n", Experiment) == (
-        "FILE:1: the file must hold a mapping of fields (name: value)"
-    )
+    assert tells(complaint(file, "- 1\n", Experiment), at="FILE:1", of="mapping")
 
 
 def test_setting_changes_a_value_and_is_named_in_errors(file):
@@ -109,7 +106,7 @@ def test_setting_changes_a_value_and_is_named_in_errors(file):
     message = complaint(file, EXPERIMENT, Experiment, ("template.height=tall",))
     assert message.startswith("setting template.height=tall: template.height: input should be")
     message = complaint(file, EXPERIMENT, Experiment, ("template.height",))
-    assert message == "setting template.height: a setting must read a.b.c=value"
+    assert tells(message, at="setting template.height", of="a.b.c=value")
 
 
 def test_setting_reaches_into_a_short_form(file):
@@ -137,28 +134,26 @@ segments:
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "expected"),
+    ("old", "new", "at", "of"),
     [
-        ("parent: root", "parent: hand", "FILE:3: segments.arm.parent: the segments "
-         "arm, hand form a cycle; following their parents must end at the root"),
-        ("parent: arm", "parent: amr", "FILE:4: segments.hand.parent: segment "
-         "'hand' is an orphan: its parent 'amr' is not a segment (there are: root, arm, hand)"),
-        ("parent: arm, ", "", "FILE:4: segments.hand: several segments have no parent "
-         "(root, hand); one root is needed"),
-        ("  hand:", "  arm:", "FILE:4: not valid YAML: found duplicate key \"arm\""),
-        ("[0, 90]", "[90, 0]", "FILE:3: segments.arm.joint.limits_deg: limits are reversed: "
-         "[90.0, 0.0]; write [0.0, 90.0]"),
-        ("axis: x", "axis: [0, 0, 0]", "FILE:3: segments.arm.joint.axis: the axis [0.0, 0.0, 0.0]"),
-        ("type: hinge", "type: hing", "FILE:3: segments.arm.joint: input tag 'hing' found using "
-         "'type' does not match any of the expected tags: 'free', 'fixed', 'hinge', 'universal', "
-         "'ball'"),
-        ("type: fixed", "type: free", "FILE:4: segments.hand.joint: segment 'hand' has "
-         "a free joint; only the root may"),
+        ("parent: root", "parent: hand", "FILE:3: segments.arm.parent", ("arm, hand", "cycle")),
+        ("parent: arm", "parent: amr", "FILE:4: segments.hand.parent",
+         ("'hand'", "orphan", "'amr'", "root, arm, hand")),
+        ("parent: arm, ", "", "FILE:4: segments.hand", ("no parent", "root, hand")),
+        ("  hand:", "  arm:", "FILE:4", ("not valid YAML", "duplicate key", "arm")),
+        ("[0, 90]", "[90, 0]", "FILE:3: segments.arm.joint.limits_deg",
+         ("reversed", "[90.0, 0.0]", "[0.0, 90.0]")),
+        ("axis: x", "axis: [0, 0, 0]", "FILE:3: segments.arm.joint.axis", "zero"),
+        ("type: hinge", "type: hing", "FILE:3: segments.arm.joint",
+         ("'hing'", "'free', 'fixed', 'hinge', 'universal', 'ball'")),
+        ("type: fixed", "type: free", "FILE:4: segments.hand.joint",
+         ("'hand'", "free joint", "root")),
     ],
 )  # fmt: skip
-def test_skeleton_error_names_the_place(file, old, new, expected):
+def test_skeleton_error_names_the_place(file, old, new, at, of):
     message = complaint(file, SKELETON.replace(old, new), SkeletonDescription)
-    assert message.splitlines()[0].replace("segments: the", "the").startswith(expected)
+    first = message.splitlines()[0]
+    assert tells(first, at=at, of=of), message
 
 
 @pytest.mark.parametrize(
@@ -176,7 +171,7 @@ def test_template_error_names_the_place(file, linkage_text, more, expected):
 
 def test_unknown_joint_of_a_stance_is_refused(file, linkage_text):
     file.write_text(linkage_text + "stances: {odd: {joints: {elbow: 10}}}\n")
-    with pytest.raises(ConfigError, match=r"^stances.odd of thing: .*'elbow'"):
+    with pytest.raises(ConfigError, match=r"stances.odd of thing: .*'elbow'"):
         Document.read(file).validated(BodyDescription).body("thing", 1.0)
 
 

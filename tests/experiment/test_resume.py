@@ -8,6 +8,7 @@ import sys
 from typing import Literal
 
 import pytest
+from messages import tells
 from small_experiment import (
     FRAMES,
     QUICK,
@@ -152,9 +153,7 @@ def test_folder_of_another_configuration_is_refused(regkit, files):
         "methods.gsog.solver.memory=3",
     )
     assert ended.code == 1
-    assert ended.err.startswith(
-        f"error: {files.out}: the folder holds the results of another configuration"
-    )
+    assert tells(ended.err, at=f"{files.out}", of="another configuration")
     assert files.written() == before
 
 
@@ -163,9 +162,7 @@ def test_folder_with_other_files_is_refused_and_left_alone(regkit, files):
     (files.out / "thesis.tex").write_text("precious")
     ended = regkit("run", files.experiment, "--out", files.out, "--no-figures")
     assert ended.code == 1
-    assert ended.err == (
-        f"error: {files.out}: the folder holds other files; choose a new or an empty one\n"
-    )
+    assert tells(ended.err, at=f"{files.out}", of=("other files", "new", "empty"))
     assert [path.name for path in files.out.iterdir()] == ["thesis.tex"]
 
 

@@ -51,11 +51,8 @@ def browser(tmp_path_factory) -> list[str]:
     return [found, *OPTIONS, f"--user-data-dir={profile}"]
 
 
-@pytest.fixture(scope="module")
-def page(tmp_path_factory) -> Path:
-    folder = tmp_path_factory.mktemp("page")
-    failures = {"icp": {"lost_take": "/a/very/long/path/" + "without/a/space/" * 12}}
-    write_report(made_run(7, failures=failures), folder)
+@pytest.fixture
+def page(folder) -> Path:
     return folder / "report.html"
 
 

@@ -22,13 +22,6 @@ from regkit.report.style import PALETTE, styles
 from regkit.report.tables import main_table, p_text
 
 
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory) -> Path:
-    folder = tmp_path_factory.mktemp("report")
-    write_report(made_run(failures={"icp": {"lost_take": "a | in <b>the</b> reason"}}), folder)
-    return folder
-
-
 def cells(path: Path) -> list[dict[str, str]]:
     with path.open(encoding="utf-8", newline="") as stream:
         return list(csv.DictReader(stream))

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from messages import tells
 from places import EXAMPLES
 
 from regkit.body import Body
@@ -129,7 +130,7 @@ def test_given_start_is_taken_as_it_is(lamp):
 def test_given_start_without_a_size_is_refused(lamp):
     with pytest.raises(ConfigError) as caught:
         given_start(FileTemplate(path=lamp), PoseDescription())
-    assert str(caught.value) == "a given start needs the template's size too"
+    assert tells(str(caught.value), at="", of=("start", "template's size"))
 
 
 def test_given_start_of_an_unknown_joint_is_refused(lamp):

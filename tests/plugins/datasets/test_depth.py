@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from damage import complaint, cut, everything, remove, write
+from messages import tells
 from PIL import Image
 
 from regkit.geometry.camera import Camera
@@ -132,17 +133,15 @@ def test_folder_of_folders_holds_their_recordings(tmp_path):
     assert all(len(list(found.frames())) == FRAMES for found in chosen)
     with pytest.raises(ConfigError) as caught:
         DepthFolders(root=root, recordings=("wlak",)).chosen()
-    assert str(caught.value) == (
-        "dataset.recordings: no recording 'wlak' (there are: jump, renamed, sit, walk); did "
-        "you mean 'walk'?"
-    )
+    words = ("'wlak'", "jump, renamed, sit, walk", "did you mean 'walk'?")
+    assert tells(str(caught.value), at="dataset.recordings", of=words)
 
 
 def test_recordings_of_the_same_name_are_refused(tmp_path):
     for folder in ("a", "b"):
         write_recording(tmp_path / folder, "name: same\n")
     message = complaint(DepthFolders(root=tmp_path), tmp_path)
-    assert message == "dataset: two recordings are called 'same'"
+    assert tells(message, at="dataset", of=("two recordings", "'same'"))
 
 
 def image(name: str, pixels: np.ndarray) -> Callable[[Path], None]:
