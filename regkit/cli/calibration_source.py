@@ -55,9 +55,7 @@ class Source(Model):
         place = str(path)
         return cls(
             dataset=Dataset.parse(Dataset.in_folder(path), place=place, field="dataset"),
-            template=Template.parse(Template.default(), place=place, field="template")
-            if template is None
-            else template_named(template),
+            template=template_named(template),
         )
 
     def recording(self, name: str | None) -> Recording:

@@ -7,6 +7,7 @@ from typing import Any
 
 from regkit.api.choices import told
 from regkit.config.changes import Location
+from regkit.config.defaults import default_name
 from regkit.config.document import Document
 from regkit.config.model import Model
 from regkit.config.plugin import slot_default
@@ -63,13 +64,14 @@ def parsed(text: str, option: str) -> Any:
     return yaml_data(text, f"{option} {text}")
 
 
-def template_named(text: str) -> Template:
-    """The template that ``--template`` names.
+def template_named(text: str | None) -> Template:
+    """The template that ``--template`` names, or the default.
 
     Raises:
         ConfigError: If there is none, or its file is wrong.
     """
-    return Template.parse(parsed(text, "--template"), place=f"--template {text}", field="template")
+    name = default_name(Template.group) if text is None else text
+    return Template.parse(parsed(name, "--template"), place=f"--template {name}", field="template")
 
 
 def method_named(text: str) -> Method:

@@ -36,13 +36,14 @@ def fit(
         ),
     ],
     template: Annotated[
-        str,
+        str | None,
         typer.Option(
             metavar="TEMPLATE",
             help="Whose joints it gets: a name such as hand, a template's YAML file, or a mapping "
-            "such as '{kind: hand, side: left}'.",
+            "such as '{kind: hand, side: left}'. (default: a person)",
+            show_default=False,
         ),
-    ] = "human",
+    ] = None,
     bones: Annotated[
         Path | None,
         typer.Option(
