@@ -11,9 +11,10 @@ from regkit.config.defaults import default_name
 from regkit.config.document import Document
 from regkit.config.model import Model
 from regkit.config.plugin import slot_default
-from regkit.config.yaml import yaml_data
+from regkit.config.yaml import yaml_value
 from regkit.interfaces import Method, Preprocessor, Template, Tracker
 from regkit.skeleton import PoseDescription
+from regkit.system.errors import ConfigError
 
 
 class Choices(Model):
@@ -61,7 +62,10 @@ def parsed(text: str, option: str) -> Any:
     """
     if not text.lstrip().startswith("{"):
         return text
-    return yaml_data(text, f"{option} {text}")
+    try:
+        return yaml_value(text)
+    except ConfigError as error:
+        raise error.at(f"{option} {text}") from None
 
 
 def template_named(text: str | None) -> Template:
