@@ -18,7 +18,6 @@ def print_error(error: RegkitError) -> None:
 
 
 def tell_compiling() -> None:
-    """Say why the first run on a machine begins late."""
-    errors.print(
-        "compiling numerical loops (once on this machine) ...", highlight=False, soft_wrap=True
-    )
+    """Say on a terminal why the first run on a machine begins late; a pipe has no one waiting."""
+    if errors.is_terminal:
+        errors.print("compiling numerical loops (once on this machine) ...", highlight=False)
