@@ -335,9 +335,9 @@ def _without_ball(new: str) -> str:
 def test_other_formats_and_axes_are_refused(robot: Path) -> None:
     with pytest.raises(ConfigError, match=r"'\.fbx' cannot be imported"):
         read_skeleton(Path("a.fbx"))
-    with pytest.raises(ConfigError, match="--up: 'w' is not an axis"):
+    with pytest.raises(ConfigError, match="up: 'w' is not an axis"):
         read_skeleton(robot, up="w")
-    with pytest.raises(ConfigError, match="--front: up is z; the front cannot be -z"):
+    with pytest.raises(ConfigError, match="front: up is z; the front cannot be -z"):
         read_skeleton(robot, front="-z")
     with pytest.raises(DataError, match="the file is missing"):
         read_skeleton(robot.with_name("none.urdf"))
