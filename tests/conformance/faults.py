@@ -178,6 +178,20 @@ REMEMBERS = """    seen = None
 """A kernel that takes an array which it has seen for a point which it has seen."""
 
 
+RESIDUALS = """    def residuals(self, placed):
+        from dataclasses import replace
+
+        right = self.right(placed)
+        return replace(right, CHANGE)
+
+    def right("""
+"""A kernel whose residuals are changed in one way."""
+
+
+def leaving(change: str) -> tuple[str, str]:
+    return "    def residuals(", RESIDUALS.replace("CHANGE", change)
+
+
 KERNEL_FAULTS = {
     "remembers": (
         "    def residuals(",
@@ -186,14 +200,12 @@ KERNEL_FAULTS = {
         "cache nothing by the identity of an array",
     ),
     "torque": (
-        "np.cross(offsets[each, owners], normals)",
-        "-np.cross(offsets[each, owners], normals)",
+        *leaving("rows=right.rows * [1, 1, 1, -1, -1, -1]"),
         "test_kernel_gradient_is_the_derivative_of_its_energy",
         "(the forces are right, so it is the torques)",
     ),
     "sign": (
-        "rows = -np.hstack",
-        "rows = np.hstack",
+        *leaving("rows=-right.rows"),
         "test_kernel_gradient_is_the_derivative_of_its_energy",
         "(all signs are wrong: it must point uphill)",
     ),
@@ -218,8 +230,7 @@ KERNEL_FAULTS = {
         "when body and data are moved together",
     ),
     "unweighted": (
-        "data.weights / data.weights.sum()",
-        "np.full(len(data.points), 1.0 / len(data.points))",
+        *leaving("weights=np.full(len(right.weights), 1.0 / len(right.weights))"),
         "test_kernel_takes_a_point_of_twice_the_weight_for_two",
         "does not weigh the data: of what a second point in the same place does to its forces, "
         "twice the weight leaves 100 % undone",

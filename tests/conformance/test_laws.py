@@ -198,7 +198,9 @@ def test_example_that_does_not_fit_is_told():
 def test_wrong_gradient_of_an_installed_package_is_named(tmp_path):
     """In a process of its own, as its author would run it."""
     text = SUPERQUADRIC.read_text().replace("superquadric", "oddquadric")
-    text = text.replace("radial_distance", "odd_distance").replace("-np.hstack", "np.hstack")
+    text = text.replace("radial_distance", "odd_distance").replace(
+        "part, gradients)", "part, -gradients)"
+    )
     (tmp_path / "oddquadric.py").write_text(text)
     info = tmp_path / "regkit_oddquadric-1.0.dist-info"
     info.mkdir()

@@ -16,7 +16,7 @@ from regkit.system.errors import ConfigError
 from regkit_plugins.kernels.sphere_distance.sphere_distance import SphereDistance
 from regkit_plugins.shapes.sphere import SphereMesh
 from regkit_plugins.solvers.gauss_newton import GaussNewton
-from regkit_plugins.terms.visibility import visible_shares
+from regkit_plugins.terms.visibility.visibility import visible_shares
 
 CAMERA = Camera(width=176, height=144, fx=230.0, fy=230.0, cx=87.5, cy=71.5)
 SHAPES = [SphereMesh(), SphereMesh(variant="spheres")]
