@@ -1,4 +1,4 @@
-"""Rigged bodies: their meshes, their joints, and how their bones follow a motion."""
+"""Rigged bodies: meshes, joints, and retargeting of motion to their bones."""
 
 from regkit_synthesis.bodies.bodies import AnyBody, BodyFile, HumanBody, ShippedBody
 from regkit_synthesis.bodies.body_map import BodyMap, body_map

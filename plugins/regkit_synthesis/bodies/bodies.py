@@ -1,4 +1,4 @@
-"""Rigged bodies that can be moved, and what a user writes about them."""
+"""Rigged human bodies, and their YAML form."""
 
 from __future__ import annotations
 
@@ -30,21 +30,21 @@ from regkit_synthesis.motion.motion import Motion
 
 @dataclass(frozen=True)
 class HumanBody(MovableBody):
-    """A body whose bones are those of a human figure.
+    """A body with the bones of a human figure.
 
     Attributes:
-        map: Which of its bones follow which joints of a figure.
+        map: Map from its bones to the joints of the figure.
     """
 
     map: BodyMap
 
     @classmethod
     def of(cls, mesh: SkinnedMesh, map: BodyMap) -> HumanBody:
-        """A mesh whose coordinate axes may be others: it is turned as its hips and its head tell.
+        """Returns the body of a mesh with any axis convention, inferred from its hips and head.
 
         Raises:
             ConfigError: If the mesh lacks a bone that the map names.
-            DataError: If it does not stand straight.
+            DataError: If the mesh is not upright along one of its axes.
         """
         for label in map.bones:
             bone_of(mesh, label)
@@ -53,11 +53,11 @@ class HumanBody(MovableBody):
 
     @property
     def landmarks(self) -> dict[str, Landmark]:
-        """The joints whose truth is known, by name."""
+        """Returns the joints with ground truth, by name."""
         return self.map.landmarks(self.mesh)
 
     def moved_by(self, config: MotionConfig | GesturesConfig) -> Callable[[float], Array]:
-        """The bone poses ``T_ground_bone`` (J, 4, 4) at a time [s] of a motion.
+        """Returns the function from a time [s] to bone poses ``T_ground_bone`` (J, 4, 4).
 
         Raises:
             ConfigError: If it is a motion of hands, or the map names a joint that the source of the
@@ -81,7 +81,7 @@ class HumanBody(MovableBody):
 
 
 def human_landmarks(mesh: SkinnedMesh) -> dict[str, Landmark]:
-    """The 20 joints of a human body with the CMU rig, by name; left is the person's own left."""
+    """Returns the 20 joints of a human body with the CMU rig; left is the person's left."""
     return body_map("anny_cmu").landmarks(mesh)
 
 
@@ -95,7 +95,7 @@ _SHIPPED: Mapping[BodyName, Callable[[], SkinnedMesh]] = {
 
 
 class ShippedBody(BodyConfig):
-    """A body that ships with regkit."""
+    """A shipped body."""
 
     kind: Literal["shipped"] = "shipped"
 
@@ -103,12 +103,12 @@ class ShippedBody(BodyConfig):
     """The body of average proportions, a small or a tall one; all are anny's with the CMU rig."""
 
     def body(self) -> HumanBody:
-        """The body."""
+        """Returns the body."""
         return HumanBody(_SHIPPED[self.name](), body_map("anny_cmu"))
 
 
 class BodyFile(BodyConfig):
-    """A rigged body in a file of the user's."""
+    """A rigged body in a file."""
 
     kind: Literal["file"] = "file"
 
@@ -117,14 +117,14 @@ class BodyFile(BodyConfig):
     ``.gltf``)."""
 
     shape: int = Field(default=0, ge=0)
-    """Which body, if the file holds several shapes."""
+    """Index of the shape, if the file has several."""
 
     map: MapName | None = None
-    """Which of its bones are those of a figure: the name of a map that ships, or a YAML file.
-    Without it, the first map that ships whose bones the body has."""
+    """Map from its bones to the figure: the name of a shipped map, or a YAML file; by default the
+    first shipped map that fits."""
 
     def body(self) -> HumanBody:
-        """The body."""
+        """Returns the body."""
         mesh = self._mesh()
         try:
             found = fitting_body_map(mesh) if self.map is None else body_map(self.map)

@@ -1,4 +1,4 @@
-"""Files of rigged bodies, each brought into the ground's axes."""
+"""Reading of rigged bodies from files."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from regkit.system.arrays import Array, read_only
 from regkit.system.errors import ConfigError
 
 _EXPORT = {"skin_indices": "skin_i", "skin_weights": "skin_w"}
-"""What anny's own export calls two of the arrays of a mesh file."""
+"""Names of two arrays in an export of anny."""
 
 
 def read_npz_body(path: Path, shape: int) -> SkinnedMesh:
-    """Read a mesh file, or an export of anny, which holds several shapes of one body.
+    """Reads a mesh file, or an export of anny, which has several shapes of one body.
 
     Args:
         path: An ``.npz`` file.
-        shape: Which of the shapes.
+        shape: Index of the shape.
 
     Raises:
         ConfigError: If there is no such shape.
-        DataError: If the file is missing or is no such file.
+        DataError: If the file is missing or is not a mesh.
     """
     mesh = _export(path, shape)
     if mesh is None and shape:
@@ -34,14 +34,14 @@ def read_npz_body(path: Path, shape: int) -> SkinnedMesh:
 
 
 def _export(path: Path, shape: int) -> SkinnedMesh | None:
-    """The shape of an export of anny, or None if the file is not one."""
+    """Returns a shape of an export of anny, or None if the file is not one."""
     try:
         with np.load(path) as file:
             if not {_EXPORT.get(key, key) for key in KEYS} <= set(file.files):
                 return None
             arrays = {key: file[_EXPORT.get(key, key)] for key in KEYS}
     except (OSError, ValueError):
-        # Reading it as a mesh file reports its faults.
+        # Reading it as a mesh file reports what is wrong with the file.
         return None
     count = len(arrays["rest_vertices"])
     if not 0 <= shape < count:
@@ -60,7 +60,7 @@ def _export(path: Path, shape: int) -> SkinnedMesh | None:
 
 
 def turned_mesh(mesh: SkinnedMesh, rotation: Array) -> SkinnedMesh:
-    """The mesh and its bones turned by a ``rotation`` (3, 3) about the origin."""
+    """Returns the mesh and its bones rotated by ``rotation`` (3, 3) about the origin."""
     return replace(
         mesh,
         vertices=mesh.vertices @ rotation.T,

@@ -1,4 +1,4 @@
-"""Which bones of a body follow which joints of a figure, and where its joints are."""
+"""Maps from the bones of a body to the joints of the figure."""
 
 from __future__ import annotations
 
@@ -18,34 +18,33 @@ from regkit_synthesis.figure.names import instead_of, meant
 
 
 class Between(Model):
-    """A bone that turns as something between two joints."""
+    """A bone with a rotation between those of two joints."""
 
     between: tuple[str, str]
-    """The two joints, of which the first is nearer to the pelvis."""
+    """The two joints; the first one is nearer to the pelvis."""
 
     share: float = Field(ge=0.0, le=1.0)
-    """How far the bone is turned from the first one towards the second."""
+    """Fraction of the rotation from the first joint to the second."""
 
     only_twist: bool = False
-    """Whether the bone goes with the first joint, and takes from the second one only its twist
-    about the way to it: a forearm does so with the hand."""
+    """Whether the bone follows the first joint, and only the twist of the second one about the
+    bone, like a forearm and its hand."""
 
 
 class Spot(Model):
-    """A point that a bone carries."""
+    """A point on a bone."""
 
     bone: str
-    """The bone; without anything else, the point is where it starts."""
+    """The bone; by default the point is its origin."""
 
     between: tuple[str, str] | None = None
-    """Two other bones, between whose starts the point lies at rest."""
+    """Two bones; the point is the midpoint of their origins at rest."""
 
     along: float | None = None
-    """How far the point lies from the bone's start along the bone [m]."""
+    """Distance of the point from the bone's origin along the bone [m]."""
 
     crown: float | None = Field(default=None, ge=0.0, le=1.0)
-    """How far the point lies from the bone's start on the way to the mesh's highest vertex, as a
-    share of it."""
+    """Position of the point between the bone's origin (0) and the mesh's highest vertex (1)."""
 
     @model_validator(mode="after")
     def _one_way(self) -> Spot:
@@ -55,25 +54,25 @@ class Spot(Model):
 
 
 class BodyMap(Model):
-    """How a rigged body is a human figure.
+    """A map from the bones of a rigged body to the human figure.
 
-    Bones that are not named follow their parents rigidly.
+    Bones that it does not name follow their parents rigidly.
     """
 
     title: str = ""
-    """Which bodies it is for."""
+    """Description of the bodies that it is for."""
 
     joints: dict[str, str | Spot]
-    """Where the figure's joints are: the bone that starts there, or a ``Spot``. They are the points
-    whose truth is known, and tell how the limbs lie at rest."""
+    """Positions of the figure's joints: the bone with its origin there, or a ``Spot``. They are the
+    joints with ground truth, and define the directions of the limbs at rest."""
 
     bones: dict[str, str | Between]
-    """The joint that each bone turns with. It may be one of a figure, or one that only some source
-    has, such as a finger."""
+    """The joint that each bone follows, of the figure or of a particular source, such as a
+    finger."""
 
     root_scale: Literal["leg"] | float = "leg"
-    """What the way of the hips is multiplied by; ``leg`` is the length of this body's legs over
-    that of the source's."""
+    """Scale of the motion of the hips; ``leg`` is the ratio of the leg lengths of body and
+    source."""
 
     @field_validator("joints")
     @classmethod
@@ -85,7 +84,7 @@ class BodyMap(Model):
         return joints
 
     def landmarks(self, mesh: SkinnedMesh) -> dict[str, Landmark]:
-        """The joints by name, as points that the mesh's bones carry.
+        """Returns the joints by name, as points on the bones of a mesh.
 
         Raises:
             ConfigError: If the mesh lacks a bone.
@@ -94,14 +93,14 @@ class BodyMap(Model):
 
 
 _NEEDED = ("head", *(f"{s}_{j}" for s in ("left", "right") for j in ("hip", "knee", "ankle")))
-"""The joints without which nothing says how a body stands and how long its legs are."""
+"""The joints that every map must have, for the orientation and the leg length of a body."""
 
 
 def bone_of(mesh: SkinnedMesh, label: str) -> int:
-    """The index of the bone named ``label``, whatever its namespace.
+    """Returns the index of the bone named ``label`` in any namespace.
 
     Raises:
-        ConfigError: If there is none.
+        ConfigError: If there is no such bone.
     """
     found = meant(label, mesh.labels)
     if found is None:
@@ -110,19 +109,19 @@ def bone_of(mesh: SkinnedMesh, label: str) -> int:
 
 
 def body_map(name: str) -> BodyMap:
-    """The map of this name that ships, or the one in this YAML file.
+    """Returns the shipped map of a name, or the map in a YAML file.
 
     Raises:
-        RegkitError: If there is none, or it is wrong.
+        RegkitError: If there is no such map, or it is invalid.
     """
     return read_map(BodyMap, "bodies", name)
 
 
 def fitting_body_map(mesh: SkinnedMesh) -> BodyMap:
-    """The first map that ships whose bones a mesh has.
+    """Returns the first shipped map whose bones a mesh has.
 
     Raises:
-        ConfigError: If there is none.
+        ConfigError: If no map fits.
     """
     for name in shipped("bodies"):
         found = body_map(name)
@@ -151,5 +150,5 @@ def _landmark(spot: str | Spot, mesh: SkinnedMesh) -> Landmark:
 
 
 def _start(mesh: SkinnedMesh, label: str) -> Array:
-    """Where a bone starts at rest (3,) [m]."""
+    """Returns the origin (3,) [m] of a bone at rest."""
     return np.array(mesh.rest[bone_of(mesh, label), :3, 3])

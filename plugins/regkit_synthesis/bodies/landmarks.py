@@ -1,4 +1,4 @@
-"""Where the joints of a body lie in its mesh: the points whose truth is known."""
+"""Landmarks: the joints of a body as points on the bones of its mesh."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ _FINGERS = {
 
 @dataclass(frozen=True)
 class Landmark:
-    """A point that a bone carries.
+    """A point on a bone.
 
     Attributes:
         bone: Index of the bone.
-        position: (3,) where the point lies at rest, in the body's frame [m].
+        position: Position at rest in the body frame, (3,) [m].
     """
 
     bone: int
@@ -35,11 +35,11 @@ class Landmark:
 
 
 def hand_landmarks(mesh: SkinnedMesh, side: str = "R") -> dict[str, Landmark]:
-    """The wrist and the 20 joints and tips of the fingers, by name.
+    """Returns the wrist and the 20 joints and tips of the fingers, by name.
 
     Args:
-        mesh: A hand.
-        side: The suffix of its bones: ``R`` or ``L``.
+        mesh: The mesh of a hand.
+        side: Suffix of its bones, ``R`` or ``L``.
     """
     landmarks = {"wrist": Landmark(mesh.bone(f"wrist.{side}"), mesh.origin(f"wrist.{side}"))}
     for number, (finger, joints) in enumerate(_FINGERS.items(), start=1):
@@ -51,7 +51,7 @@ def hand_landmarks(mesh: SkinnedMesh, side: str = "R") -> dict[str, Landmark]:
 
 
 def some_vertices(mesh: SkinnedMesh, vertices: Indices) -> SkinnedMesh:
-    """The skin of a mesh at some of its vertices, (N,) indices, without triangles."""
+    """Returns the mesh with the vertices (N,) only, without triangles."""
     return replace(
         mesh,
         vertices=mesh.vertices[vertices],
@@ -62,7 +62,7 @@ def some_vertices(mesh: SkinnedMesh, vertices: Indices) -> SkinnedMesh:
 
 
 def placed(landmarks: Mapping[str, Landmark], mesh: SkinnedMesh, bone_poses: Array) -> Array:
-    """The landmarks (L, 3) [m] in the world for bone poses ``T_world_bone`` (J, 4, 4)."""
+    """Returns the landmarks (L, 3) [m] in the world for bone poses ``T_world_bone`` (J, 4, 4)."""
     motions = mesh.motions(bone_poses)
     bones = [landmark.bone for landmark in landmarks.values()]
     positions = np.array([landmark.position for landmark in landmarks.values()])
@@ -70,7 +70,7 @@ def placed(landmarks: Mapping[str, Landmark], mesh: SkinnedMesh, bone_poses: Arr
 
 
 def _tip(mesh: SkinnedMesh, bone: int) -> Landmark:
-    """The vertex that lies farthest along ``bone``, among those that follow it most."""
+    """Returns the farthest vertex along ``bone``, among those with the largest weight on it."""
     strongest = np.take_along_axis(mesh.indices, np.argmax(mesh.weights, axis=1)[:, None], axis=1)[
         :, 0
     ]

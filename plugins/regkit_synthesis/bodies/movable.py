@@ -1,4 +1,4 @@
-"""A body that can be moved, whatever it is."""
+"""The interface of bodies that can be animated."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from regkit_synthesis.motion.config import MotionConfig
 
 @dataclass(frozen=True)
 class MovableBody(ABC):
-    """A body with joints whose truth is known.
+    """A body with ground-truth joints.
 
     Attributes:
-        mesh: The body at rest; x to its left, y backward, z up.
+        mesh: The mesh at rest; x to the body's left, y backward, z up.
     """
 
     mesh: SkinnedMesh
@@ -27,24 +27,24 @@ class MovableBody(ABC):
     @property
     @abstractmethod
     def landmarks(self) -> Mapping[str, Landmark]:
-        """The joints whose truth is known, by name."""
+        """Returns the joints with ground truth, by name."""
 
     @abstractmethod
     def moved_by(self, config: MotionConfig | GesturesConfig) -> Callable[[float], Array]:
-        """The bone poses ``T_ground_bone`` (J, 4, 4) at a time [s] of a motion.
+        """Returns the function from a time [s] to bone poses ``T_ground_bone`` (J, 4, 4).
 
         Raises:
-            ConfigError: If this body cannot move so.
+            ConfigError: If the motion does not fit this body.
         """
 
 
 class BodyConfig(Model, ABC):
-    """A body that is to be moved."""
+    """The YAML form of a body."""
 
     @abstractmethod
     def body(self) -> MovableBody:
-        """The body.
+        """Returns the body.
 
         Raises:
-            RegkitError: If its file is missing or wrong, or its map names a bone that it lacks.
+            RegkitError: If its file is missing or invalid, or its map names a bone that it lacks.
         """

@@ -1,4 +1,4 @@
-"""Motion of a source on the bones of a body: every bone turns as its joint does."""
+"""Retargeting of motion to the bones of a body by copying joint rotations."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ from regkit_synthesis.figure.names import instead_of
 from regkit_synthesis.motion.motion import Motion, Rig, SourcePose
 
 _LOOKS = 40
-"""How often in a motion the lowest point of the skin is looked for."""
+"""Number of times in a motion at which the lowest point of the skin is searched."""
 
 
 @dataclass(frozen=True)
 class Retarget:
-    """Turns poses of a source into bone poses of a body.
+    """Converts poses of a motion source to bone poses of a body.
 
     Attributes:
-        mesh: The body; x to its left, y backward, z up.
-        followers: What each of the J bones follows; None where it is carried by its parent.
-        scale: What the way of the hips is multiplied by.
-        hips: (3,) from the first bone's start to the middle of the hips at rest [m].
-        lift: How much higher than that the body is placed [m].
+        mesh: The mesh; x to the body's left, y backward, z up.
+        followers: Follower of each of the J bones; None for a bone that is fixed to its parent.
+        scale: Scale of the motion of the hips.
+        hips: Vector from the first bone's origin to the centre of the hips at rest, (3,) [m].
+        lift: Vertical offset of the body [m].
     """
 
     mesh: SkinnedMesh
@@ -41,10 +41,11 @@ class Retarget:
 
     @classmethod
     def of(cls, rig: Rig, mesh: SkinnedMesh, body: BodyMap) -> Retarget:
-        """Measure a source and a body.
+        """Returns the retargeting from a source to a body.
 
         Raises:
-            ConfigError: If the map names a bone that the body, or a joint that the source lacks.
+            ConfigError: If the map names a bone that the body lacks, or a joint that the source
+                lacks.
         """
         places = {name: mark.position for name, mark in body.landmarks(mesh).items()}
         fit = _Fit(rig, mesh, places, straightening(places, rig.figure))
@@ -61,7 +62,7 @@ class Retarget:
         return cls(mesh, tuple(followers), scale, middle - mesh.rest[0, :3, 3])
 
     def bone_poses(self, pose: SourcePose) -> Array:
-        """The bone poses ``T_ground_bone`` (J, 4, 4)."""
+        """Returns the bone poses ``T_ground_bone`` (J, 4, 4)."""
         turns = np.zeros((len(self.followers), 3, 3))
         for bone, follower in enumerate(self.followers):
             carried = turns[self.mesh.parents[bone]]
@@ -73,18 +74,18 @@ class Retarget:
 def retargeted(
     motion: Motion, mesh: SkinnedMesh, body: BodyMap, *, grounded: bool = False
 ) -> Callable[[float], Array]:
-    """The bone poses ``T_ground_bone`` (J, 4, 4) of a body at a time [s] of a motion.
+    """Returns the function from a time [s] to bone poses ``T_ground_bone`` (J, 4, 4).
 
     Args:
         motion: The motion.
-        mesh: The body; x to its left, y backward, z up.
-        body: Which of its bones follow what.
-        grounded: Whether the body is raised or lowered, once for the whole motion, so that the
-            lowest point which its skin reaches lies on the ground, at z = 0. Otherwise the height
-            of its hips is the source's, by the length of their legs.
+        mesh: The mesh; x to the body's left, y backward, z up.
+        body: Map from its bones to the figure.
+        grounded: Whether to shift the body vertically, by a constant, so that the lowest point of
+            its skin over the whole motion is at z = 0. Otherwise the height of its hips is that of
+            the source, scaled by the length of the legs.
 
     Raises:
-        ConfigError: If the map names a bone that the body, or a joint that the source lacks.
+        ConfigError: If the map names a bone that the body lacks, or a joint that the source lacks.
     """
     retarget = Retarget.of(motion.rig, mesh, body)
     if grounded:
@@ -95,16 +96,15 @@ def retargeted(
 
 
 def straightening(body: Mapping[str, Array], source: Mapping[str, Array]) -> dict[str, Array]:
-    """What turns each segment (3, 3) of a body at rest into the direction of the source's at rest.
+    """Returns the rotation (3, 3) of each segment from the body's rest to the source's rest.
 
-    A segment of a limb is turned with the one before it and then, the shortest way, into the
-    source's direction: so an elbow bends about its own axis, and a forearm is not twisted. The
-    trunk stays as it is. So does a sole, which is level on both: a foot only turns about the
-    vertical.
+    A limb segment rotates with its parent and then, by the smallest rotation, to the direction of
+    the source's segment, so that an elbow bends about its own axis and a forearm does not twist.
+    The trunk is unchanged. A foot rotates about the vertical only, since both soles are level.
 
     Args:
-        body: (3,) where the joints of the figure are at rest [m], as far as they are known.
-        source: (3,) the same of the source.
+        body: Positions (3,) [m] at rest of the figure's joints that the body has.
+        source: The same of the source.
     """
     turns: dict[str, Array] = {}
     for joint, parent in FIGURE.items():
@@ -128,9 +128,9 @@ _LEVEL = np.array([1.0, 1.0, 0.0])
 def _aimed(
     joint: str, end: str, body: Mapping[str, Array], source: Mapping[str, Array], parts: Array
 ) -> Array:
-    """What turns (3, 3) the way from ``joint`` to ``end`` of a body into the source's.
+    """Returns the rotation (3, 3) from the body's direction ``joint`` to ``end`` to the source's.
 
-    Only the ``parts`` (3,) of the ways that are one count, not those that are zero.
+    Only the components where ``parts`` (3,) is one are used.
     """
     ways = [
         (places[end] - places[joint]) * parts
@@ -144,13 +144,13 @@ def _aimed(
 
 @dataclass(frozen=True)
 class _Fit:
-    """A source and a body that are fitted to each other.
+    """A source and a body with matched rest poses.
 
     Attributes:
         rig: The source.
-        mesh: The body.
-        places: (3,) where the joints of the figure are on the body at rest [m].
-        straight: (3, 3) what turns each segment of the body into the source's direction.
+        mesh: The mesh of the body.
+        places: Positions (3,) [m] of the figure's joints on the body at rest.
+        straight: Rotation (3, 3) of each segment of the body to the source's direction.
     """
 
     rig: Rig
@@ -159,10 +159,10 @@ class _Fit:
     straight: Mapping[str, Array]
 
     def follower(self, bone: int, followed: str | Between) -> Follower:
-        """What a bone turns with, by what the map says.
+        """Returns the follower of a bone as its map defines it.
 
         Raises:
-            ConfigError: If neither a figure nor the source has such a joint.
+            ConfigError: If neither the figure nor the source has the joint.
         """
         if isinstance(followed, str):
             return self._segment(bone, followed)

@@ -1,8 +1,9 @@
-"""Motion of a human figure: where it comes from, and how it is played.
+"""Motion of a human figure: sources of motion, and their playback.
 
-A source is a clip (``clip``), a BVH file (``bvh``), an animation in a glTF file (``gltf``) or poses
-that somebody wrote down (``keyframes``). The first three are sampled motions, which ``mending``
-repairs; ``shipped`` lists those that ship, and ``config`` is what a user writes.
+A source is a clip (``clip``), a BVH file (``bvh``), an animation in a glTF file (``gltf``) or
+keyframes (``keyframes``). The first three are sampled motions (``sampled``), which ``mending``
+repairs. ``played`` changes speed and place, ``shipped`` lists the shipped motions, and ``config``
+is the YAML form.
 """
 
 from regkit_synthesis.motion.config import AnyMotion, ClipConfig, MotionConfig

@@ -1,4 +1,4 @@
-"""Motion from a BVH file."""
+"""Motion from BVH files."""
 
 from __future__ import annotations
 
@@ -18,20 +18,21 @@ from regkit_synthesis.motion.sampled import SampledMotion, recorded
 def read_bvh(
     path: Path, *, scale: float = 1.0, skip: int = 0, map_name: str | None = None
 ) -> SampledMotion:
-    """Read a BVH file, at rest where all its angles are zero.
+    """Reads a BVH file, whose rest pose has all angles zero.
 
-    Its hips and its head at rest tell where front and up are.
+    The front and up directions follow from the positions of hips and head at rest.
 
     Args:
         path: The file.
-        scale: Its unit of length [m]. A body's way is measured by its own legs, so that this
-            matters only to who asks where the source is.
-        skip: How many frames at the beginning are left out.
-        map_name: A map of its joints that ships, or a YAML file; without it, the first that fits.
+        scale: Unit of length of the file [m]. Bodies scale motion by the length of their legs, so
+            it affects the positions of the source only.
+        skip: Number of frames to skip at the beginning.
+        map_name: Name of a shipped joint map, or a YAML file; by default the first map that fits.
 
     Raises:
         ConfigError: If the map names a joint that the file lacks.
-        DataError: If the file is missing or wrong, or has not two frames after those left out.
+        DataError: If the file is missing or invalid, or has fewer than two frames after the
+            skipped ones.
     """
     bvh = Bvh.read(path, scale=scale)
     if len(bvh.frames) < skip + 2:
@@ -49,7 +50,7 @@ def read_bvh(
 
 
 def _rig(bvh: Bvh, map_name: str | None, path: Path) -> tuple[Rig, Array]:
-    """The joints at rest, and what turns (3, 3) the file's axes into the ground's."""
+    """Returns the joints at rest, and the rotation (3, 3) from the file's axes to the ground's."""
     places = dict(zip(bvh.names, bvh.rest_positions, strict=True))
     for joint in bvh.joints:
         for end in joint.ends[:1]:

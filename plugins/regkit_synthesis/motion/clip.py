@@ -1,4 +1,4 @@
-"""Recorded body motion in the JSON format of DeepMimic and pybullet's humanoid."""
+"""Motion clips in the JSON format of DeepMimic and pybullet's humanoid."""
 
 from __future__ import annotations
 
@@ -33,14 +33,14 @@ _PARENTS = {
     "left_shoulder": "chest",
     "left_elbow": "left_shoulder",
 }
-"""The joints in the order of the file, and their parents. All rotations are zero where the
-character stands upright with its arms hanging straight down."""
+"""The joints in file order, and their parents. At rest the character stands upright with its arms
+hanging straight down."""
 
 _HINGES = frozenset({"right_knee", "right_elbow", "left_knee", "left_elbow"})
-"""Joints with one angle about z, to the character's right; all others have a quaternion w x y z."""
+"""Joints with one angle about z, the character's right; all others have a quaternion w x y z."""
 
 _ROW = 44
-"""Numbers in a row: duration, root position, then the rotations."""
+"""Number of values in a row: duration, root position, rotations."""
 
 
 _PARTS = {
@@ -53,17 +53,18 @@ _PARTS = {
         for joint in ("hip", "knee", "ankle", "foot", "shoulder", "elbow", "wrist")
     },
 }
-"""What the joints are of a figure: the one called neck moves the head. Feet and wrists are ends."""
+"""Joint of the clip for each joint of the figure: its neck moves the head. Feet and wrists are
+ends."""
 
 RIG = Rig(_PARENTS, {own: STANDING[joint] for joint, own in _PARTS.items()}, _PARTS)
 """The character of the clips."""
 
 
 def read_clip(path: Path) -> SampledMotion:
-    """Read a clip; the end of a looping one is bent a little so that it meets its beginning.
+    """Reads a clip; the end of a looping one is adjusted slightly to match its beginning.
 
     Raises:
-        DataError: If the file is missing or is not such a clip.
+        DataError: If the file is missing or is not a clip.
     """
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
@@ -90,9 +91,9 @@ def read_clip(path: Path) -> SampledMotion:
 
 
 def with_arms_turned_out(clip: SampledMotion, angle: float) -> SampledMotion:
-    """The clip with both upper arms turned outward about themselves by ``angle`` [rad].
+    """Returns the clip with both upper arms rotated outward about their axes by ``angle`` [rad].
 
-    The clips' character is slim: the bent arms of another body may go through its trunk.
+    The character of the clips is slim; bent arms of other bodies could intersect the trunk.
     """
     joints = clip.joints.copy()
     for joint, sense in (("right_shoulder", -1.0), ("left_shoulder", 1.0)):
@@ -103,7 +104,7 @@ def with_arms_turned_out(clip: SampledMotion, angle: float) -> SampledMotion:
 
 
 def _joints(numbers: Array) -> Array:
-    """The rotations (F, 13, 4) of the columns (F, 40) that follow the root's position."""
+    """Returns the rotations (F, 13, 4) of the columns (F, 40) after the root's position."""
     joints = np.tile(IDENTITY, (len(numbers), len(_PARENTS), 1))
     column = 0
     for index, joint in enumerate(_PARENTS):

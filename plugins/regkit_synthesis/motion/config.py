@@ -1,4 +1,4 @@
-"""What a user writes about a motion."""
+"""The YAML form of motions."""
 
 from __future__ import annotations
 
@@ -22,32 +22,32 @@ from regkit_synthesis.motion.shipped import BVH, CLIPS, KEYFRAMES, shipped_clip
 
 
 class MotionConfig(Model, ABC):
-    """A motion and how it is played."""
+    """A motion and its playback."""
 
     start: float = Field(default=0.0, ge=0.0)
-    """Where in the motion time begins [s]."""
+    """Start time within the motion [s]."""
 
     speed: float = Field(default=1.0, gt=0.0)
-    """How fast it is played; 1 is as recorded."""
+    """Playback speed; 1 is the recorded speed."""
 
     way: float = Field(default=1.0, ge=0.0, le=1.0)
-    """The share of its mean velocity that is kept: with 0 a walk stays on the spot, as on a
+    """Fraction of the mean velocity that is kept; with 0 a walk stays in place, as on a
     treadmill."""
 
     ahead: bool = True
-    """Whether it is placed so that at its beginning the hips are above the origin and face forward;
-    otherwise it takes place where it was recorded."""
+    """Whether to place the motion so that the hips start above the origin and face forward;
+    otherwise it has the recorded position."""
 
     grounded: bool = True
-    """Whether the lowest point that the body's skin reaches in the whole motion is put on the
-    ground; otherwise the hips are as high as those of the source, by the length of their legs."""
+    """Whether to put the lowest point of the body's skin over the whole motion on the ground;
+    otherwise the height of the hips is that of the source, scaled by the length of the legs."""
 
     def motion(self) -> Motion:
-        """The motion as it is to be played.
+        """Returns the motion with its playback.
 
         Raises:
-            RegkitError: If its file is missing or wrong, a name in it is unknown, or it ends before
-                it starts.
+            RegkitError: If its file is missing or invalid, a name in it is unknown, or it ends
+                before ``start``.
         """
         source = self.source()
         if not source.loops and self.start >= source.duration:
@@ -59,35 +59,35 @@ class MotionConfig(Model, ABC):
 
     @abstractmethod
     def source(self) -> Motion:
-        """The motion as it was recorded."""
+        """Returns the motion as recorded."""
 
 
 class RecordedConfig(MotionConfig, ABC):
-    """A motion of a sampled motion."""
+    """A recorded motion."""
 
     repeated: bool = False
-    """Whether a motion that was not recorded to loop is bent to go on from its beginning."""
+    """Whether to adjust a motion that does not loop so that it continues from its beginning."""
 
     def source(self) -> SampledMotion:
-        """The sampled motion."""
+        """Returns the recorded motion, looped if required."""
         sampled = self.sampled()
         return sampled.looped() if self.repeated else sampled
 
     @abstractmethod
     def sampled(self) -> SampledMotion:
-        """The sampled motion as it is in its file."""
+        """Returns the recorded motion as in its file."""
 
 
 class ClipConfig(RecordedConfig):
-    """A clip of pybullet's humanoid or of DeepMimic: one that ships, or a file."""
+    """A clip of pybullet's humanoid or DeepMimic, shipped or in a file."""
 
     kind: Literal["clip"] = "clip"
 
     name: str | None = None
-    """A clip that ships with regkit."""
+    """Name of a shipped clip."""
 
     path: InputPath | None = None
-    """A file of such a clip."""
+    """File of a clip."""
 
     @model_validator(mode="after")
     def _one_of_them(self) -> ClipConfig:
@@ -95,12 +95,12 @@ class ClipConfig(RecordedConfig):
         return self
 
     def sampled(self) -> SampledMotion:
-        """The clip; one that ships is mended."""
+        """Returns the clip; defects of shipped clips are repaired."""
         return read_clip(self.path) if self.path else shipped_clip(self.name or "")
 
 
 class BvhConfig(RecordedConfig):
-    """A BVH file: one that ships, or the user's."""
+    """A BVH motion, shipped or in a file."""
 
     kind: Literal["bvh"] = "bvh"
 
@@ -111,16 +111,16 @@ class BvhConfig(RecordedConfig):
     """A BVH file."""
 
     scale: float = Field(default=0.01, gt=0.0)
-    """Its unit of length [m]. The way of a body is measured by its own legs, so that this changes
-    nothing unless the body's map declares a ``root_scale``."""
+    """Unit of length of the file [m]. Motion is scaled by the length of the legs, so this has an
+    effect only if the body's map declares a ``root_scale``."""
 
     skip: int = Field(default=0, ge=0)
-    """How many frames are left out at the beginning; 1 for files that begin with an added T-pose,
-    as cgspeed's of CMU's recordings."""
+    """Number of frames to skip at the beginning; 1 for files that begin with an added T-pose, such
+    as cgspeed's conversion of the CMU recordings."""
 
     map: MapName | None = None
-    """Which of its joints are those of a figure: the name of a map that ships (``cmu``, ``mixamo``,
-    ``biovision``), or a YAML file. Without it, the first map that ships whose joints it has."""
+    """Map from its joints to the figure: the name of a shipped map (``cmu``, ``mixamo``,
+    ``biovision``), or a YAML file; by default the first shipped map that fits."""
 
     @model_validator(mode="after")
     def _one_of_them(self) -> BvhConfig:
@@ -128,7 +128,7 @@ class BvhConfig(RecordedConfig):
         return self
 
     def sampled(self) -> SampledMotion:
-        """The motion of the file."""
+        """Returns the motion in the file."""
         path = self.path or BVH.path(self.name or "")
         return read_bvh(path, scale=self.scale, skip=self.skip, map_name=self.map)
 
@@ -142,19 +142,19 @@ class GltfConfig(RecordedConfig):
     """A ``.glb`` or ``.gltf`` file."""
 
     animation: str | None = None
-    """The animation's name in the file; without it, the file must hold one only."""
+    """Name of the animation; required if the file has several."""
 
     map: MapName | None = None
-    """Which of its joints are those of a figure: the name of a map that ships (``mixamo``,
-    ``cesium_man``), or a YAML file. Without it, the first map that ships whose joints it has."""
+    """Map from its joints to the figure: the name of a shipped map (``mixamo``, ``cesium_man``), or
+    a YAML file; by default the first shipped map that fits."""
 
     def sampled(self) -> SampledMotion:
-        """The animation."""
+        """Returns the animation."""
         return read_gltf(self.path, animation=self.animation, map_name=self.map)
 
 
 class KeyframesConfig(MotionConfig):
-    """Poses that somebody wrote down: ones that ship, a file, or right here."""
+    """A motion through keyframes, shipped, in a file, or inline."""
 
     kind: Literal["keyframes"] = "keyframes"
 
@@ -162,13 +162,13 @@ class KeyframesConfig(MotionConfig):
     """A motion that ships with regkit."""
 
     path: InputPath | None = None
-    """A YAML file with ``frames``, and perhaps ``title`` and ``loops``."""
+    """A YAML file with ``frames``, and optionally ``title`` and ``loops``."""
 
     frames: tuple[Keyframe, ...] | None = None
     """The poses, in the order of their times."""
 
     loops: bool = False
-    """Whether ``frames`` go on from their beginning when they end."""
+    """Whether ``frames`` repeat."""
 
     @model_validator(mode="after")
     def _one_of_them(self) -> KeyframesConfig:
@@ -183,7 +183,7 @@ class KeyframesConfig(MotionConfig):
         return self
 
     def source(self) -> KeyframedMotion:
-        """The motion between the poses."""
+        """Returns the motion through the keyframes."""
         if self.frames is not None:
             return Keyframes(frames=self.frames, loops=self.loops).motion()
         path = self.path or KEYFRAMES.path(self.name or "")

@@ -1,4 +1,4 @@
-"""Motion from an animation in a glTF file."""
+"""Motion from animations in glTF files."""
 
 from __future__ import annotations
 
@@ -17,24 +17,24 @@ from regkit_synthesis.motion.motion import Rig
 from regkit_synthesis.motion.sampled import SampledMotion, recorded
 
 _STEP = 1.0 / 60.0
-"""An animation is read at its keyframes, and wherever they are farther apart than this [s]."""
+"""Maximum time between samples of an animation, which is sampled at its keyframes [s]."""
 
 
 def read_gltf(
     path: Path, *, animation: str | None = None, map_name: str | None = None
 ) -> SampledMotion:
-    """Read an animation of a rigged body, at rest as its mesh is bound to its bones.
+    """Reads an animation of a rigged body, whose rest pose is the bind pose of its mesh.
 
-    Its hips and its head at rest tell where front and up are.
+    The front and up directions follow from the positions of hips and head at rest.
 
     Args:
         path: A ``.glb`` or ``.gltf`` file.
-        animation: Its name in the file; without it, the file must hold one only.
-        map_name: A map of its joints that ships, or a YAML file; without it, the first that fits.
+        animation: Name of the animation; required if the file has several.
+        map_name: Name of a shipped joint map, or a YAML file; by default the first map that fits.
 
     Raises:
         ConfigError: If there is no such animation, or the map names a joint that the file lacks.
-        DataError: If the file is missing or wrong, or holds no animation.
+        DataError: If the file is missing or invalid, or has no animation.
     """
     body = RiggedBody.read(path)
     try:

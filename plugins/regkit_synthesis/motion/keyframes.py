@@ -1,4 +1,4 @@
-"""Motion from a few poses that somebody wrote down: keyframes."""
+"""Motion through keyframes."""
 
 from __future__ import annotations
 
@@ -18,27 +18,27 @@ from regkit_synthesis.figure.standing import STANDING
 from regkit_synthesis.motion.motion import Motion, Rig, SourcePose
 
 _ANKLE = 0.09
-"""Height of the ankles of a figure that stands [m]."""
+"""Height of the ankles of a standing figure [m]."""
 
 Triple = tuple[float, float, float]
 
 
 class Keyframe(Model):
-    """A pose at a time. What it does not name goes on between the frames that name it."""
+    """A pose at a time. Joints that it does not name are interpolated between other keyframes."""
 
     time: float = Field(ge=0.0)
-    """When [s]."""
+    """Time [s]."""
 
     joints: dict[str, Triple] = Field(default_factory=dict)
-    """Angles [deg] of a figure's joints about its parent's x (to its left), y (to its back) and z
-    (up); all are zero where it stands with its arms hanging. A limb is turned about itself by z
-    first, then lifted sideways by y, then swung by x. Positive about x tips forward what stands: a
-    bent knee is positive, a raised thigh and a bent elbow are negative. A left arm is lifted
-    sideways by a negative y, a right one by a positive one."""
+    """Angles [deg] of the figure's joints about the parent's x (left), y (backward) and z (up); all
+    are zero when it stands with hanging arms. The rotation about z (along the limb) is applied
+    first, then y (sideways), then x (forward and backward). A bent knee has a positive x, a raised
+    thigh and a bent elbow a negative x. A left arm is lifted sideways by a negative y, a right arm
+    by a positive y."""
 
     feet: Triple | None = None
-    """Where the middle between the ankles is, and how high above the ground the lower foot [m]; on
-    the spot, where no frame says so."""
+    """Position of the midpoint between the ankles, and height of the lower foot above the ground
+    [m]; by default the figure stays in place."""
 
     @field_validator("joints")
     @classmethod
@@ -48,13 +48,13 @@ class Keyframe(Model):
 
 
 class Keyframes(Model):
-    """Poses between which a figure moves smoothly; it rests in the first and the last one."""
+    """Keyframes with smooth motion in between, at rest in the first and the last one."""
 
     title: str = ""
     """What it does."""
 
     loops: bool = False
-    """Whether it goes on from its beginning, which must then be its end."""
+    """Whether the motion repeats; the first and the last keyframe must then be the same."""
 
     frames: tuple[Keyframe, ...] = Field(min_length=2)
     """The poses, in the order of their times."""
@@ -84,7 +84,7 @@ class Keyframes(Model):
             raise ValueError("a motion that loops must end at the height at which it begins")
 
     def motion(self) -> KeyframedMotion:
-        """The motion between them."""
+        """Returns the motion through the keyframes."""
         joints = dict.fromkeys(joint for frame in self.frames for joint in frame.joints)
         curves = {
             joint: _curve([(f.time, f.joints[joint]) for f in self.frames if joint in f.joints])
@@ -102,18 +102,18 @@ RIG = Rig(FIGURE, STANDING, {joint: joint for joint in FIGURE})
 
 @dataclass(frozen=True)
 class KeyframedMotion(Motion):
-    """A figure that goes through keyframes.
+    """A motion through keyframes.
 
-    Each angle is interpolated for itself, without going beyond the frames' (monotone cubics), so
-    that a whole turn is a turn. The feet carry the body: the lower one stays on the ground, though
-    it may slide there, for it is the middle between both ankles that is held.
+    Each angle is interpolated separately by monotone cubics, which do not overshoot, so angles may
+    exceed a full turn. The lower foot stays on the ground. It may slide, because the midpoint
+    between the ankles is fixed.
 
     Source: Fritsch, Carlson, Monotone Piecewise Cubic Interpolation, SIAM J. Numer. Anal. 17, 1980.
 
     Attributes:
-        length: Time of the last frame [s].
-        curves: Angles (3,) [deg] of each joint at a time [s], as far as they are not zero.
-        feet: Where the feet are (3,) [m] at a time [s].
+        length: Time of the last keyframe [s].
+        curves: Functions from a time [s] to angles (3,) [deg], by joint; other joints are at rest.
+        feet: Function from a time [s] to the position of the feet (3,) [m].
     """
 
     length: float
@@ -122,11 +122,11 @@ class KeyframedMotion(Motion):
 
     @property
     def duration(self) -> float:
-        """The time of the last frame [s]."""
+        """Time of the last keyframe [s]."""
         return self.length
 
     def at(self, time: float) -> SourcePose:
-        """The pose at ``time`` [s]."""
+        """Returns the pose at ``time`` [s]."""
         cycle = np.floor(time / self.length) if self.loops else 0.0
         within = float(np.clip(time - cycle * self.length, 0.0, self.length))
         rotations: dict[str, Array] = {}
@@ -139,7 +139,7 @@ class KeyframedMotion(Motion):
 
 
 def _curve(keys: list[tuple[float, Triple]]) -> PchipInterpolator:
-    """What goes through the values of the keys, at rest in the first and the last one."""
+    """Returns the interpolation of keyframe values, at rest in the first and the last one."""
     times = [time for time, _ in keys]
     values = [value for _, value in keys]
     # The value is the same before the first key and after the last one, where it comes to rest.
@@ -148,13 +148,13 @@ def _curve(keys: list[tuple[float, Triple]]) -> PchipInterpolator:
 
 
 def _turned(angles: Array) -> Array:
-    """The rotation (3, 3) by angles (3,) [deg] about x, y and z, of which z is applied first."""
+    """Returns the rotation (3, 3) by angles (3,) [deg] about z, then y, then x."""
     x, y, z = vector_to_matrix(np.diag(np.radians(angles)))
     return np.asarray(x @ y @ z)
 
 
 def _below(rotations: Mapping[str, Array]) -> Array:
-    """From the hips (3,) to the middle of the ankles, at the ground under the lower foot [m]."""
+    """Returns the vector (3,) [m] from the hips to the ground below the midpoint of the ankles."""
     ankles = []
     for side in ("left", "right"):
         hip, knee, ankle = (STANDING[f"{side}_{joint}"] for joint in ("hip", "knee", "ankle"))

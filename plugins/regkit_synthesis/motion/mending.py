@@ -1,4 +1,4 @@
-"""Mends recorded joint rotations: jumps, ends that do not meet, jitter."""
+"""Repair of recorded joint rotations: discontinuities, open loops, jitter."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from regkit.geometry.rotation import conjugate, from_vector, product, to_vector
 from regkit.system.arrays import Array
 
 _CLOSING = 1.0 / 3.0
-"""The last part of a looping clip that is bent so that its end meets its beginning."""
+"""Fraction at the end of a looping clip that is adjusted to match its beginning."""
 
 _BRIDGE = 0.35
-"""How far to both sides of a jump a clip is bent to bridge it [s]."""
+"""Time on both sides of a discontinuity within which a clip is adjusted [s]."""
 
 
 def interpolated(start: Array, end: Array, share: float | Array) -> Array:
-    """Unit quaternions (..., 4) on the shortest way from ``start`` to ``end`` (slerp).
+    """Returns the spherical linear interpolation (..., 4) of unit quaternions (slerp).
 
     Source: Shoemake, Animating Rotation with Quaternion Curves, SIGGRAPH 1985.
     """
@@ -23,14 +23,14 @@ def interpolated(start: Array, end: Array, share: float | Array) -> Array:
 
 
 def bridged(times: Array, joints: Array, row: int) -> Array:
-    """The rotations without the jump between ``row`` and the next.
+    """Returns the rotations (F, J, 4) without the discontinuity after ``row``.
 
-    Both sides are bent towards each other, so that this step becomes the mean of its neighbours.
+    Both sides are adjusted so that this step becomes the mean of the adjacent ones.
 
     Args:
-        times: (F,) time of each row [s].
-        joints: (F, J, 4) unit quaternions.
-        row: The last one before the jump.
+        times: Time of each row, (F,) [s].
+        joints: Unit quaternions, (F, J, 4).
+        row: The last row before the discontinuity.
     """
     steps = to_vector(product(conjugate(joints[:-1]), joints[1:]))
     jump = steps[row] - (steps[row - 1] + steps[row + 1]) / 2
@@ -41,18 +41,18 @@ def bridged(times: Array, joints: Array, row: int) -> Array:
 
 
 def closing(times: Array) -> Array:
-    """How much (F,) of the gap at the end of a clip is closed at ``times`` (F,): at last, all."""
+    """Returns the fraction (F,) of the gap of an open loop that is closed at ``times`` (F,) [s]."""
     return smooth_step((times / times[-1] - 1.0) / _CLOSING + 1.0)
 
 
 def closed(times: Array, joints: Array) -> Array:
-    """Rotations (F, J, 4) bent smoothly over the last part of the clip, to end as they begin."""
+    """Returns rotations (F, J, 4) adjusted over the end of the clip to match its beginning."""
     gap = to_vector(product(conjugate(joints[-1]), joints[0]))
     return product(joints, from_vector(closing(times)[:, None, None] * gap))
 
 
 def smoothed(joints: Array) -> Array:
-    """Rotations (F, J, 4) drawn halfway to the mean of those before and after; the ends stay."""
+    """Returns rotations (F, J, 4) averaged with the mean of their neighbours; the ends are kept."""
     before = to_vector(product(conjugate(joints[1:-1]), joints[:-2]))
     after = to_vector(product(conjugate(joints[1:-1]), joints[2:]))
     inner = product(joints[1:-1], from_vector((before + after) / 4.0))
@@ -60,6 +60,6 @@ def smoothed(joints: Array) -> Array:
 
 
 def smooth_step(phase: Array) -> Array:
-    """From 0 to 1 as the phase (...) does, without a jump in its rate of change."""
+    """Returns a smooth step from 0 to 1 of the phase (...), with continuous derivative."""
     within = np.clip(phase, 0.0, 1.0)
     return np.asarray(within * within * (3.0 - 2.0 * within))

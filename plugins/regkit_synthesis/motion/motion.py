@@ -1,4 +1,4 @@
-"""The motion of a figure, whatever it comes from."""
+"""The interface of motions of a figure."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from regkit_synthesis.figure.figure import FIGURE
 
 @dataclass(frozen=True)
 class Rig:
-    """The joints of a source of motion, as it stands at rest.
+    """The joints of a motion source at rest.
 
     The axes are the ground's: x to the figure's left, y backward, z up.
 
     Attributes:
-        parents: Each joint's parent, which stands before it; empty for the root.
-        places: (3,) where each joint and each end of a limb is at rest [m].
-        parts: The source's joint for each joint of the figure that it has.
+        parents: Parent of each joint, parents before children; empty for the root.
+        places: Position (3,) [m] of each joint and end of a limb at rest.
+        parts: Joint of the source for each joint of the figure that it has.
     """
 
     parents: Mapping[str, str]
@@ -29,10 +29,10 @@ class Rig:
     parts: Mapping[str, str]
 
     def moving(self, joint: str) -> str | None:
-        """The source's joint that moves ``joint``: a joint of the figure, or one of its own.
+        """Returns the joint of the source that moves ``joint``, of the figure or the source.
 
-        A joint of the figure that the source does not have moves with the one before it. None means
-        that there is no joint of this name at all.
+        A joint of the figure that the source lacks moves with its parent. Returns None if there is
+        no such joint.
         """
         while joint in FIGURE:
             own = self.parts.get(joint)
@@ -43,18 +43,17 @@ class Rig:
 
     @property
     def figure(self) -> dict[str, Array]:
-        """Where the joints of the figure are at rest (3,) [m], as far as the source has them."""
+        """Positions (3,) [m] at rest of the figure's joints that the source has."""
         return {joint: self.places[own] for joint, own in self.parts.items()}
 
 
 @dataclass(frozen=True)
 class SourcePose:
-    """One pose of a source.
+    """A pose of a motion source.
 
     Attributes:
-        root: (3,) the middle of the hips in ground axes [m].
-        rotations: Rotation (3, 3) ``R_ground_joint`` of each of the source's joints; all are the
-            identity at rest.
+        root: Centre of the hips in ground axes, (3,) [m].
+        rotations: ``R_ground_joint`` (3, 3) by joint of the source; the identity at rest.
     """
 
     root: Array
@@ -63,11 +62,11 @@ class SourcePose:
 
 @dataclass(frozen=True)
 class Motion(ABC):
-    """A motion that can be asked for any time.
+    """A motion, a function of time.
 
     Attributes:
-        rig: The joints that move.
-        loops: Whether it goes on from its beginning when it ends.
+        rig: The joints of the source.
+        loops: Whether the motion repeats.
     """
 
     rig: Rig
@@ -76,18 +75,18 @@ class Motion(ABC):
     @property
     @abstractmethod
     def duration(self) -> float:
-        """From its beginning to its end [s]."""
+        """Duration of the motion [s]."""
 
     @abstractmethod
     def at(self, time: float) -> SourcePose:
-        """The pose at ``time`` [s].
+        """Returns the pose at ``time`` [s].
 
-        A motion that loops goes on from where it ends, so that a walk walks on; another one holds
-        its first pose before it and its last pose after it.
+        A looping motion continues from its end position, so that a walk walks on. Others are
+        constant before their beginning and after their end.
         """
 
     @property
     def velocity(self) -> Array:
-        """The mean velocity of the hips (3,) along the ground [m/s]."""
+        """Returns the mean velocity (3,) of the hips along the ground [m/s]."""
         way = self.at(self.duration).root - self.at(0.0).root
         return np.asarray(way / self.duration * [1.0, 1.0, 0.0])

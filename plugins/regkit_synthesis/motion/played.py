@@ -1,4 +1,4 @@
-"""Motions that are played, or placed, in another way than they were recorded."""
+"""Changes of the speed and the place of motions."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from regkit_synthesis.motion.motion import Motion, SourcePose
 
 @dataclass(frozen=True)
 class Played(Motion):
-    """A motion that is played in another way.
+    """A motion with another start, speed or velocity.
 
     Attributes:
         motion: The motion.
-        start: Where in it time begins [s].
-        speed: How fast it is played; 1 is as recorded.
-        taken_out: Velocity (3,) that is taken out of it, as on a treadmill [m/s].
+        start: Start time within the motion [s].
+        speed: Playback speed; 1 is the recorded speed.
+        taken_out: Velocity (3,) that is subtracted, as on a treadmill [m/s].
     """
 
     motion: Motion
@@ -29,34 +29,34 @@ class Played(Motion):
 
     @classmethod
     def of(cls, motion: Motion, start: float = 0.0, speed: float = 1.0, way: float = 1.0) -> Played:
-        """``motion`` of whose mean velocity only the share ``way`` is kept."""
+        """Returns the motion with the fraction ``way`` of its mean velocity."""
         taken_out = (1.0 - way) * motion.velocity
         return cls(motion.rig, motion.loops, motion, start, speed, taken_out)
 
     @property
     def duration(self) -> float:
-        """From where it begins to its end [s], as it is played; of a loop, once around."""
+        """Duration at the playback speed [s]; of one period if it loops."""
         begin = 0.0 if self.loops else self.start
         return (self.motion.duration - begin) / self.speed
 
     def at(self, time: float) -> SourcePose:
-        """The pose at ``time`` [s] of the motion as it is played."""
+        """Returns the pose at ``time`` [s] at the playback speed."""
         played = self.speed * time
         pose = self.motion.at(self.start + played)
         if not self.loops:
-            # Where it holds its first or its last pose, it stays there.
+            # The motion is constant before its beginning and after its end.
             played = float(np.clip(played, -self.start, self.motion.duration - self.start))
         return SourcePose(pose.root - played * self.taken_out, pose.rotations)
 
 
 @dataclass(frozen=True)
 class Placed(Motion):
-    """A motion that takes place elsewhere on the ground.
+    """A motion at another place on the ground.
 
     Attributes:
         motion: The motion.
-        rotation: (3, 3) turns it about the vertical through the origin.
-        shift: (3,) along the ground, after that [m].
+        rotation: Rotation about the vertical axis through the origin, (3, 3).
+        shift: Translation along the ground after the rotation, (3,) [m].
     """
 
     motion: Motion
@@ -65,7 +65,7 @@ class Placed(Motion):
 
     @classmethod
     def ahead(cls, motion: Motion) -> Placed:
-        """``motion`` that begins above the origin, with the hips facing forward, along -y."""
+        """Returns the motion that starts above the origin, with the hips facing forward (-y)."""
         pose = motion.at(0.0)
         facing = -pose.rotations[motion.rig.parts["pelvis"]][:, 1]
         turn = np.arctan2(facing[0], -facing[1])
@@ -74,11 +74,11 @@ class Placed(Motion):
 
     @property
     def duration(self) -> float:
-        """From its beginning to its end [s]."""
+        """Duration of the motion [s]."""
         return self.motion.duration
 
     def at(self, time: float) -> SourcePose:
-        """The pose at ``time`` [s] where it takes place."""
+        """Returns the pose at ``time`` [s] at the new place."""
         pose = self.motion.at(time)
         turned = {joint: self.rotation @ matrix for joint, matrix in pose.rotations.items()}
         return SourcePose(self.rotation @ pose.root + self.shift, turned)

@@ -1,4 +1,4 @@
-"""A recorded motion: rows of joint rotations, mended and interpolated."""
+"""Recorded motions: samples of joint rotations, repaired and interpolated."""
 
 from __future__ import annotations
 
@@ -15,13 +15,12 @@ from regkit_synthesis.motion.motion import Motion, Rig, SourcePose
 
 @dataclass(frozen=True)
 class SampledMotion(Motion):
-    """A recorded motion, interpolated along the shortest rotations.
+    """A recorded motion with spherical linear interpolation.
 
     Attributes:
-        times: (F,) time of each row, from zero [s].
-        roots: (F, 3) the middle of the hips [m].
-        joints: (F, J, 4) rotation of each joint of the rig against its parent, from rest; in ground
-            axes.
+        times: Time of each sample, starting at zero, (F,) [s].
+        roots: Centre of the hips, (F, 3) [m].
+        joints: Rotation from rest of each joint relative to its parent, in ground axes, (F, J, 4).
     """
 
     times: Array
@@ -30,11 +29,11 @@ class SampledMotion(Motion):
 
     @property
     def duration(self) -> float:
-        """The time of the last row [s]."""
+        """Time of the last sample [s]."""
         return float(self.times[-1])
 
     def at(self, time: float) -> SourcePose:
-        """The pose at ``time`` [s]."""
+        """Returns the pose at ``time`` [s]."""
         period = self.duration
         cycle = np.floor(time / period) if self.loops else 0.0
         within = float(np.clip(time - cycle * period, 0.0, period))
@@ -54,29 +53,29 @@ class SampledMotion(Motion):
 
     @property
     def velocity(self) -> Array:
-        """The mean velocity of the hips (3,) along the ground [m/s]."""
+        """Returns the mean velocity (3,) of the hips along the ground [m/s]."""
         return np.asarray((self.roots[-1] - self.roots[0]) / self.duration * [1.0, 1.0, 0.0])
 
     def bridged(self, row: int) -> SampledMotion:
-        """The sampled motion without the jump between ``row`` and the next.
+        """Returns the motion without the discontinuity between ``row`` and the next.
 
-        Some are joined from parts that do not quite meet. Both sides are bent towards each other,
-        so that this step becomes the mean of its neighbours.
+        Some motions are concatenated from parts that do not match exactly. Both sides are adjusted
+        so that this step becomes the mean of the adjacent ones.
         """
         return replace(self, joints=mending.bridged(self.times, self.joints, row))
 
     def smoothed(self) -> SampledMotion:
-        """The sampled motion with every rotation drawn halfway to the mean of those beside it."""
+        """Returns the motion with every rotation averaged with the mean of its neighbours."""
         return replace(self, joints=mending.smoothed(self.joints))
 
     def closed(self) -> SampledMotion:
-        """The sampled motion with its rotations bent so that they end as they begin."""
+        """Returns the motion with its final rotations adjusted to match the initial ones."""
         return replace(self, joints=mending.closed(self.times, self.joints))
 
     def looped(self) -> SampledMotion:
-        """The sampled motion bent so that it ends as it begins, at the same height, and goes on.
+        """Returns the motion as a loop, with its end adjusted to the pose and height of its start.
 
-        For one that was not recorded to loop, but comes back to nearly its first pose.
+        Use it for motions that were not recorded as loops but return close to their first pose.
         """
         roots = self.roots.copy()
         roots[:, 2] += mending.closing(self.times) * (roots[0, 2] - roots[-1, 2])
@@ -84,13 +83,13 @@ class SampledMotion(Motion):
 
 
 def recorded(rig: Rig, times: Array, roots: Array, turns: Array) -> SampledMotion:
-    """A sampled motion that does not loop, from rotations in the ground's axes.
+    """Returns a motion that does not loop, from rotations in ground axes.
 
     Args:
         rig: The J joints.
-        times: (F,) time of each row, from zero [s].
-        roots: (F, 3) the middle of the hips [m].
-        turns: (F, J, 3, 3) rotation ``R_ground_joint`` of each joint from rest.
+        times: Time of each sample, starting at zero, (F,) [s].
+        roots: Centre of the hips, (F, 3) [m].
+        turns: Rotation ``R_ground_joint`` of each joint from rest, (F, J, 3, 3).
     """
     names = list(rig.parents)
     relative = turns.copy()

@@ -1,4 +1,4 @@
-"""The motions that ship with regkit; clips without their defects."""
+"""The shipped motions, with defects of the clips repaired."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from regkit_synthesis.motion.sampled import SampledMotion
 
 @dataclass(frozen=True)
 class Shelf:
-    """A folder of motions of one kind.
+    """A folder of shipped motions of one kind.
 
     Attributes:
-        kind: What they are called.
-        folder: Where they lie.
-        prefix: What their files' names begin with.
-        suffix: What their files' names end with.
+        kind: Name of the kind, for messages.
+        folder: The folder.
+        prefix: Prefix of the file names.
+        suffix: Suffix of the file names.
     """
 
     kind: str
@@ -32,15 +32,15 @@ class Shelf:
 
     @property
     def names(self) -> list[str]:
-        """The names of the motions."""
+        """Returns the names of the motions."""
         files = self.folder.glob(f"{self.prefix}*{self.suffix}")
         return sorted(file.name.removeprefix(self.prefix)[: -len(self.suffix)] for file in files)
 
     def path(self, name: str) -> Path:
-        """The file of the motion of this name.
+        """Returns the file of a motion.
 
         Raises:
-            ConfigError: If there is none.
+            ConfigError: If there is no motion of this name.
         """
         if name not in self.names:
             raise ConfigError(
@@ -50,10 +50,10 @@ class Shelf:
         return self.folder / f"{self.prefix}{name}{self.suffix}"
 
     def check_choice(self, name: str | None, path: Path | None) -> None:
-        """Refuse a choice that is none, or one of a motion that does not ship.
+        """Validates the choice between a shipped motion and a file.
 
         Raises:
-            ValueError: If not just one is given, or nothing of this name ships.
+            ValueError: If not exactly one is given, or no motion of this name is shipped.
         """
         if (name is None) == (path is None):
             raise ValueError(f"give either a path or a name ({', '.join(self.names)})")
@@ -71,24 +71,24 @@ BVH = Shelf("BVH motion", ASSETS / "bvhtoolbox", "", ".bvh")
 """Motions of bvhtoolbox."""
 
 KEYFRAMES = Shelf("keyframed motion", ASSETS / "keyframes", "", ".yaml")
-"""Motions that were written for regkit."""
+"""Motions made for regkit."""
 
 _MENDED: Mapping[str, Callable[[SampledMotion], SampledMotion]] = {
-    # Half a cycle meets its mirror image after these rows, and does not quite go on.
+    # Half a cycle is joined to its mirror image after these rows, with a discontinuity.
     "walk": lambda clip: clip.bridged(18),
     "run": lambda clip: clip.bridged(11),
-    # The arms are turned out to keep them out of the trunk of a body that is not as slim.
+    # Rotating the arms outward keeps them out of the trunk of bodies that are less slim.
     "punch": lambda clip: with_arms_turned_out(clip, radians(25.0)),
-    # While the leg is up, hips and chest shake against each other from row to row.
+    # While the leg is up, hips and chest jitter from row to row.
     "kick": lambda clip: with_arms_turned_out(clip, radians(15.0)).smoothed(),
 }
 
 
 def shipped_clip(name: str) -> SampledMotion:
-    """The clip of this name, without its defects.
+    """Returns the shipped clip of a name, with its defects repaired.
 
     Raises:
-        ConfigError: If there is none.
+        ConfigError: If there is no clip of this name.
     """
     clip = read_clip(CLIPS.path(name))
     return _MENDED[name](clip) if name in _MENDED else clip
