@@ -1,4 +1,4 @@
-"""The meshes that ship with regkit."""
+"""The shipped meshes."""
 
 from __future__ import annotations
 
@@ -10,25 +10,25 @@ ASSETS = Path(__file__).resolve().parent
 
 
 def average_human() -> SkinnedMesh:
-    """The body of average proportions."""
+    """Returns the body of average proportions."""
     return SkinnedMesh.read(ASSETS / "anny" / "body.npz")
 
 
 def small_human() -> SkinnedMesh:
-    """A small body."""
+    """Returns a small body."""
     return average_human().reshaped(ASSETS / "anny" / "body_small.npz")
 
 
 def tall_human() -> SkinnedMesh:
-    """A tall, muscular body."""
+    """Returns a tall, muscular body."""
     return average_human().reshaped(ASSETS / "anny" / "body_tall.npz")
 
 
 def average_hand() -> SkinnedMesh:
-    """The right hand of the body of average proportions."""
+    """Returns the right hand of the body of average proportions."""
     return SkinnedMesh.read(ASSETS / "anny" / "hand_right.npz")
 
 
 def slim_hand() -> SkinnedMesh:
-    """A slim right hand, a little longer."""
+    """Returns a slim, slightly longer right hand."""
     return average_hand().reshaped(ASSETS / "anny" / "hand_right_slim.npz")

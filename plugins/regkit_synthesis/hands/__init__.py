@@ -1,4 +1,4 @@
-"""Hands: recorded poses (WebXR), the files that hold them, and gestures that run through them."""
+"""Hand motion: recorded WebXR poses, their file formats, and gestures through poses."""
 
 from regkit_synthesis.hands.config import GESTURES, GesturesConfig
 from regkit_synthesis.hands.gestures import Gestures

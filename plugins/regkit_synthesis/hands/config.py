@@ -1,4 +1,4 @@
-"""What a user writes about the motion of a hand."""
+"""The YAML form of hand motions."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from regkit_synthesis.hands.shipped import PoseName, shipped_pose
 from regkit_synthesis.motion.shipped import Shelf
 
 GESTURES = Shelf("gestures", ASSETS / "gestures", "", ".yaml")
-"""Gestures that were written for regkit."""
+"""Gestures made for regkit."""
 
 _FLAT = "handywork/flat"
 
@@ -28,22 +28,22 @@ class TimedPose(Model):
     """A pose at a time."""
 
     time: Annotated[float, Field(ge=0.0)]
-    """When the hand is in it [s]."""
+    """Time [s]."""
 
     pose: PoseName
-    """A pose that ships."""
+    """Name of a shipped pose."""
 
     opened: Annotated[float, Field(ge=0.0, le=1.0)] = 0.0
-    """How far the fingers, but not the thumb, are opened towards a flat hand: 1 is flat."""
+    """Fraction by which the fingers, except the thumb, are opened towards a flat hand."""
 
     thumb: PoseName | None = None
-    """The pose that the thumb is taken from, if that is another one."""
+    """Name of another pose for the thumb; by default the same."""
 
     thumb_lift_deg: float = 0.0
-    """How far the thumb is turned about its base, out of the palm [deg]."""
+    """Rotation of the thumb about its base, out of the palm [deg]."""
 
     def hand(self) -> HandPose:
-        """The pose of the hand."""
+        """Returns the pose of the hand."""
         pose = shipped_pose(self.pose)
         if self.opened:
             pose = pose.with_fingers_towards(shipped_pose(_FLAT), self.opened)
@@ -60,39 +60,39 @@ def _increasing(poses: tuple[TimedPose, ...]) -> tuple[TimedPose, ...]:
 
 
 TimedPoses = Annotated[tuple[TimedPose, ...], Field(min_length=2), AfterValidator(_increasing)]
-"""Poses in the order of their times."""
+"""Poses in temporal order."""
 
 
 class GesturesFile(Model):
     """A file of gestures."""
 
     title: str = ""
-    """What the hand does."""
+    """Description of the gestures."""
 
     poses: TimedPoses
     """The poses that it goes through, in the order of their times."""
 
 
 class GesturesConfig(Model):
-    """A hand that goes smoothly from pose to pose: gestures that ship, a file, or right here."""
+    """Smooth motion of a hand through poses, shipped, in a file, or inline."""
 
     kind: Literal["gestures"] = "gestures"
 
     name: str | None = None
-    """Gestures that ship with regkit: ``point_and_pinch``, ``fists`` or ``signs``."""
+    """Shipped gestures: ``point_and_pinch``, ``fists`` or ``signs``."""
 
     path: InputPath | None = None
-    """A YAML file with ``poses``, and perhaps a ``title``."""
+    """A YAML file with ``poses``, and optionally a ``title``."""
 
     poses: TimedPoses | None = None
     """The poses, in the order of their times."""
 
     sway: Annotated[float, Field(ge=0.0)] = 1.0
-    """How much the palm sways about the middle of the hand, once in two seconds: 0 holds it still,
-    with 1 it turns by up to 40 degrees."""
+    """Amplitude of the palm's oscillation about the centre of the hand, with a period of two
+    seconds: 0 for none, 1 for up to 40 degrees."""
 
     sway_phase_deg: float = 0.0
-    """Where in its sway the palm begins [deg]; at 0 and 180 it looks into the camera."""
+    """Initial phase of the oscillation [deg]; at 0 and 180 the palm faces the camera."""
 
     @model_validator(mode="after")
     def _one_of_them(self) -> GesturesConfig:
@@ -103,10 +103,10 @@ class GesturesConfig(Model):
         return self
 
     def motion(self) -> HandMotion:
-        """The motion of the hand.
+        """Returns the motion of the hand.
 
         Raises:
-            RegkitError: If the file is missing or wrong.
+            RegkitError: If the file is missing or invalid.
         """
         timed = self._timed()
         times = np.array([pose.time for pose in timed])

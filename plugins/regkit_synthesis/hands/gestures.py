@@ -1,4 +1,4 @@
-"""Motion of a hand that runs through recorded poses."""
+"""Motion of the fingers through recorded poses."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from regkit_synthesis.motion.mending import interpolated
 
 @dataclass(frozen=True)
 class Gestures:
-    """A hand that goes smoothly from pose to pose, and rests in each at its time.
+    """Smooth motion through poses, at rest in each of them.
 
     Attributes:
-        times: (K,) when each pose is reached [s], increasing.
+        times: Time of each pose, increasing, (K,) [s].
         poses: The K poses.
     """
 
@@ -24,7 +24,7 @@ class Gestures:
     poses: tuple[HandPose, ...]
 
     def at(self, time: float) -> dict[str, Array]:
-        """The rotation (3, 3) ``R_wrist_joint`` of every joint at ``time`` [s]."""
+        """Returns the rotations ``R_wrist_joint`` (3, 3) of all joints at ``time`` [s]."""
         right = int(
             np.clip(np.searchsorted(self.times, time, side="right"), 1, len(self.times) - 1)
         )

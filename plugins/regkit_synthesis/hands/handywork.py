@@ -1,4 +1,4 @@
-"""Recorded hand poses in the binary files of handy-work."""
+"""Reading of recorded hand poses from the binary files of handy-work."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from regkit.system.errors import DataError
 from regkit_synthesis.hands.pose import PARENTS, WRIST, HandPose
 
 JOINTS = (WRIST, *PARENTS)
-"""The 25 joints of WebXR in its order, which is that of the files."""
+"""The 25 joints of WebXR, in the order of the specification and of the files."""
 
 _NUMBERS = 1 + 2 * len(JOINTS) * (16 + 1)
-"""How many joints there are; a matrix for each of the left hand and the right; then weights."""
+"""Layout of a file: number of joints, matrices of the left and the right hand, weights."""
 
 
 def read_handywork(path: Path) -> HandPose:
-    """Read the right hand of one of handy-work's poses.
+    """Reads the right hand of a handy-work pose.
 
     Raises:
         DataError: If the file is missing or does not have the 25 joints of WebXR for both hands.
@@ -33,6 +33,6 @@ def read_handywork(path: Path) -> HandPose:
             place=str(path),
         )
     _, right = numbers[1 : 1 + 2 * len(JOINTS) * 16].reshape(2, len(JOINTS), 4, 4)
-    # The matrices are stored by columns.
+    # The matrices are column-major.
     matrices = right.transpose(0, 2, 1)
     return HandPose.of(dict(zip(JOINTS, matrices, strict=True)))

@@ -1,4 +1,4 @@
-"""Recorded hand poses in the JavaScript files of iwer."""
+"""Reading of recorded hand poses from the JavaScript files of iwer."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _JOINT = re.compile(r"'?([a-z-]+)'?:\s*\{\s*offsetMatrix:\s*\[([^\]]*)\]")
 
 
 def read_iwer(path: Path) -> HandPose:
-    """Read one of iwer's poses, which are of a left hand, as that of a right hand.
+    """Reads an iwer pose, which is of a left hand, and mirrors it to a right hand.
 
     Raises:
         DataError: If the file is missing or does not have the 25 joints of WebXR.
@@ -36,7 +36,7 @@ def read_iwer(path: Path) -> HandPose:
 
 
 def _matrix(numbers: str, path: Path) -> Array:
-    """The 4x4 matrix of 16 numbers, stored by columns."""
+    """Returns the matrix (4, 4) of 16 column-major numbers."""
     try:
         values = np.array([float(number) for number in numbers.split(",") if number.strip()])
         return values.reshape(4, 4, order="F")

@@ -1,4 +1,4 @@
-"""The motion of a whole hand: gestures of its fingers, and a palm that sways."""
+"""Motion of a whole hand: gestures of the fingers, and an oscillating palm."""
 
 from __future__ import annotations
 
@@ -12,23 +12,24 @@ from regkit.system.arrays import Array
 from regkit_synthesis.hands.gestures import Gestures
 
 _R_GROUND_CAMERA = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
-"""From x right, y down, z forward of a level camera to x left, y backward, z up of what it sees."""
+"""From the axes of a level camera (x right, y down, z forward) to the ground's (x left, y backward,
+z up)."""
 
 _R_CAMERA_PALM = np.array([[-1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]])
-"""The fingers point up in the image, and the palm looks into the camera."""
+"""Orientation with the fingers pointing up in the image, and the palm facing the camera."""
 
 _MIDDLE = np.array([0.0, 0.0, -0.08])
-"""The middle of the hand in the palm's axes, from the wrist [m]."""
+"""Centre of the hand relative to the wrist, in the axes of the palm [m]."""
 
 
 @dataclass(frozen=True)
 class HandMotion:
-    """A right hand that makes gestures while its palm sways, once in two seconds.
+    """A right hand that makes gestures while its palm oscillates with a period of two seconds.
 
     Attributes:
-        gestures: What the fingers do.
-        sway: How much the palm sways: 0 holds it still, 1 turns it by up to 40 degrees.
-        phase: Where in its sway the palm begins [rad]; at 0 and pi it looks into the camera.
+        gestures: The motion of the fingers.
+        sway: Amplitude of the palm's oscillation: 0 for none, 1 for up to 40 degrees.
+        phase: Initial phase of the oscillation [rad]; at 0 and pi the palm faces the camera.
     """
 
     gestures: Gestures
@@ -36,9 +37,9 @@ class HandMotion:
     phase: float = 0.0
 
     def palm(self, time: float) -> Array:
-        """``T_ground_palm`` (4, 4) at ``time`` [s]: it sways about the middle of the hand.
+        """Returns ``T_ground_palm`` (4, 4) at ``time`` [s].
 
-        The ground's axes are x left, y backward, z up; its origin is the middle of the hand.
+        The axes of the ground are x left, y backward, z up; its origin is the centre of the hand.
         """
         phase = np.pi * time + self.phase
         turn = vector_to_matrix(

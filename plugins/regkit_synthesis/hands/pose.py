@@ -22,25 +22,25 @@ CHAINS = {
         for finger in ("index", "middle", "ring", "pinky")
     },
 }
-"""The WebXR joints of each finger, from the wrist outwards."""
+"""The WebXR joints of each finger, from the wrist to the tip."""
 
 PARENTS = {
     joint: parent
     for chain in CHAINS.values()
     for parent, joint in zip((WRIST, *chain), chain, strict=False)
 }
-"""Every joint but the wrist, and the one that it turns against."""
+"""The parent of every joint except the wrist."""
 
 _OF_THUMB = np.array([joint in CHAINS["thumb"] for joint in PARENTS])
 
 
 @dataclass(frozen=True)
 class HandPose:
-    """A right hand in its wrist's frame: x to the little finger, y out of the back, z backward.
+    """A right hand in the wrist frame: x to the little finger, y out of the back, z backward.
 
     Attributes:
-        origins: Position (3,) of each WebXR joint [m].
-        joints: (24, 4) rotation of each of ``PARENTS`` against the joint before it.
+        origins: Position (3,) [m] of each WebXR joint.
+        joints: Rotation of each joint in ``PARENTS`` relative to its parent, (24, 4).
     """
 
     origins: dict[str, Array]
@@ -48,7 +48,7 @@ class HandPose:
 
     @classmethod
     def of(cls, matrices: Mapping[str, Array]) -> HandPose:
-        """The pose of a right hand whose joints are at ``T_world_joint`` (4, 4) [m], by name."""
+        """Returns the pose of a right hand with joints at ``T_world_joint`` (4, 4) [m], by name."""
         wrist = matrices[WRIST]
         turns = {
             joint: from_matrix(wrist[:3, :3].T @ matrix[:3, :3])
@@ -64,11 +64,11 @@ class HandPose:
         return cls(origins, np.array(joints))
 
     def with_thumb_of(self, other: HandPose) -> HandPose:
-        """The pose with the thumb turned as in another pose."""
+        """Returns the pose with the thumb of another pose."""
         return self._with(np.where(_OF_THUMB[:, None], other.joints, self.joints))
 
     def with_thumb_lifted(self, angle: float) -> HandPose:
-        """The pose with the thumb turned about its base, out of the palm, by ``angle`` [rad]."""
+        """Returns the pose with the thumb rotated out of the palm by ``angle`` [rad]."""
         base, tip = CHAINS["thumb"][0], CHAINS["thumb"][-1]
         axis = np.cross(self.origins[tip] - self.origins[base], [0.0, -1.0, 0.0])
         lift = from_vector(angle * axis / np.linalg.norm(axis))
@@ -76,21 +76,21 @@ class HandPose:
         return self._with(np.where(at_base[:, None], product(lift, self.joints), self.joints))
 
     def with_fingers_towards(self, other: HandPose, share: float) -> HandPose:
-        """The pose with the fingers, but not the thumb, turned part of the way to another pose.
+        """Returns the pose with the fingers, except the thumb, interpolated to another pose.
 
         Args:
             other: The other pose.
-            share: Which part of the way: 0 is this pose, 1 the other.
+            share: Fraction of the way from this pose (0) to the other (1).
         """
         turned = interpolated(self.joints, other.joints, share)
         return self._with(np.where(_OF_THUMB[:, None], self.joints, turned))
 
     def rotations(self) -> dict[str, Array]:
-        """``R_wrist_joint`` (3, 3) of every joint: -z along the bone, y out of the back."""
+        """Returns ``R_wrist_joint`` (3, 3) by joint: -z along the bone, y out of the back."""
         return chained(self.joints)
 
     def _with(self, joints: Array) -> HandPose:
-        """The same hand with its joints turned otherwise (24, 4)."""
+        """Returns the hand with other joint rotations (24, 4)."""
         old, new = chained(self.joints), chained(joints)
         origins = {WRIST: self.origins[WRIST]}
         for joint, parent in PARENTS.items():
@@ -100,7 +100,7 @@ class HandPose:
 
 
 def chained(joints: Array) -> dict[str, Array]:
-    """The rotations (3, 3) against the wrist, of rotations (24, 4) against the joint before."""
+    """Returns rotations (3, 3) relative to the wrist, of rotations (24, 4) relative to parents."""
     rotations = {WRIST: np.eye(3)}
     for (joint, parent), matrix in zip(PARENTS.items(), to_matrix(joints), strict=True):
         rotations[joint] = rotations[parent] @ matrix

@@ -1,4 +1,4 @@
-"""Recorded hand poses on the bones of a mesh: every finger bone points as its WebXR joint does."""
+"""Retargeting of recorded hand poses to the bones of a mesh, with the directions of the joints."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ to those of a WebXR joint (x to the little finger, y out of the back of the hand
 
 @dataclass(frozen=True)
 class HandRetarget:
-    """Turns WebXR poses of a right hand into bone poses of a mesh.
+    """Converts WebXR poses of a right hand to bone poses of a mesh.
 
     Attributes:
-        mesh: A right hand.
-        R_palm_wrist: (3, 3) turns the axes of the WebXR wrist into those of the recorded palm.
-        T_body_palm: (4, 4) where the mesh's palm lies at rest: its origin is the wrist, x points
-            from the index to the little finger, y out of the back of the hand, z backward.
+        mesh: The mesh of a right hand.
+        R_palm_wrist: Rotation from the WebXR wrist to the recorded palm, (3, 3).
+        T_body_palm: The palm of the mesh at rest, (4, 4): its origin is the wrist, x points from
+            the index to the little finger, y out of the back of the hand, z backward.
     """
 
     mesh: SkinnedMesh
@@ -34,7 +34,7 @@ class HandRetarget:
 
     @classmethod
     def of(cls, mesh: SkinnedMesh, pose: HandPose) -> HandRetarget:
-        """Measure a mesh and a recorded hand, whose palm is the same in all poses."""
+        """Returns the retargeting from a recorded hand, with the same palm in all poses."""
         recorded = _palm(
             pose.origins["wrist"],
             pose.origins["index-finger-phalanx-proximal"],
@@ -46,16 +46,16 @@ class HandRetarget:
         return cls(mesh, recorded.T, rigid(_palm(wrist, *knuckles), wrist))
 
     def bone_poses(self, rotations: Mapping[str, Array], T_world_palm: Array) -> Array:
-        """The bone poses ``T_world_bone`` (J, 4, 4).
+        """Returns the bone poses ``T_world_bone`` (J, 4, 4).
 
         Args:
-            rotations: Rotation (3, 3) ``R_wrist_joint`` of each WebXR joint.
-            T_world_palm: (4, 4) where the palm is [m].
+            rotations: ``R_wrist_joint`` (3, 3) of each WebXR joint.
+            T_world_palm: The palm in the world, (4, 4) [m].
         """
         R_world_palm, R_body_palm = T_world_palm[:3, :3], self.T_body_palm[:3, :3]
         turns = np.tile(R_world_palm @ R_body_palm.T, (len(self.mesh.labels), 1, 1))
         for number, (finger, joints) in enumerate(CHAINS.items(), start=1):
-            # The metacarpals of the fingers stay in the palm, and a tip is no bone.
+            # The metacarpals of the fingers are fixed to the palm, and tips are not bones.
             moving = joints[:-1] if finger == "thumb" else joints[1:-1]
             for part, joint in enumerate(moving, start=1):
                 bone = self.mesh.bone(f"finger{number}-{part}.R")
@@ -65,7 +65,7 @@ class HandRetarget:
 
 
 def _palm(wrist: Array, index: Array, middle: Array, little: Array) -> Array:
-    """The axes (3, 3) of a palm, as columns, from the wrist and three knuckles (3,)."""
+    """Returns the axes of a palm, columns of (3, 3), from the wrist and three knuckles (3,)."""
     backward = wrist - middle
     backward = backward / np.linalg.norm(backward)
     across = little - index

@@ -1,4 +1,4 @@
-"""The hand poses that ship with regkit, by name: ``iwer/point``, ``handywork/fist``."""
+"""The shipped hand poses, by names such as ``iwer/point`` or ``handywork/fist``."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ _READERS: Mapping[str, tuple[str, Callable[[Path], HandPose]]] = {
     "handywork": (".handpose", read_handywork),
     "iwer": (".js", read_iwer),
 }
-"""How the files of a folder of poses end, and what reads them."""
+"""Suffix and reader of the files in each folder of poses."""
 
 
 def pose_names() -> list[str]:
-    """The names of the poses that ship."""
+    """Returns the names of the shipped poses."""
     return sorted(
         f"{folder}/{path.stem}"
         for folder, (suffix, _) in _READERS.items()
@@ -41,11 +41,11 @@ def _known(name: str) -> str:
 
 
 PoseName = Annotated[str, AfterValidator(_known)]
-"""The name of a pose that ships."""
+"""The name of a shipped pose."""
 
 
 def shipped_pose(name: str) -> HandPose:
-    """The pose of this name, which must be one of ``pose_names``."""
+    """Returns the shipped pose of a name, one of ``pose_names``."""
     folder, _, pose = name.partition("/")
     suffix, read = _READERS[folder]
     return read(ASSETS / folder / f"{pose}{suffix}")

@@ -1,4 +1,4 @@
-"""The samples that ship with regkit: depth recordings (``depth``) and clouds (``mannequin``)."""
+"""Generation of the shipped samples: depth recordings (``depth``) and clouds (``mannequin``)."""
 
 from regkit_synthesis.samples.depth import hand_gestures, human_walk
 

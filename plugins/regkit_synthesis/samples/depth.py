@@ -1,4 +1,4 @@
-"""The two recordings that ship with regkit: a person who walks, and a hand that makes gestures."""
+"""Generation of the two shipped depth recordings: a walking person and hand gestures."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _GESTURES = Take(
 
 
 def human_walk(seed: int) -> DepthRecording:
-    """A person who walks towards the camera, turned a little to the side."""
+    """Returns the recording of a person who walks obliquely towards the camera."""
     return _rendered(
         _WALK,
         "human_walk",
@@ -43,7 +43,7 @@ def human_walk(seed: int) -> DepthRecording:
 
 
 def hand_gestures(seed: int) -> DepthRecording:
-    """A right hand that points, pinches and relaxes while it turns before the camera."""
+    """Returns the recording of a right hand that points, pinches, relaxes and rotates."""
     return _rendered(
         _GESTURES,
         "hand_gestures",

@@ -1,8 +1,8 @@
-"""Makes the templates that ship: proportions, surfaces and Gaussians fitted to skinned meshes.
+"""Generation of the shipped templates: proportions, surfaces and Gaussians of skinned meshes.
 
-``human`` and ``hand`` describe a body that is fitted to a mesh: ``*_layout`` says which parts of
-the mesh are which segments, ``*_limits`` how its joints may move and how the file explains that.
-``templates`` adds the skin, and writes both as files.
+``human`` and ``hand`` fit a body description to a mesh: ``*_layout`` divides the mesh into
+segments, ``*_limits`` defines joint limits and their comments. ``templates`` adds the skin and
+writes the files.
 """
 
 from regkit_synthesis.templates.templates import (

@@ -1,4 +1,4 @@
-"""Makes the templates' files: ``python -m regkit_synthesis.templates OUT``."""
+"""Generates the template files: ``python -m regkit_synthesis.templates OUT``."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from regkit_synthesis.templates.templates import (
 
 
 def templates() -> dict[str, FittedTemplate]:
-    """Each template, by the name of its file."""
+    """Returns the templates by file name."""
     right = right_hand_template(assets.average_hand())
     return {
         "human.yaml": human_template(assets.average_human()),
@@ -29,7 +29,7 @@ def templates() -> dict[str, FittedTemplate]:
 
 
 def main() -> int:
-    """Write the templates and their meshes to the folder that the command line names."""
+    """Writes the templates and their meshes to the folder in the command line."""
     parser = argparse.ArgumentParser(
         prog="python -m regkit_synthesis.templates",
         description="Fit the human and the hand templates to the meshes that ship with regkit.",

@@ -1,4 +1,4 @@
-"""Tapered capsules fitted to the surface of a segment."""
+"""Fitting of tapered capsules to the surface of a segment."""
 
 from __future__ import annotations
 
@@ -19,13 +19,14 @@ from regkit.system.arrays import Array
 
 @dataclass(frozen=True)
 class Piece:
-    """A first guess of a capsule, or of two that mirror each other in the plane x = 0.
+    """An initial guess of a capsule, or of two that are mirror images in the plane x = 0.
 
     Attributes:
-        start: (3,) centre of the first sphere [m].
-        end: (3,) centre of the second sphere [m]. radius: Of both [m]. symmetry: ``free``;
-        ``pair``: the capsule and its mirror image; ``middle``: the capsule lies in
-            the plane; ``across``: it is its own mirror image, and its end is that of its start.
+        start: Centre of the first sphere, (3,) [m].
+        end: Centre of the second sphere, (3,) [m].
+        radius: Radius of both spheres [m].
+        symmetry: ``free``; ``pair``: the capsule and its mirror image; ``middle``: a capsule in the
+            plane; ``across``: a capsule whose end is the mirror image of its start.
     """
 
     start: tuple[float, float, float]
@@ -34,11 +35,11 @@ class Piece:
     symmetry: Literal["free", "pair", "middle", "across"] = "free"
 
     def parameters(self) -> Array:
-        """The ends and the two radii, (8,) [m]."""
+        """Returns the ends and the two radii, (8,) [m]."""
         return np.array([*self.start, *self.end, self.radius, self.radius])
 
     def capsules(self, parameters: Array) -> list[tuple[Array, Array]]:
-        """The ends (2, 3) and radii (2,) of the one or two capsules of ``parameters`` (8,) [m]."""
+        """Returns ends (2, 3) and radii (2,) of one or two capsules of ``parameters`` (8,) [m]."""
         ends, radii = parameters[:6].reshape(2, 3), parameters[6:]
         match self.symmetry:
             case "pair":
@@ -54,17 +55,17 @@ class Piece:
 def fitted(
     pieces: Sequence[Piece], flesh: Flesh, scale: float, stiffness: float = 0.02
 ) -> tuple[CapsuleDescription, ...]:
-    """The capsules whose surface together lies nearest to that of a segment.
+    """Returns the capsules whose union fits the surface of a segment best.
 
-    Least squares of the signed distances of the surface's points, made robust, with weak springs to
-    the first guess: where a segment is cut off from its neighbour there is no surface that says
-    where the capsule ends.
+    The fit is a robust least-squares problem in the signed distances of surface points, with weak
+    regularisation to the initial guess, because the cut to an adjacent segment has no surface that
+    determines the end of a capsule.
 
     Args:
-        pieces: The first guess.
+        pieces: The initial guess.
         flesh: The segment.
         scale: Distance beyond which a point counts as an outlier [m].
-        stiffness: Of the springs; 1 is that of all points together.
+        stiffness: Strength of the regularisation; 1 is that of all points together.
     """
     guess = np.concatenate([piece.parameters() for piece in pieces])
     shares = np.sqrt(flesh.areas / flesh.areas.sum())

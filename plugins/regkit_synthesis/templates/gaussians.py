@@ -1,4 +1,4 @@
-"""Gaussians that fill a segment."""
+"""Gaussians that approximate the volume of a segment."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ gaussian, ball = EllipsoidParameters.fitted, BallParameters.fitted
 
 
 def balls(points: Array, count: int) -> tuple[BallParameters, ...]:
-    """``count`` isotropic Gaussians with the moments of clusters of ``points`` (N, 3) [m]."""
+    """Returns ``count`` isotropic Gaussians of clusters of ``points`` (N, 3) [m]."""
     owners = clusters(points, points[spread(points, count)])
     return tuple(ball(points[owners == index]) for index in range(count))
 
 
 def symmetric_balls(points: Array, pairs: int, middle: int) -> tuple[BallParameters, ...]:
-    """Isotropic Gaussians that are their own mirror image in the plane x = 0.
+    """Returns isotropic Gaussians that are symmetric about the plane x = 0.
 
     Args:
-        points: (N, 3) points that are symmetric about that plane [m].
-        pairs: How many pairs there are, left first.
-        middle: How many lie in the plane.
+        points: Points that are symmetric about the plane, (N, 3) [m].
+        pairs: Number of pairs, left before right.
+        middle: Number of Gaussians in the plane.
     """
     half = points[points[:, 0] > 0.0]
     start = half[spread(half, pairs + middle)]
