@@ -1,6 +1,5 @@
 """Point clouds: reading, writing, voxel downsampling, normals, checks, and registration quality."""
 
-from regkit.clouds.agreement import Agreement, agreement
 from regkit.clouds.checks import check_shape, check_sizes
 from regkit.clouds.neighbourhoods import normals, spacing
 from regkit.clouds.reading import read_cloud
@@ -8,8 +7,6 @@ from regkit.clouds.voxels import voxel_downsampled, voxel_for
 from regkit.clouds.writing import check_writable, write_cloud
 
 __all__ = [
-    "Agreement",
-    "agreement",
     "check_shape",
     "check_sizes",
     "check_writable",
