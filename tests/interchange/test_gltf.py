@@ -315,7 +315,7 @@ def test_the_tree_of_flat_bones_must_be_named(tmp_path: Path) -> None:
     for parents, message in [
         ({"lower": "uper", "upper": None}, "no bone 'uper'.*did you mean 'upper'"),
         ({"lower": "upper"}, "the bones upper have no parent"),
-        ({"lower": "upper", "upper": "lower"}, "0 bones have no bone above them"),
+        ({"lower": "upper", "upper": "lower"}, "0 bones have no parent"),
     ]:
         with pytest.raises(DataError, match=message):
             RiggedBody.read(path, parents=parents)

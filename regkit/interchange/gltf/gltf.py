@@ -123,9 +123,10 @@ def _parents(
         parents = [-1 if name is None else names.index(name) for name in above_names]
     roots = [name for name, parent in zip(names, parents, strict=True) if parent < 0]
     if len(roots) != 1:
+        named_roots = f" ({', '.join(roots)})" if roots else ""
         raise file.wrong(
-            f"{len(roots)} bones have no parent ({', '.join(roots)}); name the parent of each "
-            "bone except one"
+            f"{len(roots)} bones have no parent{named_roots}; exactly one must have none, name the "
+            "parents of all others"
         )
     return parents
 
