@@ -4,7 +4,7 @@ PYTHON ?= python3
 ready := .venv/.ready
 bin := .venv/bin
 
-.PHONY: help demo test test-long lint docs pictures samples templates schemas lock benchmarks clean
+.PHONY: help demo test test-long lint loops docs pictures samples templates schemas lock benchmarks clean
 
 help: ## Show this help
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -16,11 +16,16 @@ $(ready): pyproject.toml .ci/requirements.lock .ci/setup tests/third_party/regki
 demo: $(ready) ## Track a person in a depth recording with SoG, G-SoG and the default method
 	@$(bin)/regkit run docs/examples/demo.yaml
 
-test: $(ready) lint ## Run every check
+test: $(ready) ## Run every check
+	@$(MAKE) --no-print-directory --jobs 2 lint loops
 	@$(bin)/pytest -q --numprocesses auto --dist worksteal
 
 test-long: $(ready) ## Run what a release needs besides: fuzzing, soaks, long walks
 	@$(bin)/pytest -q --numprocesses auto --dist worksteal -m "long or hypothesis" --hypothesis-profile long
+
+# Compiles the loops once, so that the test processes do not each compile them.
+loops: $(ready)
+	@$(bin)/python tests/support/compile_loops.py
 
 lint: $(ready)
 	@$(bin)/ruff check .

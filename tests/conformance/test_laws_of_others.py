@@ -49,7 +49,7 @@ def refusal(law: Callable[[], None], expected: str) -> None:
          lambda laws, made:
             laws.test_solver_stays_in_the_box_and_is_never_worse_than_the_start(made, bowl, 0.01),
          "leaves the box of bowl by"),
-        ("if there < value and", "if there == there or",
+        ("if trial_value < value and", "if trial_value == trial_value or",
          lambda laws, made: laws.test_solver_returns_the_best_point_that_it_saw(made),
          "saw the value"),
         ("            evaluations += 1\n", "",

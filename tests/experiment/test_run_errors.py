@@ -106,7 +106,8 @@ def test_joint_that_is_misspelt_is_told_before_anything_is_computed(regkit, file
         "--set", "tracker=counting", "--set", "dataset.joints={head: haed}",
     )  # fmt: skip
     assert ended.code == 1
-    assert "dataset.joints.head: 'human' has no marker 'haed'" in ended.err
+    assert "dataset.joints.head: " in ended.err
+    assert "no marker 'haed'" in ended.err
     assert "did you mean 'head'?" in ended.err
     assert not steps
 
@@ -139,9 +140,8 @@ def test_start_that_does_not_fit_the_template_is_told_before_the_run(regkit, fil
     )
     files.experiment.write_text(text)
     ended = regkit("run", files.experiment, "--out", files.out, "--no-figures")
-    assert ended.err.startswith(
-        f"error: {files.experiment}:5: start: there is no joint 'left_shinn'"
-    )
+    assert ended.err.startswith(f"error: {files.experiment}:5: start: ")
+    assert "'left_shinn'" in ended.err
     assert "did you mean 'left_shin'?" in ended.err
     assert not files.out.exists()
 

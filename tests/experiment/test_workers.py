@@ -110,6 +110,7 @@ def test_track_that_kills_every_process_fails_alone(regkit, files, deadly):
     assert files.metrics()["sog"]["recordings"]["first"]["frames"] == 1
 
 
+@pytest.mark.long
 def test_figures_of_a_dask_cluster_are_those_of_one_process(regkit, files, serial, deadly):
     """Two workers; one of them is killed in its work, and a new one takes its place."""
     from distributed import LocalCluster

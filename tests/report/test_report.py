@@ -194,6 +194,7 @@ def test_large_run_stays_a_page_that_can_be_read(tmp_path):
     assert page.read_text().count('class="card"') == 10
 
 
+@pytest.mark.long
 def test_figures_of_very_many_can_be_read_and_their_numbers_are_all_there():
     """Of forty methods on seventy recordings: a picture has the best ones and the worst ones."""
     methods = {f"m{index}": METHODS["sog"] for index in range(40)}
