@@ -12,7 +12,7 @@ from scipy.spatial import KDTree
 
 from regkit.body import Body
 from regkit.clouds import spacing
-from regkit.geometry.rigid import rigid, transformed
+from regkit.geometry.rigid import transformed
 from regkit.interfaces import Evaluation, Method, Registrar, RegistrationResult
 from regkit.observation import Observation
 from regkit.primitives import Primitives
@@ -36,38 +36,6 @@ class Aligned:
     converged: bool
     iterations: int
     message: str
-
-
-@dataclass(frozen=True)
-class Normalization:
-    """Coordinates in which a cloud has about unit size, as the thresholds of libraries assume.
-
-    Attributes:
-        origin: Origin of the normalised coordinates, (3,) [m].
-        unit: Unit of the normalised coordinates [m].
-    """
-
-    origin: Array
-    unit: float
-
-    @classmethod
-    def around(cls, points: Array, unit: float) -> Normalization:
-        """Returns coordinates with the origin at the centroid of points (N, 3) [m]."""
-        return cls(points.mean(axis=0), unit)
-
-    def normalized(self, points: Array) -> Array:
-        """Returns points (N, 3) [m] in normalised coordinates."""
-        return (points - self.origin) / self.unit
-
-    def transform(self, rotation: Array, translation: Array) -> Array:
-        """Returns the motion (4, 4) [m] of a motion in normalised coordinates.
-
-        Args:
-            rotation: Rotation matrix, (3, 3).
-            translation: Translation in normalised coordinates, (3,).
-        """
-        shift = self.unit * translation + self.origin - rotation @ self.origin
-        return rigid(rotation, shift)
 
 
 class RigidMethod(Method, ABC):

@@ -44,7 +44,7 @@ class CloudShape(ShapeModel, ABC):
         if surface is None:
             raise ConfigError(
                 f"shape '{self.kind}' makes Gaussians of a surface's points, and the template "
-                f"'{body.name}' has none; take a template of kind cloud, or the shape gsog"
+                f"'{body.name}' has none; take a template with a surface, or another shape"
             )
         carrier = surface.blend.argmax(axis=1)
         vertices = np.arange(len(surface))

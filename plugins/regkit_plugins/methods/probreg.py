@@ -7,7 +7,8 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Field
 
-from regkit.alignment.rigid_method import Aligned, Normalization, RigidMethod
+from regkit.alignment.normalization import Normalization
+from regkit.alignment.rigid_method import Aligned, RigidMethod
 from regkit.geometry.rigid import transformed
 from regkit.system.arrays import Array
 from regkit.system.optional import load_library

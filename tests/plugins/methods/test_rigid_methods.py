@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from regkit.alignment import agreement, align
-from regkit.alignment.rigid_method import Normalization
+from regkit.alignment.normalization import Normalization
 from regkit.alignment.weak_motion import weak_motion
 from regkit.cli.choices import method_named
 from regkit.geometry.rigid import inverse, rigid, transformed
