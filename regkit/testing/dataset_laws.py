@@ -103,6 +103,21 @@ class DatasetLaws(Laws):
             look_at=type(first).frames,
         )  # fmt: skip
 
+    def test_dataset_reads_some_frames_as_it_reads_all(
+        self, dataset: Dataset, recordings: list[Recording]
+    ) -> None:
+        """A frame that is read by its number is the one that the whole recording has there."""
+        recording = recordings[0]
+        last = recording.length - 1
+        frames = list(recording.frames())
+        some = dict(recording.some([last, 0]))
+        require(
+            list(some) == sorted({0, last})
+            and all(same(frame.points, frames[index].points) for index, frame in some.items()),
+            dataset, f"gives other frames of '{recording.name}' by their numbers than in turn",
+            look_at=type(recording).some,
+        )  # fmt: skip
+
     def test_dataset_truth_has_a_row_for_each_frame(
         self, dataset: Dataset, recordings: list[Recording]
     ) -> None:
