@@ -81,5 +81,5 @@ class Body:
     surface: SkinnedSurface | None = None
 
     def place(self, pose: Pose) -> Placement:
-        """The skeleton's placement in a pose."""
+        """Returns the skeleton's placement in a pose."""
         return Placement.of(self.skeleton, pose)

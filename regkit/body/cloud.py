@@ -13,7 +13,7 @@ from regkit.system.arrays import Array
 
 
 def cloud_description(points: Array, markers: Mapping[str, Array]) -> BodyDescription:
-    """One free segment, as long as the diagonal of the box around points (N, 3) [m].
+    """Returns one free segment, as long as the diagonal of the box around points (N, 3) [m].
 
     Args:
         points: Of the segment's frame.
@@ -34,7 +34,7 @@ def cloud_description(points: Array, markers: Mapping[str, Array]) -> BodyDescri
 
 
 def cloud_body(name: str, points: Array, markers: Mapping[str, Array] | None = None) -> Body:
-    """The body of one free segment whose surface are points (N, 3) of its frame [m]."""
+    """Returns the body of one free segment whose surface are points (N, 3) of its frame [m]."""
     description = cloud_description(points, markers or {})
     surface = SkinnedSurface(
         segments=np.zeros((len(points), 1), dtype=np.intp),

@@ -24,11 +24,11 @@ class Deformation(ABC):
 
     @abstractmethod
     def point(self, point: Vector) -> Vector:
-        """A point [m]."""
+        """Returns a point [m]."""
 
     @abstractmethod
     def radius(self, radius: float) -> float:
-        """The radius of something round [m]; it stays round."""
+        """Returns the radius of something round [m]; it stays round."""
 
     @abstractmethod
     def extents(self, extents: Vector, rotation_deg: Vector) -> Vector:
@@ -36,7 +36,7 @@ class Deformation(ABC):
 
     @abstractmethod
     def rotation(self, rotation_deg: Vector) -> Vector:
-        """A rotation vector, or an axis."""
+        """Returns a rotation vector, or an axis."""
 
 
 @dataclass(frozen=True)
@@ -46,20 +46,20 @@ class Scaling(Deformation):
     factor: float
 
     def point(self, point: Vector) -> Vector:
-        """The point, farther from the segment's joint."""
+        """Returns the point, farther from the segment's joint."""
         x, y, z = point
         return (self.factor * x, self.factor * y, self.factor * z)
 
     def radius(self, radius: float) -> float:
-        """The radius, multiplied."""
+        """Returns the radius, multiplied."""
         return self.factor * radius
 
     def extents(self, extents: Vector, rotation_deg: Vector) -> Vector:
-        """The lengths, multiplied."""
+        """Returns the lengths, multiplied."""
         return self.point(extents)
 
     def rotation(self, rotation_deg: Vector) -> Vector:
-        """The same rotation."""
+        """Returns the same rotation."""
         return rotation_deg
 
 
@@ -81,20 +81,20 @@ class Stretch(Deformation):
         return cls(girth * np.eye(3) + (length - girth) * np.outer(bone, bone), girth)
 
     def point(self, point: Vector) -> Vector:
-        """The point, moved along and across the bone."""
+        """Returns the point, moved along and across the bone."""
         return vector(self.matrix @ point)
 
     def radius(self, radius: float) -> float:
-        """The radius, by the girth."""
+        """Returns the radius, by the girth."""
         return self.girth * radius
 
     def extents(self, extents: Vector, rotation_deg: Vector) -> Vector:
-        """The lengths that their axes get, which keep their directions."""
+        """Returns the lengths that their axes get, which keep their directions."""
         axes = vector_to_matrix(np.radians(rotation_deg))
         return vector(np.linalg.norm(self.matrix @ axes, axis=0) * extents)
 
     def rotation(self, rotation_deg: Vector) -> Vector:
-        """The same rotation."""
+        """Returns the same rotation."""
         return rotation_deg
 
 
@@ -102,17 +102,17 @@ class Mirror(Deformation):
     """The reflection in the plane x = 0: right from left."""
 
     def point(self, point: Vector) -> Vector:
-        """The mirror image of a point."""
+        """Returns the mirror image of a point."""
         return rounded(REFLECT * point, 15)
 
     def radius(self, radius: float) -> float:
-        """The same radius."""
+        """Returns the same radius."""
         return radius
 
     def extents(self, extents: Vector, rotation_deg: Vector) -> Vector:
-        """The same lengths."""
+        """Returns the same lengths."""
         return extents
 
     def rotation(self, rotation_deg: Vector) -> Vector:
-        """The mirror image of a rotation vector, or of an axis."""
+        """Returns the mirror image of a rotation vector, or of an axis."""
         return rounded(_TURN * rotation_deg, 15)

@@ -78,7 +78,7 @@ class BodyDescription(SkeletonDescription):
         return self
 
     def body(self, name: str, size: float) -> Body:
-        """The body called ``name``, scaled so that its size is ``size`` [m].
+        """Returns the body called ``name``, scaled so that its size is ``size`` [m].
 
         Raises:
             ConfigError: If a stance names a joint that there is not.

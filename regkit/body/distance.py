@@ -39,7 +39,7 @@ class SurfaceDistances:
     along: Array
 
     def rows(self, placement: Placement) -> Array:
-        """The derivative (R, n) of the distances to the degrees of freedom."""
+        """Returns the derivative (R, n) of the distances to the degrees of freedom."""
         return placement.rows(self.segments, self.points, -self.directions)
 
 

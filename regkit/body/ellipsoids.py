@@ -29,7 +29,7 @@ class EllipsoidParameters(ShapeParameters):
     """Rotation vector of the solid's own axes in the segment's frame [deg]."""
 
     def deformed(self, deformation: Deformation) -> Self:
-        """The solid's own axes follow the deformation; a sphere stays one."""
+        """Returns the solid's own axes follow the deformation; a sphere stays one."""
         return self.model_copy(
             update={
                 "centre": deformation.point(self.centre),
@@ -41,13 +41,13 @@ class EllipsoidParameters(ShapeParameters):
         )
 
     def moments(self) -> tuple[Array, Array]:
-        """The mean (3,) [m] and ``R diag(sigma^2) R^T`` (3, 3) [m^2]."""
+        """Returns the mean (3,) [m] and ``R diag(sigma^2) R^T`` (3, 3) [m^2]."""
         axes = vector_to_matrix(np.radians(self.rotation_deg)) * np.broadcast_to(self.sigma, 3)
         return np.array(self.centre), axes @ axes.T
 
     @classmethod
     def fitted(cls, points: Array, like: Self | None = None) -> Self:
-        """The solid with the moments of points (N, 3) [m], a sphere if ``like`` is one.
+        """Returns the solid with the moments of points (N, 3) [m], a sphere if ``like`` is one.
 
         Its axes are named so that it is rotated as little as possible.
         """
@@ -71,7 +71,7 @@ class BallParameters(EllipsoidParameters):
 
     @classmethod
     def fitted(cls, points: Array, like: Self | None = None) -> Self:
-        """The ball with the mean and the total variance of points (N, 3) [m]."""
+        """Returns the ball with the mean and the total variance of points (N, 3) [m]."""
         found = {"centre": rounded(points.mean(axis=0)), "sigma": _radius(points)}
         return cls.model_validate(found) if like is None else like.model_copy(update=found)
 

@@ -30,7 +30,7 @@ class Groups:
 
     @classmethod
     def of(cls, description: BodyDescription) -> Groups:
-        """The groups of a template: ``left_thigh`` and ``right_thigh`` are ``thigh``."""
+        """Returns the groups of a template: ``left_thigh`` and ``right_thigh`` are ``thigh``."""
         order = parents_first(description.segments)
         groups = [group_name(segment) for segment in order]
         names = tuple(dict.fromkeys(groups))
@@ -39,7 +39,7 @@ class Groups:
 
 
 def group_name(segment: str) -> str:
-    """The segment's name without its side."""
+    """Returns the segment's name without its side."""
     parts = [part for part in segment.split("_") if part.lower() not in _SIDES]
     return "_".join(parts) or segment
 

@@ -58,7 +58,7 @@ class Proportions:
         )
 
     def skin(self, template: BodyDescription) -> SkinnedMesh | None:
-        """The template's mesh with these proportions, if it has one.
+        """Returns the template's mesh with these proportions, if it has one.
 
         Raises:
             DataError: If the mesh is missing or wrong.

@@ -18,12 +18,12 @@ _VECTOR: Any = Vector
 
 
 def key(name: str) -> str:
-    """The key of a mapping."""
+    """Returns the key of a mapping."""
     return f"{word(name)}:"
 
 
 def word(text: str) -> str:
-    """A name as it is, if YAML takes it for no number, truth value or structure."""
+    """Returns a name as it is, if YAML takes it for no number, truth value or structure."""
     plain = re.fullmatch(r"[A-Za-z_]\w*", text) and text.lower() not in _RESERVED
     return text if plain else json.dumps(text)
 

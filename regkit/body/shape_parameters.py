@@ -23,16 +23,16 @@ class ShapeParameters(Model, ABC):
 
     @abstractmethod
     def deformed(self, deformation: Deformation) -> Self:
-        """The primitive in a segment that is scaled, stretched or mirrored."""
+        """Returns the primitive in a segment that is scaled, stretched or mirrored."""
 
     @abstractmethod
     def moments(self) -> tuple[Array, Array]:
-        """The solid's mean (3,) [m] and covariance (3, 3) [m^2] in the segment's frame."""
+        """Returns the solid's mean (3,) [m] and covariance (3, 3) [m^2] in the segment's frame."""
 
     @classmethod
     @abstractmethod
     def fitted(cls, points: Array, like: Self | None = None) -> Self:
-        """The primitive that fills points (N, 3) [m], which lie evenly inside a mesh.
+        """Returns the primitive that fills points (N, 3) [m], which lie evenly inside a mesh.
 
         Args:
             points: In the segment's frame.

@@ -54,7 +54,7 @@ class _ByKind:
 
     @classmethod
     def _json_schema(cls, _: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
-        """The installed shape models, and any other; a broken one is left out."""
+        """Returns the installed shape models, and any other; a broken one is left out."""
         properties = {}
         for kind in ParametricShape.available():
             try:
@@ -79,7 +79,7 @@ def _schema(parameters: Any) -> CoreSchema:
 
 
 def _validated(value: Any) -> dict[str, dict[str, tuple[ShapeParameters, ...]]]:
-    """Each kind as the class of its shape model checks it."""
+    """Returns each kind as the class of its shape model checks it."""
     fields = {
         kind: core_schema.typed_dict_field(_schema(_listed_of(kind)))
         for kind in (value if isinstance(value, Mapping) else ())

@@ -7,7 +7,7 @@ from regkit.system.arrays import Array
 
 
 def vector(values: Array) -> Vector:
-    """An array (3,) as three numbers."""
+    """Returns an array (3,) as three numbers."""
     x, y, z = values.tolist()
     return (x, y, z)
 

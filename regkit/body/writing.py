@@ -38,7 +38,7 @@ _BESIDE = "The skin: vertices that follow the segments, in a file beside this on
 
 
 def template_text(body: BodyDescription, opening: str, comments: Mapping[str, str]) -> str:
-    """The YAML of a template; lengths have four decimals [m] and angles one [deg].
+    """Returns the YAML of a template; lengths have four decimals [m] and angles one [deg].
 
     Its mesh, if it has one, has to lie beside it.
 
@@ -149,7 +149,7 @@ def _coupling(coupling: CouplingDescription) -> str:
 
 
 def _axes_at_right_angles(joint: BallJoint) -> tuple[str, str]:
-    """The twist and swing axes, in full where rounding would turn them to one another."""
+    """Returns the twist and swing axes, in full where rounding would turn them to one another."""
     axes = (joint.twist_axis, joint.swing_axis)
     twist, swing = np.round(axes, 4)
     if abs(float(twist @ swing)) < 1e-7:

@@ -63,7 +63,7 @@ class Calibration(Model):
     """What makes the gaps of all frames small."""
 
     def subject(self, recording: Recording, watcher: Watcher) -> Subject:
-        """The subject of a recording.
+        """Returns the subject of a recording.
 
         Raises:
             RegkitError: If the template has no capsules, the recording cannot be tracked, or the
@@ -90,7 +90,7 @@ class Calibration(Model):
         return Subject.found(shape, x, looks, recording.name)
 
     def _preprocessor(self) -> Preprocessor:
-        """The given preprocessor, or one for a body of the usual size."""
+        """Returns the given preprocessor, or one for a body of the usual size."""
         if self.preprocessor is not None:
             return self.preprocessor
         size = float(np.median(self.template.candidate_sizes()))
@@ -99,7 +99,7 @@ class Calibration(Model):
         return Preprocessor.parse(data, place="calibration", field="preprocessor")
 
     def _looks(self, session: Session, start: Start, watcher: Watcher) -> Looks:
-        """The body tracked, and the frames chosen in which it is looked at."""
+        """Returns the body tracked, and the frames chosen in which it is looked at."""
         length = min(session.recording.length, self.longest)
         watcher.begin("tracking", length)
         registrar = self.method.bind(start.body)
@@ -109,7 +109,7 @@ class Calibration(Model):
     def _fitted(
         self, shape: Shape, x: Array, looks: Looks, watcher: Watcher
     ) -> tuple[Array, Looks]:
-        """The proportions (1 + 2 G) and poses of least gaps."""
+        """Returns the proportions (1 + 2 G) and poses of least gaps."""
         watcher.begin("fitting", 1)
         problem = SubjectProblem(shape, x, looks.clouds, looks.poses)
         solution = self.solver.minimize(problem)

@@ -38,7 +38,7 @@ class Cloud:
 
     @classmethod
     def of(cls, observation: Observation) -> Cloud:
-        """The cloud of a frame."""
+        """Returns the cloud of a frame."""
         step = max(1, -(-len(observation.points) // MOST_POINTS))
         return cls(observation, observation.points[::step], KDTree(observation.points))
 
@@ -64,7 +64,7 @@ class Cloud:
         return model_to_data(axes, self.tree), weights
 
     def _hidden(self, centres: Array, thick: Array) -> Array:
-        """One where the camera measured well before a sphere, else zero, (R,)."""
+        """Returns one where the camera measured well before a sphere, else zero, (R,)."""
         camera, depth = self.observation.camera, self.observation.depth
         if camera is None or depth is None:
             return np.zeros(len(centres))

@@ -68,7 +68,7 @@ def spread(track: Iterable[TrackedFrame], length: int, count: int) -> Looks:
 
 
 def distances(body: Body, looks: Looks) -> Array:
-    """The distances of the points of all frames to the body's surface, (N,) [m]."""
+    """Returns the distances of the points of all frames to the body's surface, (N,) [m]."""
     found = []
     for cloud, pose in zip(looks.clouds, looks.poses, strict=True):
         capsules = body.capsules.place(body.place(pose).transforms)

@@ -65,20 +65,20 @@ class SubjectProblem(Problem):
         self.upper = np.concatenate([free, *upper])
 
     def shape(self, x: Array) -> Array:
-        """The numbers of the shape (1 + 2 G) in coordinates x (m,)."""
+        """Returns the numbers of the shape (1 + 2 G) in coordinates x (m,)."""
         return x[: len(self._shape)]
 
     def poses(self, x: Array) -> tuple[Pose, ...]:
-        """The poses of the frames at coordinates x (m,)."""
+        """Returns the poses of the frames at coordinates x (m,)."""
         places = self._places()
         return tuple(chart.pose(x[own]) for chart, own in zip(self._charts, places, strict=True))
 
     def value_and_gradient(self, x: Array) -> tuple[float, Array]:
-        """The energy at coordinates x (m,) and its gradient (m,)."""
+        """Returns the energy at coordinates x (m,) and its gradient (m,)."""
         return self.normal_equations(x)[:2]
 
     def normal_equations(self, x: Array) -> tuple[float, Array, Array]:
-        """The energy, its gradient (m,) and the Gauss-Newton matrix (m, m)."""
+        """Returns the energy, its gradient (m,) and the Gauss-Newton matrix (m, m)."""
         shape, springs = self.shape(x), self._shape.springs()
         body = self._shape.body(shape)
         value = 0.5 * float(springs @ shape**2)
@@ -95,7 +95,7 @@ class SubjectProblem(Problem):
         return value, gradient, matrix
 
     def projected(self, x: Array) -> Array:
-        """The poses brought back within the limits of hinges and balls."""
+        """Returns the poses brought back within the limits of hinges and balls."""
         x = np.clip(x, self.lower, self.upper)
         for chart, own in zip(self._charts, self._places(), strict=True):
             pose = chart.pose(x[own])
@@ -129,7 +129,7 @@ class SubjectProblem(Problem):
         return energy, gradient, rows.T @ (tensions[:, None] * rows) + np.diag(spring)
 
     def _usual_distance(self, body: Body, poses: Sequence[Pose]) -> float:
-        """The median distance of all points to the surface [m]."""
+        """Returns the median distance of all points to the surface [m]."""
         lengths = [
             cloud.data_to_model(
                 body.capsules.place(body.place(pose).transforms), self._range

@@ -47,22 +47,22 @@ class Shape:
         return 1 + 2 * len(self.groups.names)
 
     def origin(self, size: float) -> Array:
-        """The template's own proportions at a size [m], (1 + 2 G)."""
+        """Returns the template's own proportions at a size [m], (1 + 2 G)."""
         x = np.zeros(len(self))
         x[0] = np.log(size / self.template.size.value)
         return x
 
     def proportions(self, x: Array) -> Proportions:
-        """The proportions of a vector (1 + 2 G)."""
+        """Returns the proportions of a vector (1 + 2 G)."""
         lengths, girths = np.split(np.exp(x[0] + x[1:]), 2)
         return Proportions(self.groups, lengths, girths)
 
     def description(self, x: Array) -> BodyDescription:
-        """The template with the proportions of a vector (1 + 2 G)."""
+        """Returns the template with the proportions of a vector (1 + 2 G)."""
         return self.proportions(x).applied(self.template)
 
     def body(self, x: Array) -> Body:
-        """The body with the proportions of a vector (1 + 2 G)."""
+        """Returns the body with the proportions of a vector (1 + 2 G)."""
         subject = self.description(x)
         return subject.body("subject", subject.size.value)
 

@@ -65,7 +65,7 @@ class Subject:
 
 
 def _named(description: BodyDescription, recording: str, frames: int) -> BodyDescription:
-    """The description, which says where its proportions come from."""
+    """Returns the description, which says where its proportions come from."""
     source = f"Lengths and girths: fitted to {frames} frames of the recording {recording}"
     return description.model_copy(
         update={

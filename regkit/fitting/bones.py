@@ -19,7 +19,7 @@ class BoneMap(RootModel[dict[str, str | None]]):
 
 
 def read_bone_map(path: Path) -> dict[str, str | None]:
-    """The bone map in a YAML file.
+    """Returns the bone map in a YAML file.
 
     Raises:
         RegkitError: If the file is missing or wrong.
@@ -30,7 +30,7 @@ def read_bone_map(path: Path) -> dict[str, str | None]:
 def owners_of_bones(
     mesh: SkinnedMesh, template: BodyDescription, bones: Mapping[str, str | None]
 ) -> dict[str, str]:
-    """The segment that each bone belongs to, by the bone's label.
+    """Returns the segment that each bone belongs to, by the bone's label.
 
     A bone that ``bones`` does not name belongs to the segment of its own name.
 

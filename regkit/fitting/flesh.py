@@ -32,12 +32,12 @@ class Flesh:
     areas: Array
 
     def local(self, frame: SegmentFrame) -> Flesh:
-        """The same in the frame of a segment, if this is in the template's axes."""
+        """Returns the same in the frame of a segment, if this is in the template's axes."""
         return Flesh(frame.local(self.interior), frame.local(self.surface), self.areas)
 
 
 def flesh_of(mesh: SkinnedMesh, layout: Layout, spacing: float) -> dict[str, Flesh]:
-    """The flesh of every segment, from a grid whose points are ``spacing`` apart [m]."""
+    """Returns the flesh of every segment, from a grid whose points are ``spacing`` apart [m]."""
     parts = divided(mesh, layout.T_template_mesh, layout.owners, list(layout.frames), spacing)
     return {name: part.local(layout.frames[name]) for name, part in parts.items()}
 
@@ -49,7 +49,7 @@ def divided(
     names: Sequence[str],
     spacing: float,
 ) -> dict[str, Flesh]:
-    """The flesh of every segment in the template's axes, in the pose of the mesh.
+    """Returns the flesh of every segment in the template's axes, in the pose of the mesh.
 
     A point belongs to the segment that the nearest vertex follows most.
 
@@ -84,7 +84,7 @@ def divided(
 
 
 def interior_points(vertices: Array, faces: Indices, spacing: float) -> Array:
-    """The points (N, 3) inside a mesh of a grid that is symmetric about the plane x = 0."""
+    """Returns the points (N, 3) inside a mesh of a grid that is symmetric about the plane x = 0."""
     corners, triangles = closed(vertices, faces)
     cells = np.ceil(np.abs(corners).max(axis=0) / spacing).astype(int)
     axes = [(np.arange(-count, count) + 0.5) * spacing for count in cells]

@@ -61,7 +61,7 @@ class MeshShape:
         }
 
     def proportions(self) -> Proportions:
-        """The mean factors of each group of segments."""
+        """Returns the mean factors of each group of segments."""
         groups = Groups.of(self.template)
         order = parents_first(self.template.segments)
         factors = np.array(

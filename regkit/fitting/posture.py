@@ -72,7 +72,7 @@ class Posture:
         return rotation, origin
 
     def frames(self, flesh: Mapping[str, Flesh]) -> dict[str, SegmentFrame]:
-        """The frame of every segment, if the joints are in the root's axes.
+        """Returns the frame of every segment, if the joints are in the root's axes.
 
         A segment is turned until its bones point as the template's do, and otherwise as little as
         it can be against its parent. Where a hinge that goes straight on at rest is bent in the
@@ -120,7 +120,7 @@ class Posture:
     def _bend(
         self, name: str, segment: SegmentDescription, bone: Array, way: Array
     ) -> list[tuple[Array, Array]]:
-        """The axis of a hinge, if the mesh shows it."""
+        """Returns the axis of a hinge, if the mesh shows it."""
         grandchildren = self._children(name)
         hinge = segment.joint
         if (
@@ -158,7 +158,7 @@ class Posture:
 
 
 def _turn(pairs: list[tuple[Array, Array]], nominal: Array) -> tuple[Array, bool]:
-    """The rotation (3, 3) that turns the first of each pair nearest to the second.
+    """Returns the rotation (3, 3) that turns the first of each pair nearest to the second.
 
     What they leave open stays as in ``nominal``. Also whether a reflection would do it better.
 

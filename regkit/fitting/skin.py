@@ -19,7 +19,7 @@ from regkit.system.arrays import Indices
 
 
 def on_segments(mesh: SkinnedMesh, layout: Layout, template: BodyDescription) -> SkinnedMesh:
-    """The same vertices, in the template's axes, with the template's segments for bones.
+    """Returns the same vertices, in the template's axes, with the template's segments for bones.
 
     A vertex follows a segment by as much as it followed all of the segment's bones together.
     """

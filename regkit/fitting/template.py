@@ -56,7 +56,7 @@ class FittedTemplate:
         vertices: int,
         shapes: Sequence[str] = (),
     ) -> FittedTemplate:
-        """A template with the joints of another, in the shape of a mesh.
+        """Returns a template with the joints of another, in the shape of a mesh.
 
         Args:
             mesh: The mesh, in any pose and in any axes.
@@ -95,7 +95,7 @@ class FittedTemplate:
 
 
 def parameters_of(kind: str) -> type[ShapeParameters]:
-    """The class of a shape model's parameters.
+    """Returns the class of a shape model's parameters.
 
     Raises:
         ConfigError: If it has none.
@@ -108,7 +108,7 @@ def parameters_of(kind: str) -> type[ShapeParameters]:
 
 
 def _rough_size(template: BodyDescription, joints: Mapping[str, Array]) -> float:
-    """The size by the distances of joints [m].
+    """Returns the size by the distances of joints [m].
 
     Raises:
         DataError: If no body of this template is like that.
@@ -129,7 +129,7 @@ def _rough_size(template: BodyDescription, joints: Mapping[str, Array]) -> float
 def _sized(
     description: BodyDescription, template: BodyDescription, skin: SkinnedMesh
 ) -> BodyDescription:
-    """The description with the size that its height (along y, at rest) gives it."""
+    """Returns the description with the size that its height (along y, at rest) gives it."""
     own, other = (one.body("rest", one.size.value) for one in (description, template))
     transforms = own.place(own.skeleton.rest()).transforms
     if other.surface is None:

@@ -28,10 +28,10 @@ class CloudShape(ShapeModel, ABC):
 
     @abstractmethod
     def flat(self) -> float:
-        """The standard deviation along the normal, as a part of the width."""
+        """Returns the standard deviation along the normal, as a part of the width."""
 
     def wide(self, width: float) -> Self:
-        """The same shape model with another width [m]."""
+        """Returns the same shape model with another width [m]."""
         return self.model_copy(update={"width": width})
 
     def bind(self, body: Body) -> Gaussians:

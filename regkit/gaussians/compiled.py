@@ -143,7 +143,7 @@ def visible_wrenches(
 def stiffness_blocks(
     mass: Array, about: Array, relative: Array, precisions: Array, shift: Array
 ) -> Array:
-    """The blocks (K, 6, 6) of ``Moments.stiffness``."""
+    """Returns the blocks (K, 6, 6) of ``Moments.stiffness``."""
     count = len(mass)
     blocks = np.empty((count, 6, 6))
     second, both, lever = np.empty((3, 3)), np.empty((3, 3)), np.empty(3)

@@ -49,10 +49,10 @@ class Overlap(GaussianSimilarity):
         )
 
     def weigh(self, densities: Array, data_weights: Array) -> float | None:
-        """A pair's weight is its overlap, for the derivative of exp is exp."""
+        """Returns a pair's weight is its overlap, for the derivative of exp is exp."""
         return None
 
     def inliers(self, densities: Array, data_weights: Array) -> Array:
-        """Each point's overlap with the primitives, as a part of that with itself."""
+        """Returns each point's overlap with the primitives, as a part of that with itself."""
         overlap = densities.sum(axis=0) / data_weights
         return np.asarray(np.minimum(overlap / SELF_OVERLAP, 1.0))

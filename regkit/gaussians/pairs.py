@@ -87,7 +87,7 @@ class Moments:
         return pulled[:, :, 3], pulled @ self.relative.transpose(0, 2, 1)
 
     def stiffness(self, shift: Array) -> Array:
-        """The Gauss-Newton blocks (K, 6, 6): sum w J^T P J with J = [I, -[q]x].
+        """Returns the Gauss-Newton blocks (K, 6, 6): sum w J^T P J with J = [I, -[q]x].
 
         The residual turns with the segment, since the data are isotropic; so its derivative to a
         motion of the segment is that of the model's material at y.

@@ -36,11 +36,11 @@ class Seen(ABC):
 
     @abstractmethod
     def areas(self) -> Array:
-        """The area of each that a camera sees, (K,) [m^2], or that it shows at most."""
+        """Returns the area of each that a camera sees, (K,) [m^2], or that it shows at most."""
 
     @abstractmethod
     def wrenches(self, moments: Moments, volume_power: float) -> Array:
-        """The derivative (K, 6) to the primitives' motions about their centres.
+        """Returns the derivative (K, 6) to the primitives' motions about their centres.
 
         It is that of sum w (1/2 q^T P q - 1/2 log |P| - volume_power / 2 log |C|), with the weights
         w of the moments.

@@ -75,7 +75,7 @@ class GaussianSimilarity(Similarity):
 
     @abstractmethod
     def weigh(self, densities: Array, data_weights: Array) -> float | None:
-        """The energy of densities (K, N), which hold the data weights (N,) already.
+        """Returns the energy of densities (K, N), which hold the data weights (N,) already.
 
         The densities become the pairs' weights in place. None stands for minus the sum of these,
         which the moments hold anyway.
@@ -90,7 +90,7 @@ class GaussianSimilarity(Similarity):
         """
 
     def inlier_probability(self, placed: Placed[Gaussians]) -> Array:
-        """The probability (N,) that each point is an inlier."""
+        """Returns the probability (N,) that each point is an inlier."""
         view = self._view(placed)
         probability = np.empty(len(self._group_of))
         for index, group in enumerate(self._groups):
@@ -106,7 +106,7 @@ class GaussianSimilarity(Similarity):
         return reduce(Response.__add__, parts)
 
     def energy(self, placed: Placed[Gaussians]) -> float:
-        """The energy alone, without moments."""
+        """Returns the energy alone, without moments."""
         view, total = self._view(placed), 0.0
         for group in self._groups:
             densities, _ = self._densities(group, view)

@@ -43,7 +43,7 @@ class Visible(Seen):
 
     @classmethod
     def of(cls, placed: Placed[Gaussians]) -> Visible:
-        """The visible side of the primitives."""
+        """Returns the visible side of the primitives."""
         return cls(
             *visible_sides(
                 placed.centres, placed.axes, placed.primitives.scales, _DEPTH, _FLATTENING
@@ -51,7 +51,7 @@ class Visible(Seen):
         )
 
     def precisions(self, variance: float) -> Array:
-        """The visible side's axes are not the Gaussian's own, so P is inverted."""
+        """Returns the visible side's axes are not the Gaussian's own, so P is inverted."""
         return inverses(self.covariances, variance)[0]
 
     def log_volumes(self) -> Array:

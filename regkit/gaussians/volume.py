@@ -29,7 +29,7 @@ class Volume(Seen):
 
     @classmethod
     def of(cls, placed: Placed[Gaussians]) -> Volume:
-        """The primitives themselves."""
+        """Returns the primitives themselves."""
         return cls(placed.centres, placed.axes, placed.primitives.scales)
 
     def precisions(self, variance: float) -> Array:
@@ -42,7 +42,7 @@ class Volume(Seen):
         return np.asarray(2.0 * np.log(self.scales.prod(axis=1)))
 
     def areas(self) -> Array:
-        """The largest sections of the 2-sigma ellipsoids."""
+        """Returns the largest sections of the 2-sigma ellipsoids."""
         scales = np.sort(self.scales, axis=1)
         return np.asarray(4.0 * np.pi * scales[:, 1] * scales[:, 2])
 

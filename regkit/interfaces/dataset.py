@@ -44,7 +44,7 @@ class Recording(ABC):
 
     @abstractmethod
     def frames(self) -> Iterator[Frame]:
-        """The frames, read one by one.
+        """Returns the frames, read one by one.
 
         Raises:
             DataError: If a frame is missing or damaged.
@@ -69,7 +69,7 @@ class Recording(ABC):
 
     @abstractmethod
     def truth(self) -> Truth | None:
-        """The reference joints of the frames, or None.
+        """Returns the reference joints of the frames, or None.
 
         Raises:
             DataError: If they are there but damaged.
@@ -110,11 +110,11 @@ class Dataset(Plugin, ABC):
         """
 
     def wanted(self, name: str) -> bool:
-        """Whether a recording is used; what is not need not even be read."""
+        """Returns whether a recording is used; what is not need not even be read."""
         return self.recordings is None or name in self.recordings
 
     def chosen(self) -> list[Recording]:
-        """The recordings to use.
+        """Returns the recordings to use.
 
         Raises:
             DataError: If there is none, one is damaged, or two have the same name.
@@ -137,7 +137,7 @@ class Dataset(Plugin, ABC):
         return [found[name] for name in self.recordings]
 
     def only(self, name: str | None = None) -> Recording:
-        """The recording of a name, or the only one that there is.
+        """Returns the recording of a name, or the only one that there is.
 
         Raises:
             DataError: If there is none, or it is damaged.

@@ -45,7 +45,7 @@ class Similarity(ABC):
         """The energy of primitives in the world, its derivative, and the stiffness if asked for."""
 
     def energy(self, placed: Placed[Any]) -> float:
-        """The energy alone, where that takes less than all of the response."""
+        """Returns the energy alone, where that takes less than all of the response."""
         return self(placed).energy
 
     def inlier_probability(self, placed: Placed[Any]) -> Array | None:

@@ -16,7 +16,7 @@ class Preprocessor(Plugin, ABC):
 
     @abstractmethod
     def preprocess(self, frame: Frame) -> Observation:
-        """The frame as data.
+        """Returns the frame as data.
 
         Raises:
             DataError: If it holds too few points, or points that are not finite.

@@ -43,7 +43,7 @@ class RegistrationResult:
 
     @classmethod
     def given(cls, pose: Pose) -> RegistrationResult:
-        """A pose that was given, not found."""
+        """Returns a pose that was given, not found."""
         return cls(pose, np.nan, np.nan, True, 0, 0, "given")
 
 
@@ -91,7 +91,7 @@ class Registrar(ABC):
         prior: Pose | None = None,
         warm_start: RegistrationResult | None = None,
     ) -> RegistrationResult:
-        """The body's pose in a frame.
+        """Returns the body's pose in a frame.
 
         The search starts from the candidate that explains the frame best, and everything is bound
         to that candidate.

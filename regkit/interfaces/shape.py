@@ -25,7 +25,7 @@ class ShapeModel(ParametricShape, ABC):
     """The type of the primitives."""
 
     def capsules_of(self, body: Body) -> Capsules:
-        """The body's capsules, of which the shape model makes its primitives.
+        """Returns the body's capsules, of which the shape model makes its primitives.
 
         Raises:
             ConfigError: If the body has none.

@@ -28,7 +28,7 @@ class Constraints(ABC):
 
     @abstractmethod
     def values(self, x: Array) -> Array:
-        """The rows (C,) at x (m,)."""
+        """Returns the rows (C,) at x (m,)."""
 
     @abstractmethod
     def jacobian(self, x: Array) -> Array:
@@ -36,7 +36,7 @@ class Constraints(ABC):
 
     @abstractmethod
     def curvature(self, x: Array, multipliers: Array) -> Array:
-        """The second derivative (m, m) of the sum of multipliers (C,) times rows."""
+        """Returns the second derivative (m, m) of the sum of multipliers (C,) times rows."""
 
     def violations(self, x: Array) -> Array:
         """How far each row (C,) is beyond its bounds, zero within."""
@@ -75,7 +75,7 @@ class Problem(ABC):
 
     @abstractmethod
     def value_and_gradient(self, x: Array) -> tuple[float, Array]:
-        """The value at x (m,) and its gradient (m,)."""
+        """Returns the value at x (m,) and its gradient (m,)."""
 
     def normal_equations(self, x: Array) -> tuple[float, Array, Array] | None:
         """The value, the gradient (m,) and a positive semi-definite matrix (m, m) of curvature.
@@ -93,7 +93,7 @@ class Problem(ABC):
         return None
 
     def projected(self, x: Array) -> Array:
-        """The point nearest to x (m,) that keeps all limits; here, those of the box."""
+        """Returns the point nearest to x (m,) that keeps all limits; here, those of the box."""
         return np.clip(x, self.lower, self.upper)
 
 

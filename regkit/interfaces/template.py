@@ -37,10 +37,10 @@ class Template(Plugin, ABC):
 
     @abstractmethod
     def given_size(self) -> float | None:
-        """The size that the user gave [m], or None if it is to be found from the data."""
+        """Returns the size that the user gave [m], or None if it is to be found from the data."""
 
     def candidate_sizes(self, count: int = 5) -> tuple[float, ...]:
-        """The given size alone, or ``count`` sizes over the range that occurs [m]."""
+        """Returns the given size alone, or ``count`` sizes over the range that occurs [m]."""
         given = self.given_size()
         if given is not None:
             return (given,)

@@ -52,7 +52,7 @@ class JointEnergy(ABC):
 
     @abstractmethod
     def __call__(self, pose: Pose) -> JointResponse:
-        """The energy in a pose, its derivative and its curvature."""
+        """Returns the energy in a pose, its derivative and its curvature."""
 
 
 @dataclass(frozen=True)

@@ -50,7 +50,7 @@ class BoundTracker(ABC):
 
     @abstractmethod
     def step(self, observation: Observation, past: Past) -> RegistrationResult:
-        """The pose in the next frame.
+        """Returns the pose in the next frame.
 
         Args:
             observation: The frame's data.

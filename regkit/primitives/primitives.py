@@ -38,14 +38,14 @@ class Primitives:
         return len(self.segments)
 
     def place(self, transforms: Array) -> Placed[Self]:
-        """The primitives in the world, for T_world_segment (S, 4, 4)."""
+        """Returns the primitives in the world, for T_world_segment (S, 4, 4)."""
         carriers = transforms[self.segments]
         rotations = carriers[:, :3, :3]
         centres = (rotations @ self.centres[:, :, None])[:, :, 0] + carriers[:, :3, 3]
         return Placed(self, carriers[:, :3, 3], centres, rotations @ self.axes)
 
     def scaled(self, factor: float) -> Self:
-        """The same primitives on a skeleton whose lengths are multiplied by ``factor``."""
+        """Returns the same primitives on a skeleton whose lengths are multiplied by ``factor``."""
         return replace(self, centres=factor * self.centres, scales=factor * self.scales)
 
 

@@ -168,5 +168,5 @@ def _set_map(
 def _crossed(
     a: float, b: float, c: float, x: float, y: float, z: float
 ) -> tuple[float, float, float]:
-    """The cross product of two vectors."""
+    """Returns the cross product of two vectors."""
     return b * z - c * y, c * x - a * z, a * y - b * x

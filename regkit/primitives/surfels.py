@@ -30,7 +30,7 @@ class Surfels(Primitives):
 
     @classmethod
     def of(cls, surface: SkinnedSurface, normals: Array, spacings: Array) -> Self:
-        """The vertices of a surface.
+        """Returns the vertices of a surface.
 
         Args:
             surface: The surface.
@@ -50,7 +50,7 @@ class Surfels(Primitives):
         )
 
     def place(self, transforms: Array) -> Placed[Self]:
-        """The surfels in the world, for T_world_segment (S, 4, 4)."""
+        """Returns the surfels in the world, for T_world_segment (S, 4, 4)."""
         skin = self.surface
         centres, axes, arms, turned, lengths = place_blended(
             transforms,
@@ -65,7 +65,7 @@ class Surfels(Primitives):
         return PlacedSurfels(self, carriers, centres, axes, arms, turned, lengths)
 
     def scaled(self, factor: float) -> Self:
-        """The same surfels on a skeleton whose lengths are multiplied by ``factor``."""
+        """Returns the same surfels on a skeleton whose lengths are multiplied by ``factor``."""
         return replace(super().scaled(factor), surface=self.surface.scaled(factor))
 
 

@@ -43,6 +43,6 @@ class TaperedCapsules(Volumes):
         return points.reshape(len(self), -1, 3)
 
     def scaled(self, factor: float) -> Self:
-        """The same capsules on a skeleton whose lengths are multiplied by ``factor``."""
+        """Returns the same capsules on a skeleton whose lengths are multiplied by ``factor``."""
         larger = super().scaled(factor)
         return replace(larger, halves=factor * self.halves, radii=factor * self.radii)

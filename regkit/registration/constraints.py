@@ -54,7 +54,7 @@ class ChartConstraints(Constraints):
         self._rows, self._parameters, self._own, self._count = rows, parameters, own, count
 
     def values(self, x: Array) -> Array:
-        """The rows (C,) at x (m,)."""
+        """Returns the rows (C,) at x (m,)."""
         return self._rows.values(x[self._own], self._parameters)[:, 0]
 
     def jacobian(self, x: Array) -> Array:
@@ -64,7 +64,7 @@ class ChartConstraints(Constraints):
         return jacobian
 
     def curvature(self, x: Array, multipliers: Array) -> Array:
-        """The second derivative (m, m) of the sum of multipliers (C,) times rows."""
+        """Returns the second derivative (m, m) of the sum of multipliers (C,) times rows."""
         curvature = np.zeros((self._count, self._count))
         own = self._rows.curvature(x[self._own], self._parameters, multipliers)
         curvature[self._own, self._own] = own
@@ -72,7 +72,7 @@ class ChartConstraints(Constraints):
 
 
 def tangent_constraints(skeleton: Skeleton, balls: Array, count: int) -> Constraints | None:
-    """The limits of ball joints on m steps of the tangent space at balls (n_ball, 4).
+    """Returns the limits of ball joints on m steps of the tangent space at balls (n_ball, 4).
 
     None if no ball joint has a limit.
     """

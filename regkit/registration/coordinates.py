@@ -32,15 +32,15 @@ class Coordinates(ABC):
 
     @abstractmethod
     def origin(self) -> Array:
-        """The coordinates (m,) of the start pose."""
+        """Returns the coordinates (m,) of the start pose."""
 
     @abstractmethod
     def pose(self, x: Array) -> Pose:
-        """The pose at coordinates x (m,)."""
+        """Returns the pose at coordinates x (m,)."""
 
     @abstractmethod
     def vector(self, pose: Pose) -> Array:
-        """The coordinates (m,) of a pose."""
+        """Returns the coordinates (m,) of a pose."""
 
     @abstractmethod
     def jacobian(self, x: Array) -> Array:

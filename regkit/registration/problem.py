@@ -57,7 +57,7 @@ class RegistrationProblem(Problem):
         self.lower, self.upper = coordinates.bounds()
 
     def value_and_gradient(self, x: Array) -> tuple[float, Array]:
-        """The energy at coordinates x (m,) and its gradient (m,), eqs. 11 to 13."""
+        """Returns the energy at coordinates x (m,) and its gradient (m,), eqs. 11 to 13."""
         placement, placed = self._placed(x)
         response = self._response(placed, curvature=False)
         joints = self._joint_responses(placement)
@@ -80,7 +80,7 @@ class RegistrationProblem(Problem):
         return value, jacobian.T @ force, jacobian.T @ matrix @ jacobian
 
     def without_curvature(self) -> tuple[str, ...]:
-        """The kernel or the terms that have no Gauss-Newton blocks."""
+        """Returns the kernel or the terms that have no Gauss-Newton blocks."""
         _, placed = self._placed(self.start)
         return tuple(
             name
@@ -89,7 +89,7 @@ class RegistrationProblem(Problem):
         )
 
     def constraints(self) -> Constraints | None:
-        """The limits of the ball joints."""
+        """Returns the limits of the ball joints."""
         return self._coordinates.constraints()
 
     def projected(self, x: Array) -> Array:

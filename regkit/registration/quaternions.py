@@ -26,7 +26,7 @@ class QuaternionCoordinates(Coordinates):
     unique = False
 
     def origin(self) -> Array:
-        """The start's translation, unit quaternions and hinge angles."""
+        """Returns the start's translation, unit quaternions and hinge angles."""
         return self.vector(self.start)
 
     def pose(self, x: Array) -> Pose:
@@ -55,7 +55,7 @@ class QuaternionCoordinates(Coordinates):
         return jacobian
 
     def bounds(self) -> tuple[Array, Array]:
-        """The hinges' limits; a quaternion has none."""
+        """Returns the hinges' limits; a quaternion has none."""
         lower, upper = np.full_like(self.origin(), -np.inf), np.full_like(self.origin(), np.inf)
         own = self._couplings.independent
         limits, start = self.skeleton.limits.hinge[own], self.start.hinges[own]
@@ -65,17 +65,17 @@ class QuaternionCoordinates(Coordinates):
         return lower, upper
 
     def constraints(self) -> Constraints | None:
-        """The swings and twists that have limits, and the norms of all quaternions."""
+        """Returns the swings and twists that have limits, and the norms of all quaternions."""
         return quaternion_constraints(self.skeleton, len(self.origin()))
 
     def vector(self, pose: Pose) -> Array:
-        """A pose's translation, unit quaternions and hinge angles."""
+        """Returns a pose's translation, unit quaternions and hinge angles."""
         root = [pose.root[:3, 3], from_matrix(pose.root[:3, :3])] if self.skeleton.free else []
         own = pose.hinges[self._couplings.independent]
         return np.concatenate([*root, pose.balls.ravel(), own])
 
     def _split(self, x: Array) -> tuple[Array, Array]:
-        """The un-normalised quaternions (L, 4) and all hinge angles (n_hinge,)."""
+        """Returns the un-normalised quaternions (L, 4) and all hinge angles (n_hinge,)."""
         own = self._couplings.independent
         first = len(x) - len(own)
         hinges = np.zeros(self._couplings.hinges)

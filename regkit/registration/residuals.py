@@ -44,7 +44,7 @@ class Residuals:
         return np.asarray(np.sqrt(np.einsum("rd,rd->r", self.values, self.values)))
 
     def response(self, loss: Loss, count: int, *, curvature: bool) -> Response:
-        """The energy ``sum w rho(|r|)`` of ``count`` primitives, its wrenches and blocks.
+        """Returns the energy ``sum w rho(|r|)`` of ``count`` primitives, its wrenches and blocks.
 
         The wrenches are exact; the blocks are those of Gauss-Newton with the loss's weights.
         """
@@ -88,7 +88,7 @@ class ResidualSimilarity(Similarity):
     def nearest(
         self, placed: Placed[Any], local: Array, distances: Array, gradients: Array
     ) -> Residuals:
-        """The distance of each point to its nearest primitive.
+        """Returns the distance of each point to its nearest primitive.
 
         Args:
             placed: The primitives.
@@ -104,7 +104,7 @@ class ResidualSimilarity(Similarity):
         return Residuals(owners, distances[each, owners], rows, self.weights)
 
     def __call__(self, placed: Placed[Any], *, curvature: bool = False) -> Response:
-        """The energy, its exact wrenches and, if asked for, the Gauss-Newton blocks."""
+        """Returns the energy, its exact wrenches and, if asked for, the Gauss-Newton blocks."""
         return self.residuals(placed).response(self.loss, len(placed), curvature=curvature)
 
     def inlier_probability(self, placed: Placed[Any]) -> Array | None:

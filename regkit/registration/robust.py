@@ -73,7 +73,7 @@ class Loss(ABC):
         return self._values((residuals / self.scale) ** 2)
 
     def gradient(self, residuals: Array) -> Array:
-        """The derivative of rho, (N,) [1/m]."""
+        """Returns the derivative of rho, (N,) [1/m]."""
         return self.weights(residuals) * residuals
 
     def weights(self, residuals: Array) -> Array:

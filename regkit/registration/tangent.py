@@ -35,7 +35,7 @@ class TangentCoordinates(Coordinates):
         return Pose(pose.root, pose.balls, self._couplings.coupled(pose.hinges))
 
     def vector(self, pose: Pose) -> Array:
-        """The step from the start to a pose, its rotations of at most half a turn."""
+        """Returns the step from the start to a pose, its rotations of at most half a turn."""
         return self._independent(self.skeleton.difference(self.start, pose))
 
     def jacobian(self, x: Array) -> Array:
@@ -50,7 +50,7 @@ class TangentCoordinates(Coordinates):
         ])  # fmt: skip
 
     def bounds(self) -> tuple[Array, Array]:
-        """The hinges' limits, and half a turn for each part of a rotation vector."""
+        """Returns the hinges' limits, and half a turn for each part of a rotation vector."""
         lower, upper = np.full((2, self.skeleton.dofs), np.pi)
         lower = -lower
         if self.skeleton.free:
@@ -62,16 +62,16 @@ class TangentCoordinates(Coordinates):
         return np.minimum(lower, 0.0), np.maximum(upper, 0.0)
 
     def constraints(self) -> Constraints | None:
-        """The swings and twists of the ball joints that have limits."""
+        """Returns the swings and twists of the ball joints that have limits."""
         return tangent_constraints(self.skeleton, self.start.balls, len(self.origin()))
 
     def _step(self, x: Array) -> Array:
-        """The step (n,) of all degrees of freedom at x (m,)."""
+        """Returns the step (n,) of all degrees of freedom at x (m,)."""
         if not len(self._couplings):
             return x
         hinges = self.skeleton.hinge_dofs.start
         return np.concatenate([x[:hinges], self._couplings.jacobian @ x[hinges:]])
 
     def _independent(self, step: Array) -> Array:
-        """The part (m,) of a step (n,) that followers have no part in."""
+        """Returns the part (m,) of a step (n,) that followers have no part in."""
         return np.delete(step, self.skeleton.hinge_dofs.start + self._couplings.followers)

@@ -52,7 +52,7 @@ class LimbSearch:
 
     @classmethod
     def of_all(cls, body: Body, random: np.random.Generator, samples: int) -> Iterator[LimbSearch]:
-        """A search for each of a body's limbs, with so many configurations."""
+        """Returns a search for each of a body's limbs, with so many configurations."""
         rest = body.skeleton.rest()
         balls, hinges = body.skeleton.limits.sampled(random, samples)
         for limb in limbs_of(body.skeleton):
@@ -67,7 +67,7 @@ class LimbSearch:
             yield cls(body, limb, axes, body.capsules.selected(~own), balls, hinges, places)
 
     def starts(self, cloud: KDTree, pose: Pose, most: int) -> Iterator[Pose]:
-        """The poses, at most so many, whose limb covers best what the rest leaves bare.
+        """Returns the poses, at most so many, whose limb covers best what the rest leaves bare.
 
         Args:
             cloud: The frame's points [m].
@@ -91,7 +91,7 @@ class LimbSearch:
                 yield self.limb.rotated(pose, self.balls[chosen], self.hinges[chosen])
 
     def _bare(self, points: Array, placement: Placement, root: Array) -> Array:
-        """The points within the limb's reach that the rest of the body does not explain."""
+        """Returns the points within the limb's reach that the rest of the body does not explain."""
         length = float(np.linalg.norm(self.places - self.places[:, :1], axis=2).max())
         near = points[np.linalg.norm(points - root, axis=1) < 1.2 * length]
         if len(self.rest):

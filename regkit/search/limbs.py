@@ -29,7 +29,7 @@ class Limb:
     hinges: Indices
 
     def rotated(self, pose: Pose, balls: Array, hinges: Array) -> Pose:
-        """A pose with this limb's joints from (..., n_ball, 4) and (..., n_hinge) [rad]."""
+        """Returns a pose with this limb's joints from (..., n_ball, 4) and (..., n_hinge) [rad]."""
         all_balls = np.tile(pose.balls, (*hinges.shape[:-1], 1, 1))
         all_hinges = np.tile(pose.hinges, (*hinges.shape[:-1], 1))
         all_balls[..., self.balls, :] = balls[..., self.balls, :]

@@ -82,13 +82,13 @@ class _Fitting:
         return np.asarray(nearest)[kept], seen[kept], kept
 
     def gap(self, transform: Array) -> float:
-        """The root mean square distance [m] of the nearest data to the surface."""
+        """Returns the root mean square distance [m] of the nearest data to the surface."""
         distances = np.sort(self.tree.query(transformed(inverse(transform), self.some))[0])
         return float(np.sqrt((distances[: int(KEPT * len(distances))] ** 2).mean()))
 
 
 def _between(source: Array, target: Array) -> Array:
-    """The motion (4, 4) of least squares between pairs (N, 3): Kabsch, 1976."""
+    """Returns the motion (4, 4) of least squares between pairs (N, 3): Kabsch, 1976."""
     middle, aim = source.mean(axis=0), target.mean(axis=0)
     left, _, right = np.linalg.svd((target - aim).T @ (source - middle))
     mirrored = np.diag([1.0, 1.0, np.sign(np.linalg.det(left @ right))])

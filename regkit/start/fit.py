@@ -34,7 +34,7 @@ class Stage:
 
 
 def fitted(scan: Scan, body: Body, pose: Pose, stages: Iterable[Stage]) -> Pose:
-    """The pose of least distances near ``pose``, its hinges within their limits.
+    """Returns the pose of least distances near ``pose``, its hinges within their limits.
 
     Args:
         scan: The cloud.

@@ -34,7 +34,7 @@ class Candidate:
 
 
 def guesses(scan: Scan, body: Body, cutoff: float) -> Iterator[Candidate]:
-    """The best place for every stance and turn.
+    """Returns the best place for every stance and turn.
 
     Args:
         scan: The cloud.
@@ -60,7 +60,7 @@ def _turns(body: Body) -> list[Array]:
 
 
 def _placed(body: Body, stance: Stance, rotation: Array, place: Array) -> Pose:
-    """The stance, turned, with the centre of its visible side at a place (3,)."""
+    """Returns the stance, turned, with the centre of its visible side at a place (3,)."""
     root = rotation @ stance.pose.root[:3, :3]
     pose = Pose(rigid(root, np.zeros(3)), stance.pose.balls, stance.pose.hinges)
     placed = body.capsules.place(body.place(pose).transforms)

@@ -46,7 +46,7 @@ class Scan:
     def distances(
         self, body: Body, placement: Placement
     ) -> tuple[SurfaceDistances, SurfaceDistances]:
-        """The distances of the data to the body, and of the body to the data."""
+        """Returns the distances of the data to the body, and of the body to the data."""
         capsules = body.capsules.place(placement.transforms)
         axes = capsules.axis_points(SPACING * body.size)
         return data_to_model(capsules, self._points), model_to_data(axes, self._tree)

@@ -55,7 +55,7 @@ class Start:
 
 
 def given_start(template: Template, description: PoseDescription) -> Start:
-    """The start that a user wrote down.
+    """Returns the start that a user wrote down.
 
     Raises:
         ConfigError: If it turns a joint that the body does not have, or the size is not known.
@@ -68,7 +68,7 @@ def given_start(template: Template, description: PoseDescription) -> Start:
 
 
 def found_start(template: Template, observation: Observation, *later: Observation) -> Start:
-    """The start that fits the first frame best.
+    """Returns the start that fits the first frame best.
 
     Every likely stance is placed at the cloud's centre, facing the camera, in every turn. The best
     of these guesses are fitted to the cloud; those that then fit best are fitted in every
@@ -115,7 +115,7 @@ def _found_start(template: Template, scans: list[Scan]) -> Start:
 
 
 def _fits(scan: Scan, bodies: list[Body]) -> list[Candidate]:
-    """The best fit of each body to a cloud."""
+    """Returns the best fit of each body to a cloud."""
     usual = bodies[len(bodies) // 2]
     rough = sorted(guesses(scan, usual, FAR * CUTOFF * usual.size), key=_misfit)[:LIKELY]
     coarse = [_fit(scan, usual, guess.pose, usual.size, COARSE) for guess in rough]

@@ -26,7 +26,7 @@ SPACING = 0.05
 
 
 def doubtful(track: Track, size: float) -> NDArray[np.bool_]:
-    """Whether each of T frames is doubtful, (T,): a figure that is unknown raises no doubt.
+    """Returns whether each of T frames is doubtful, (T,): a figure that is unknown raises no doubt.
 
     Args:
         track: What was found.

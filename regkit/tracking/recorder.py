@@ -87,7 +87,7 @@ class TrackRecorder:
             self._snapshots["worst"] = snapshot
 
     def track(self) -> Track:
-        """All frames so far as arrays."""
+        """Returns all frames so far as arrays."""
         rest, markers = self._registrar.body.skeleton.rest(), self._registrar.body.markers
         shapes = {
             "root": rest.root.shape,
@@ -107,7 +107,7 @@ class TrackRecorder:
         return self._messages[index]
 
     def snapshot(self, index: int) -> Snapshot:
-        """A frame as pictures show it; one that was not kept is read again.
+        """Returns a frame as pictures show it; one that was not kept is read again.
 
         Raises:
             RegkitError: If it cannot be read any more.

@@ -35,7 +35,7 @@ class Session:
     sized_in: int = 3
 
     def begin(self) -> Start:
-        """The body at its size, and its pose in the first frame.
+        """Returns the body at its size, and its pose in the first frame.
 
         Raises:
             RegkitError: If the given start does not fit the body, the first frame cannot be read,
@@ -59,7 +59,7 @@ class Session:
         return tracked(self.recording, self.preprocessor, registrar, tracker, pose)
 
     def observation(self, index: int) -> Observation:
-        """The data of a frame.
+        """Returns the data of a frame.
 
         Raises:
             RegkitError: If it cannot be read.
@@ -68,7 +68,7 @@ class Session:
         return self._observed(index, frame)
 
     def _looked_at(self) -> Iterator[Observation]:
-        """The first frame, and later ones if the size is unknown and they are usable."""
+        """Returns the first frame, and later ones if the size is unknown and they are usable."""
         count = 1 if self.template.given_size() is not None else self.sized_in
         for index, frame in self.recording.some(_spread(self.recording.length, count)):
             try:
@@ -86,7 +86,7 @@ class Session:
 
 
 def _spread(length: int, count: int) -> Iterable[int]:
-    """The first frame, the last, and those that divide what lies between them equally."""
+    """Returns the first frame, the last, and those that divide what lies between them equally."""
     return sorted({(length - 1) * part // max(count - 1, 1) for part in range(count)})
 
 

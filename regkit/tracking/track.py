@@ -44,7 +44,7 @@ class Track:
     preprocessing: Array
 
     def pose(self, index: int) -> Pose:
-        """The pose in a frame."""
+        """Returns the pose in a frame."""
         return Pose(self.root[index], self.balls[index], self.hinges[index])
 
     def __len__(self) -> int:

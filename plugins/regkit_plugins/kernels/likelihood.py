@@ -64,13 +64,13 @@ class BoundLikelihood(GaussianSimilarity):
         self._background = kernel.outliers / box_volume(observation)
 
     def weigh(self, densities: Array, data_weights: Array) -> float:
-        """A pair weighs by the Gaussian's share of the point, as in an E-step."""
+        """Returns a pair weighs by the Gaussian's share of the point, as in an E-step."""
         total = densities.sum(axis=0) + self._background * data_weights
         densities *= data_weights / total
         return -float(data_weights @ np.log(total / data_weights))
 
     def inliers(self, densities: Array, data_weights: Array) -> Array:
-        """The share of each point that is no outlier's."""
+        """Returns the share of each point that is no outlier's."""
         total = densities.sum(axis=0)
         return np.asarray(total / (total + self._background * data_weights))
 

@@ -24,7 +24,7 @@ class BioCPD(RigidMethod):
     """Steps at most; the library's own default."""
 
     def library(self) -> Any:
-        """The module ``biocpd``."""
+        """Returns the module ``biocpd``."""
         return load_library("biocpd", install="pip install 'regkit[baselines]'")
 
     def aligned(self, source: Array, target: Array, start: Array, size: float) -> Aligned:

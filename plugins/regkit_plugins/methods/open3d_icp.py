@@ -27,7 +27,7 @@ class Open3DICP(RigidMethod):
     """How many neighbours tell a normal; Open3D's own default."""
 
     def library(self) -> Any:
-        """The module ``open3d``."""
+        """Returns the module ``open3d``."""
         return load_library("open3d")
 
     def aligned(self, source: Array, target: Array, start: Array, size: float) -> Aligned:

@@ -27,7 +27,7 @@ class ProbregCPD(RigidMethod):
     """Steps at most; the library's own default."""
 
     def library(self) -> Any:
-        """The module ``probreg.cpd``."""
+        """Returns the module ``probreg.cpd``."""
         return load_library("probreg.cpd", install=INSTALL)
 
     def aligned(self, source: Array, target: Array, start: Array, size: float) -> Aligned:
@@ -57,7 +57,7 @@ class ProbregFilterReg(RigidMethod):
     """Steps at most; the library's own default."""
 
     def library(self) -> Any:
-        """The module ``probreg.filterreg``."""
+        """Returns the module ``probreg.filterreg``."""
         return load_library("probreg.filterreg", install=INSTALL)
 
     def aligned(self, source: Array, target: Array, start: Array, size: float) -> Aligned:

@@ -30,7 +30,7 @@ class SmallGICP(RigidMethod):
     degrees."""
 
     def library(self) -> Any:
-        """The module ``small_gicp``."""
+        """Returns the module ``small_gicp``."""
         return load_library("small_gicp", install="pip install 'regkit[baselines]'")
 
     def aligned(self, source: Array, target: Array, start: Array, size: float) -> Aligned:

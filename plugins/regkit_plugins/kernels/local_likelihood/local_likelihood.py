@@ -85,7 +85,7 @@ class BoundLocalLikelihood(Similarity):
         return Response(energy, wrenches, blocks if curvature else None)
 
     def inlier_probability(self, placed: Placed[Gaussians]) -> Array:
-        """The share of each point that is no outlier's, (N,)."""
+        """Returns the share of each point that is no outlier's, (N,)."""
         return self._mixture(placed, curvature=False)[3]
 
     def _mixture(

@@ -96,7 +96,7 @@ class BoundMatching(ResidualSimilarity):
         return probability
 
     def _bound_loss(self, deviation: float, start: Placed[Surfels], smoothing: float) -> Loss:
-        """The loss, for data of a standard deviation [m]."""
+        """Returns the loss, for data of a standard deviation [m]."""
         robust, noise = self._kernel.robust, self._kernel.noise
         if robust.scale is None and noise is not None:
             robust = robust.model_copy(update={"scale": noise * deviation})
@@ -108,7 +108,7 @@ class BoundMatching(ResidualSimilarity):
         return robust.bound(residuals, least=deviation, smoothing=smoothing)
 
     def _matched(self, placed: Placed[Surfels]) -> Matches:
-        """The pairs, from the data and, where it is asked for, from the surfels."""
+        """Returns the pairs, from the data and, where it is asked for, from the surfels."""
         found = self._partners(placed)
         if self._cloud is None:
             return found
@@ -126,7 +126,7 @@ class BoundMatching(ResidualSimilarity):
         )
 
     def _partners(self, placed: Placed[Surfels]) -> Matches:
-        """The nearest visible surfel of each point, if it is near and faces alike."""
+        """Returns the nearest visible surfel of each point, if it is near and faces alike."""
         distances, nearest = self._nearest(placed, self._max_distance)
         points = np.flatnonzero(distances < self._max_distance)
         surfels = self._shown[nearest[points]]
@@ -148,13 +148,13 @@ class BoundMatching(ResidualSimilarity):
     def _offsets(
         self, placed: Placed[Surfels], points: Indices, surfels: Indices
     ) -> tuple[Array, Array]:
-        """The ways from surfels to points, (M, 3) [m], and the normals there, (M, 3)."""
+        """Returns the ways from surfels to points, (M, 3) [m], and the normals there, (M, 3)."""
         offsets = self.points[points] - placed.centres[surfels]
         normals = placed.axes[surfels, :, 2] if self._normals is None else self._normals[points]
         return offsets, normals
 
     def _sizes(self, offsets: Array, normals: Array) -> Array:
-        """The residuals r, (M,) [m]."""
+        """Returns the residuals r, (M,) [m]."""
         along = np.einsum("mi,mi->m", offsets, normals)
         squares = np.einsum("mi,mi->m", offsets, offsets)
         return np.asarray(

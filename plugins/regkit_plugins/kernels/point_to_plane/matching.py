@@ -56,7 +56,7 @@ class MatchingKernel(Kernel):
 
 
 def given_normals(observation: Observation, option: str) -> Array:
-    """The data's normals (N, 3), which an option of a kernel needs.
+    """Returns the data's normals (N, 3), which an option of a kernel needs.
 
     Raises:
         ConfigError: If the preprocessor gives none.

@@ -17,7 +17,7 @@ both in spacings of the surfels: a surface at a slant must not hide itself."""
 
 
 def visible(placed: Placed[Surfels]) -> Indices:
-    """The surfels that face a camera at the origin and are not behind others, (M,).
+    """Returns the surfels that face a camera at the origin and are not behind others, (M,).
 
     They are sorted into the cells of a coarse depth image. Where none is seen, all are.
     """

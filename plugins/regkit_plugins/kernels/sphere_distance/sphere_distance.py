@@ -96,7 +96,7 @@ class BoundSphereDistance(ResidualSimilarity):
         return loss.inlier_probability(distances) if np.isfinite(loss.tuning) else None
 
     def residuals(self, placed: Placed[TaperedCapsules]) -> Residuals:
-        """The distance of each point to the nearest capsule."""
+        """Returns the distance of each point to the nearest capsule."""
         owners, distances, rows = self._nearest(placed)
         constant = self._constant + float(self.weights @ self._surprise[owners])
         return Residuals(owners, distances, rows, self.weights, constant)

@@ -125,7 +125,7 @@ class BoundCoarseToFine(Registrar):
         prior: Pose | None = None,
         warm_start: RegistrationResult | None = None,
     ) -> RegistrationResult:
-        """The pose of least energy, from resolution to resolution, from the best candidate.
+        """Returns the pose of least energy, from resolution to resolution, from the best candidate.
 
         Neither a prior nor a warm start changes the result, for the data determine every motion.
         """
@@ -149,14 +149,14 @@ class BoundCoarseToFine(Registrar):
         )
 
     def evaluate(self, observation: Observation, pose: Pose) -> Evaluation:
-        """The energy at the finest resolution, with the neighbours that a pose has."""
+        """Returns the energy at the finest resolution, with the neighbours that a pose has."""
         data = observations(observation, self.levels[-1:])[-1]
         placed = self._placed(self.levels[-1], pose)
         similarity = self.method.kernel.bind(data, placed)
         return Evaluation(similarity(placed).energy, _known(similarity.inlier_probability(placed)))
 
     def _settled(self, level: Resolution, data: Observation, pose: Pose) -> _Settled:
-        """The pose at which a resolution comes to rest, neighbours being searched again."""
+        """Returns the pose at which a resolution comes to rest, neighbours being searched again."""
         iterations = evaluations = 0
         converged, message = False, f"it still moves after {self.method.searches} searches"
         placed = self._placed(level, pose)
@@ -185,5 +185,5 @@ class BoundCoarseToFine(Registrar):
 
 
 def _known(inlier_probability: Array | None) -> Array:
-    """The inlier probability of each point; NaN where the kernel cannot tell."""
+    """Returns the inlier probability of each point; NaN where the kernel cannot tell."""
     return np.array([np.nan]) if inlier_probability is None else inlier_probability

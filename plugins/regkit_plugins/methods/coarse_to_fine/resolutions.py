@@ -34,7 +34,7 @@ class Resolution:
 def resolutions(
     body: Body, shape: CloudShape, *, coarsest: float, finest: float, count: int, width: float
 ) -> tuple[Resolution, ...]:
-    """The resolutions of a body, the coarsest first; the finest has every point.
+    """Returns the resolutions of a body, the coarsest first; the finest has every point.
 
     Args:
         body: Whose surface it is.
@@ -69,7 +69,7 @@ def resolutions(
 def observations(
     observation: Observation, levels: tuple[Resolution, ...]
 ) -> tuple[Observation, ...]:
-    """A cloud at the resolutions of a body; at the finest it has every point."""
+    """Returns a cloud at the resolutions of a body; at the finest it has every point."""
     points, found = observation.points, []
     for index, level in reversed(list(enumerate(levels))):
         if index < len(levels) - 1:

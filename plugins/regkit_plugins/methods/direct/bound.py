@@ -54,7 +54,7 @@ class BoundDirect(Registrar):
         prior: Pose | None = None,
         warm_start: RegistrationResult | None = None,
     ) -> RegistrationResult:
-        """The pose of least energy near the best candidate, from smooth to sharp."""
+        """Returns the pose of least energy near the best candidate, from smooth to sharp."""
         annealing = self.method.annealing
         energy, pose = self._best(observation, candidates, prior, annealing[0])
         evaluations = len(candidates) if len(candidates) > 1 else 0
@@ -91,7 +91,7 @@ class BoundDirect(Registrar):
         prior: Pose | None,
         smoothing: float,
     ) -> tuple[FrameEnergy, Pose]:
-        """The candidate of the least similarity, and the energy bound to it.
+        """Returns the candidate of the least similarity, and the energy bound to it.
 
         All candidates are compared under the binding at the first one.
         """
@@ -117,14 +117,14 @@ class BoundDirect(Registrar):
             )
 
     def evaluate(self, observation: Observation, pose: Pose) -> Evaluation:
-        """The energy in a pose, with everything bound to the frame there."""
+        """Returns the energy in a pose, with everything bound to the frame there."""
         energy = self._bound(observation, pose, pose, 0.0)
         return Evaluation(energy.total(pose), energy.inlier_probability(pose))
 
     def _bound(
         self, observation: Observation, pose: Pose, prior: Pose, smoothing: float
     ) -> FrameEnergy:
-        """The kernel and all terms bound to a frame at a pose."""
+        """Returns the kernel and all terms bound to a frame at a pose."""
         return self._completed(*self._kernel(observation, pose, prior, smoothing))
 
     def _kernel(
@@ -144,7 +144,7 @@ class BoundDirect(Registrar):
         return scene, primitives, kernel
 
     def _completed(self, scene: Scene, primitives: Primitives, kernel: Similarity) -> FrameEnergy:
-        """The kernel with all terms that are energies."""
+        """Returns the kernel with all terms that are energies."""
         terms: dict[str, Similarity] = {}
         joints: list[JointEnergy] = []
         for index, term in enumerate(self.method.terms):

@@ -34,7 +34,7 @@ class FrameEnergy:
     joints: tuple[JointEnergy, ...]
 
     def total(self, pose: Pose) -> float:
-        """The energy of the kernel and all terms in a pose."""
+        """Returns the energy of the kernel and all terms in a pose."""
         placed = self.primitives.place(self.body.place(pose).transforms)
         energies = [one.energy(placed) for one in (self.kernel, *self.terms.values())]
         return sum(energies) + sum(joint(pose).energy for joint in self.joints)
@@ -48,7 +48,7 @@ class FrameEnergy:
     def problem(
         self, coordinates: Coordinates, multipliers: Multipliers | None
     ) -> RegistrationProblem:
-        """The problem in some coordinates of the pose."""
+        """Returns the problem in some coordinates of the pose."""
         return RegistrationProblem(
             coordinates,
             self.primitives,
