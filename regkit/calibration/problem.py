@@ -16,35 +16,35 @@ from regkit.skeleton import Pose
 from regkit.system.arrays import Array, Indices
 
 CUTOFF = 2.0
-"""The cutoff of distances in units of the usual one, the median, which holds the noise of the data
-and the misfit of such a body."""
+"""Cutoff of distances in units of the median, which covers the noise of the data and the body's
+misfit."""
 
 RANGE = 0.06
-"""The surface is traced along a point's ray within this part of the body's size."""
+"""A point's ray is traced within this fraction of the body's size."""
 
 EVIDENCE = 1000.0
-"""Number of independent distances in all frames together: neighbouring points and frames repeat
-each other."""
+"""Number of independent distances in all frames together: neighbouring points and frames are
+correlated."""
 
 STIFFNESS = 0.05
 """Weight of a joint's rotation [rad] against a distance [cutoff]; a joint without data stays."""
 
 
 class SubjectProblem(Problem):
-    """Surface distances in all frames, turns of the joints, and how unusual the proportions are.
+    """Surface distances in all frames, with priors on joint rotations and proportions.
 
     With the distances g in units of the cutoff, their weights w, the joints' rotations t and the
-    numbers s of the shape, whose usual sizes are u, the energy over F frames is
+    shape parameters s with standard deviations u, the energy over F frames is
 
         EVIDENCE / F sum_F (sum 1/2 w log(1 + g^2) + sum 1/2 (STIFFNESS t)^2) + sum 1/2 (s / u)^2.
 
-    Under the logarithm, Cauchy's loss, points that are not of the body count little.
+    The logarithm, Cauchy's loss, gives outliers little weight.
 
     Args:
         shape: The body's proportions.
-        start: Where they begin, (1 + 2 G).
-        clouds: The data of F frames.
-        poses: The body's poses in them.
+        start: Initial shape parameters, (1 + 2 G).
+        clouds: Data of F frames.
+        poses: Initial poses of the body in these frames.
     """
 
     def __init__(
@@ -65,7 +65,7 @@ class SubjectProblem(Problem):
         self.upper = np.concatenate([free, *upper])
 
     def shape(self, x: Array) -> Array:
-        """Returns the numbers of the shape (1 + 2 G) in coordinates x (m,)."""
+        """Returns the shape parameters (1 + 2 G) in coordinates x (m,)."""
         return x[: len(self._shape)]
 
     def poses(self, x: Array) -> tuple[Pose, ...]:
@@ -95,7 +95,7 @@ class SubjectProblem(Problem):
         return value, gradient, matrix
 
     def projected(self, x: Array) -> Array:
-        """Returns the poses brought back within the limits of hinges and balls."""
+        """Returns coordinates (m,) with hinges and ball joints projected onto their limits."""
         x = np.clip(x, self.lower, self.upper)
         for chart, own in zip(self._charts, self._places(), strict=True):
             pose = chart.pose(x[own])
@@ -107,7 +107,7 @@ class SubjectProblem(Problem):
     def _frame(
         self, body: Body, chart: TangentCoordinates, cloud: Cloud, step: Array
     ) -> tuple[float, Array, Array]:
-        """What one frame contributes, its derivatives to the shape and then to the pose's step."""
+        """Returns a frame's energy and derivatives, to the shape and then to the pose's step."""
         placement = body.place(chart.pose(step))
         capsules = body.capsules.place(placement.transforms)
         proportions = ProportionJacobian(body, placement, self._shape.groups)
@@ -139,7 +139,7 @@ class SubjectProblem(Problem):
         return float(np.median(np.abs(np.concatenate(lengths))))
 
     def _places(self) -> list[Indices]:
-        """Where the steps of each pose stand among the coordinates."""
+        """Returns the indices of each pose's step among the coordinates."""
         dofs = len(self._spring)
         first = len(self._shape)
         return [first + frame * dofs + np.arange(dofs) for frame in range(len(self._charts))]

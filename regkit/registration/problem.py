@@ -37,6 +37,7 @@ class RegistrationProblem(Problem):
         joints: The terms on joints.
         multipliers: Multipliers of a similar problem's solution, for a warm start.
     """
+
     def __init__(
         self,
         coordinates: Coordinates,
