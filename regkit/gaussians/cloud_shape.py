@@ -44,7 +44,7 @@ class CloudShape(ShapeModel, ABC):
         if surface is None:
             raise ConfigError(
                 f"shape '{self.kind}' needs a surface, and the template '{body.name}' has none; "
-                "use a template of kind cloud, or the shape gsog"
+                "take a template of kind cloud, or the shape gsog"
             )
         carrier = surface.blend.argmax(axis=1)
         vertices = np.arange(len(surface))

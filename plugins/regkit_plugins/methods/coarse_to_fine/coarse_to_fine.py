@@ -64,8 +64,8 @@ class CoarseToFine(Method):
     def _parts_fit(self) -> CoarseToFine:
         if not isinstance(self.shape, CloudShape):
             raise ValueError(
-                f"the method sets the width of its shape, which '{self.shape.kind}' does not have; "
-                "use cloud_gsog or cloud_sog"
+                f"shape '{self.shape.kind}' has no width that could be changed; take cloud_gsog "
+                "or cloud_sog"
             )
         self.kernel.check_shape(self.shape)
         return self

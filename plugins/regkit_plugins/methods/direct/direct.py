@@ -56,7 +56,7 @@ class Direct(Method):
             raise misplaced(
                 type(self),
                 f"solver '{self.solver.kind}' does not keep the limits of ball joints (they do: "
-                f"{', '.join(Solver.keeping_limits())}); use one of these, or leave hard_limits "
+                f"{', '.join(Solver.keeping_limits())}); take one of these, or leave hard_limits "
                 "out",
                 "solver",
             )
