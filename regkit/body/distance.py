@@ -80,10 +80,10 @@ def model_to_data(axes: AxisPoints, cloud: KDTree) -> SurfaceDistances:
     """Returns the distances of spheres on a body's axes, in the world, to the nearest points."""
     distances, nearest = cloud.query(axes.points)
     lengths = np.maximum(distances - axes.radii, 0.0)
-    ways = np.asarray(cloud.data)[nearest] - axes.points
+    offsets = np.asarray(cloud.data)[nearest] - axes.points
     return SurfaceDistances(
         lengths=lengths,
-        directions=ways / np.maximum(distances, 1e-9)[:, None] * (lengths > 0.0)[:, None],
+        directions=offsets / np.maximum(distances, 1e-9)[:, None] * (lengths > 0.0)[:, None],
         points=axes.points,
         segments=axes.segments,
         capsules=axes.capsules,

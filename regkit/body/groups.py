@@ -51,8 +51,8 @@ def _bone(name: str, segments: dict[str, SegmentDescription]) -> Array:
     surface = [capsule.end for capsule in segment.capsules]
     for ends in (children, list(segment.markers.values()), surface):
         # Children to the left and right of a trunk leave the direction in the middle.
-        way = np.sum(ends, axis=0) if ends else np.zeros(3)
-        length = float(np.linalg.norm(way))
+        direction = np.sum(ends, axis=0) if ends else np.zeros(3)
+        length = float(np.linalg.norm(direction))
         if length > 1e-6:
-            return np.asarray(way / length)
+            return np.asarray(direction / length)
     return np.zeros(3)

@@ -94,13 +94,15 @@ def _listed_of(kind: str) -> Any:
     try:
         parameters = ParametricShape.parameters_of(kind)
     except PluginError as error:
-        return Annotated[UncheckedParameters, BeforeValidator(partial(_kept, kind, str(error)))]
+        return Annotated[
+            UncheckedParameters, BeforeValidator(partial(_unchecked, kind, str(error)))
+        ]
     if parameters is None:
         raise misplaced(ParametricShape, f"the shape model '{kind}' has no parameters", kind)
     return parameters
 
 
-def _kept(kind: str, reason: str, value: Any) -> UncheckedParameters:
+def _unchecked(kind: str, reason: str, value: Any) -> UncheckedParameters:
     if isinstance(value, UncheckedParameters):
         return value
     if not isinstance(value, Mapping):

@@ -51,7 +51,7 @@ class Cloud:
         """
         if self.observation.camera is None:
             return data_to_model(capsules, self.points)
-        return data_to_model(capsules, self.points, _met(self.points, capsules, span))
+        return data_to_model(capsules, self.points, _ray_hits(self.points, capsules, span))
 
     def model_to_data(self, capsules: Capsules) -> tuple[SurfaceDistances, Array]:
         """Returns the distances of spheres on the axes to the nearest points, and weights (R,).
@@ -76,7 +76,7 @@ class Cloud:
         return before.astype(np.float64)
 
 
-def _met(points: Array, capsules: Capsules, span: float) -> Array:
+def _ray_hits(points: Array, capsules: Capsules, span: float) -> Array:
     """Returns where the rays of points meet a surface, or come nearest to it, (N, 3) [m].
 
     Each ray starts at the origin and is traced within ``span`` [m] of its point. A ray that begins
@@ -86,16 +86,18 @@ def _met(points: Array, capsules: Capsules, span: float) -> Array:
     at = np.full(len(points), -span)
     distances = capsules.surface_distance(points + at[:, None] * rays)
     best, least = np.where(distances > 0.0, at, 0.0), distances.copy()
-    going = np.flatnonzero(distances > 0.0)
+    active = np.flatnonzero(distances > 0.0)
     for _ in range(STEPS):
-        at[going] = np.minimum(at[going] + distances[going], span)
-        some = rays[going]
-        distances[going] = capsules.surface_distance(points[going] + at[going, None] * some)
-        nearer = going[distances[going] < least[going]]
+        at[active] = np.minimum(at[active] + distances[active], span)
+        active_rays = rays[active]
+        distances[active] = capsules.surface_distance(
+            points[active] + at[active, None] * active_rays
+        )
+        nearer = active[distances[active] < least[active]]
         best[nearer], least[nearer] = at[nearer], distances[nearer]
-        going = going[(distances[going] > _TOUCHED * span) & (at[going] < span)]
+        active = active[(distances[active] > _CONTACT * span) & (at[active] < span)]
     return np.asarray(points + best[:, None] * rays)
 
 
-_TOUCHED = 0.01
+_CONTACT = 0.01
 """A ray has met the surface if it comes this near, as a fraction of the span."""

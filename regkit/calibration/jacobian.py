@@ -54,8 +54,8 @@ class ProportionJacobian:
         transforms = self.placement.transforms
         for segment, parent in enumerate(self.body.skeleton.parents):
             if parent >= 0:
-                way = transforms[segment, :3, 3] - transforms[parent, :3, 3]
-                offset = way @ transforms[parent, :3, :3]
+                offset_in_world = transforms[segment, :3, 3] - transforms[parent, :3, 3]
+                offset = offset_in_world @ transforms[parent, :3, :3]
                 stretched = self._stretched(np.array([parent]), offset[None])[0]
                 origins[segment] = origins[parent] + stretched
         return origins

@@ -53,7 +53,7 @@ class SubjectProblem(Problem):
         self._shape, self._clouds = shape, clouds
         body = shape.body(start)
         self._range = RANGE * body.size
-        self._cutoff = CUTOFF * self._usual_distance(body, poses)
+        self._cutoff = CUTOFF * self._median_distance(body, poses)
         self._charts = [TangentCoordinates(body.skeleton, pose) for pose in poses]
         self._weight = EVIDENCE / len(clouds)
         self._spring = np.full(len(self._charts[0].origin()), STIFFNESS**2)
@@ -70,8 +70,8 @@ class SubjectProblem(Problem):
 
     def poses(self, x: Array) -> tuple[Pose, ...]:
         """Returns the poses of the frames at coordinates x (m,)."""
-        places = self._places()
-        return tuple(chart.pose(x[own]) for chart, own in zip(self._charts, places, strict=True))
+        indices = self._step_indices()
+        return tuple(chart.pose(x[own]) for chart, own in zip(self._charts, indices, strict=True))
 
     def value_and_gradient(self, x: Array) -> tuple[float, Array]:
         """Returns the energy at coordinates x (m,) and its gradient (m,)."""
@@ -86,7 +86,7 @@ class SubjectProblem(Problem):
         gradient[: len(shape)] = springs * shape
         matrix[: len(shape), : len(shape)] = np.diag(springs)
         shapes = np.arange(len(shape))
-        for chart, cloud, own in zip(self._charts, self._clouds, self._places(), strict=True):
+        for chart, cloud, own in zip(self._charts, self._clouds, self._step_indices(), strict=True):
             part = self._frame(body, chart, cloud, x[own])
             both = np.concatenate([shapes, own])
             value += self._weight * part[0]
@@ -97,7 +97,7 @@ class SubjectProblem(Problem):
     def projected(self, x: Array) -> Array:
         """Returns coordinates (m,) with hinges and ball joints projected onto their limits."""
         x = np.clip(x, self.lower, self.upper)
-        for chart, own in zip(self._charts, self._places(), strict=True):
+        for chart, own in zip(self._charts, self._step_indices(), strict=True):
             pose = chart.pose(x[own])
             within = chart.skeleton.limits.projected(pose)
             if within is not pose:
@@ -128,7 +128,7 @@ class SubjectProblem(Problem):
         gradient = (tensions * distances) @ rows + spring * rest
         return energy, gradient, rows.T @ (tensions[:, None] * rows) + np.diag(spring)
 
-    def _usual_distance(self, body: Body, poses: Sequence[Pose]) -> float:
+    def _median_distance(self, body: Body, poses: Sequence[Pose]) -> float:
         """Returns the median distance of all points to the surface [m]."""
         lengths = [
             cloud.data_to_model(
@@ -138,7 +138,7 @@ class SubjectProblem(Problem):
         ]
         return float(np.median(np.abs(np.concatenate(lengths))))
 
-    def _places(self) -> list[Indices]:
+    def _step_indices(self) -> list[Indices]:
         """Returns the indices of each pose's step among the coordinates."""
         dofs = len(self._spring)
         first = len(self._shape)

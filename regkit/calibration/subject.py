@@ -87,14 +87,14 @@ def check(shape: Shape, x: Array, off: float) -> None:
     Raises:
         DataError: If the surface is far from the data, or a bone's length is extreme.
     """
-    cure = "the body was not found; give its size or a start, or use another recording"
+    advice = "the body was not found; give its size or a start, or use another recording"
     size = shape.description(x).size.value
     if off > FARTHEST * size:
-        raise DataError(f"the body's surface lies {100.0 * off:.1f} cm from the data: {cure}")
+        raise DataError(f"the body's surface lies {100.0 * off:.1f} cm from the data: {advice}")
     lengths = x[1 : 1 + len(shape.groups.names)]
     worst = int(np.abs(lengths).argmax())
     if abs(lengths[worst]) > np.log(EXTREME):
         raise DataError(
             f"'{shape.groups.names[worst]}' came out {np.exp(lengths[worst]):.2f} times as long as "
-            f"in the scaled template: {cure}"
+            f"in the scaled template: {advice}"
         )

@@ -109,8 +109,8 @@ def closed(vertices: Array, faces: Indices) -> tuple[Array, Indices]:
     if not len(rim):
         return vertices, faces
     count = len(vertices)
-    ties = coo_array((np.ones(len(rim)), (rim[:, 0], rim[:, 1])), shape=(count, count))
-    _, hole = connected_components(ties, directed=False)
+    adjacency = coo_array((np.ones(len(rim)), (rim[:, 0], rim[:, 1])), shape=(count, count))
+    _, hole = connected_components(adjacency, directed=False)
     holes, hole_of_edge = np.unique(hole[rim[:, 0]], return_inverse=True)
     middles = [
         vertices[rim[hole_of_edge == index]].mean(axis=(0, 1)) for index in range(len(holes))

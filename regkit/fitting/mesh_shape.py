@@ -113,8 +113,8 @@ class MeshShape:
             return ()
         points = self._points(kind, name)
         centres = np.array([one.moments()[0] for one in before])
-        wider = points.std(axis=0) / np.sqrt(np.diag(_mixture(before)))
-        guess = points.mean(axis=0) + wider * (centres - centres.mean(axis=0))
+        spread_ratio = points.std(axis=0) / np.sqrt(np.diag(_mixture(before)))
+        guess = points.mean(axis=0) + spread_ratio * (centres - centres.mean(axis=0))
         owners = clusters(points, points[cKDTree(points).query(guess)[1]])
         return tuple(
             type(one).fitted(points[owners == index], one) for index, one in enumerate(before)
@@ -124,10 +124,10 @@ class MeshShape:
         """Returns points inside a segment and inside fixed segments without primitives."""
         frame = self.layout.frames[name]
         return np.concatenate(
-            [frame.local(self.parts[one].interior) for one in self._together(kind, name)]
+            [frame.local(self.parts[one].interior) for one in self._rigidly_attached(kind, name)]
         )
 
-    def _together(self, kind: str, name: str) -> list[str]:
+    def _rigidly_attached(self, kind: str, name: str) -> list[str]:
         """Returns a segment and the segments fixed to it that lack primitives of this kind."""
         names = [name]
         for parent in names:

@@ -63,7 +63,7 @@ class Posture:
             if missed < 1e-3:
                 origin = shares @ np.array([self.joints[child] for child in self._children(name)])
                 pairs = self._pairs(name, origin)
-        rotation, mirrored = _turn(pairs, np.eye(3))
+        rotation, mirrored = _aligning_rotation(pairs, np.eye(3))
         if mirrored:
             raise DataError(
                 f"the joints around '{name}' are a mirror image of the template's: exchange left "
@@ -99,7 +99,7 @@ class Posture:
                     to_flesh = flesh[name].interior.mean(axis=0) - self.joints[name]
                     pairs = [(_unit(middle), _unit(to_flesh))]
                     self._check_end(name, nominal @ pairs[0][0], pairs[0][1])
-            axes[name] = _turn(pairs, nominal)[0]
+            axes[name] = _aligning_rotation(pairs, nominal)[0]
         return {name: SegmentFrame(self.joints[name], axes[name].T) for name in segments}
 
     def _children(self, name: str) -> dict[str, SegmentDescription]:
@@ -109,15 +109,15 @@ class Posture:
         """Returns pairs of directions: in the template's segment, and in the mesh."""
         pairs = []
         for child, segment in self._children(name).items():
-            way = self.joints[child] - origin
-            if np.linalg.norm(segment.offset) > 1e-6 and np.linalg.norm(way) > 1e-6:
+            direction = self.joints[child] - origin
+            if np.linalg.norm(segment.offset) > 1e-6 and np.linalg.norm(direction) > 1e-6:
                 bone = _unit(np.array(segment.offset))
-                pairs.append((bone, _unit(way)))
-                pairs += self._bend(child, segment, bone, way)
+                pairs.append((bone, _unit(direction)))
+                pairs += self._bend(child, segment, bone, direction)
         return pairs
 
     def _bend(
-        self, name: str, segment: SegmentDescription, bone: Array, way: Array
+        self, name: str, segment: SegmentDescription, bone: Array, direction: Array
     ) -> list[tuple[Array, Array]]:
         """Returns a hinge's axis in template and mesh if the mesh reveals it, else nothing."""
         grandchildren = self._children(name)
@@ -129,16 +129,16 @@ class Posture:
         ):
             return []
         ((last, grandchild),) = grandchildren.items()
-        further = self.joints[last] - self.joints[name]
-        if np.linalg.norm(grandchild.offset) < 1e-6 or np.linalg.norm(further) < 1e-6:
+        next_direction = self.joints[last] - self.joints[name]
+        if np.linalg.norm(grandchild.offset) < 1e-6 or np.linalg.norm(next_direction) < 1e-6:
             return []
         sine = np.linalg.norm(np.cross(bone, _unit(np.array(grandchild.offset))))
-        bend = np.cross(_unit(way), _unit(further))
+        bend = np.cross(_unit(direction), _unit(next_direction))
         if sine > np.sin(STRAIGHT) or np.linalg.norm(bend) < np.sin(BENT):
             return []
         low, high = hinge.limits_deg or (0.0, 0.0)
-        sense = 1.0 if low + high >= 0.0 else -1.0
-        return [(sense * np.array(hinge.axis), _unit(bend))]
+        sign = 1.0 if low + high >= 0.0 else -1.0
+        return [(sign * np.array(hinge.axis), _unit(bend))]
 
     def _middle(self, name: str) -> Array | None:
         """Returns the centre (3,) [m] of a segment's primitives in the template, if it has any."""
@@ -156,7 +156,7 @@ class Posture:
             )
 
 
-def _turn(pairs: list[tuple[Array, Array]], nominal: Array) -> tuple[Array, bool]:
+def _aligning_rotation(pairs: list[tuple[Array, Array]], nominal: Array) -> tuple[Array, bool]:
     """Returns the rotation (3, 3) that aligns pairs best, and whether a reflection is better.
 
     Undetermined directions follow ``nominal``.

@@ -73,8 +73,8 @@ def decimated(mesh: SkinnedMesh, count: int) -> SkinnedMesh:
 def _largest_piece(mesh: SkinnedMesh) -> SkinnedMesh:
     count = len(mesh.vertices)
     ends = np.concatenate([mesh.faces[:, :2], mesh.faces[:, 1:]])
-    ties = coo_array((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=(count, count))
-    _, piece = connected_components(ties, directed=False)
+    adjacency = coo_array((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=(count, count))
+    _, piece = connected_components(adjacency, directed=False)
     largest = np.bincount(piece).argmax()
     own = replace(mesh, faces=mesh.faces[piece[mesh.faces[:, 0]] == largest])
     return _subset(own, np.flatnonzero(piece == largest))
@@ -82,12 +82,12 @@ def _largest_piece(mesh: SkinnedMesh) -> SkinnedMesh:
 
 def _subset(mesh: SkinnedMesh, kept: Indices) -> SkinnedMesh:
     """Returns a mesh with some of its vertices, on which all its faces must lie."""
-    number = np.zeros(len(mesh.vertices), dtype=np.intp)
-    number[kept] = np.arange(len(kept))
+    new_index = np.zeros(len(mesh.vertices), dtype=np.intp)
+    new_index[kept] = np.arange(len(kept))
     return replace(
         mesh,
         vertices=mesh.vertices[kept],
-        faces=number[mesh.faces],
+        faces=new_index[mesh.faces],
         indices=mesh.indices[kept],
         weights=mesh.weights[kept],
     )

@@ -37,9 +37,9 @@ class TaperedCapsules(Volumes):
 
     def surface_points(self) -> Array:
         """Returns points of the two spheres, (K, P, 3) [m]."""
-        ways = self.halves[:, None] * np.array([-1.0, 1.0])
+        offsets = self.halves[:, None] * np.array([-1.0, 1.0])
         points = self.radii[:, :, None, None] * SPHERE
-        points[..., 1] += ways[:, :, None]
+        points[..., 1] += offsets[:, :, None]
         return points.reshape(len(self), -1, 3)
 
     def scaled(self, factor: float) -> Self:

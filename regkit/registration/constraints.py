@@ -104,12 +104,12 @@ def _tangent_rows(skeleton: Skeleton) -> _Rows:
     ca = load_library("casadi")
     balls = len(skeleton.ball_links)
     steps, starts = ca.SX.sym("steps", 3 * balls), ca.SX.sym("starts", 4 * balls)
-    turned = [
+    balls_after = [
         product(starts[4 * ball : 4 * ball + 4], exponential(steps[3 * ball : 3 * ball + 3]))
         for ball in range(balls)
     ]
     limits = ball_limits(skeleton)
-    rows = limits.function(_turned_only(skeleton, ca.vertcat(ca.SX(0, 1), *turned)))
+    rows = limits.function(_configuration(skeleton, ca.vertcat(ca.SX(0, 1), *balls_after)))
     return _derived(limits.names, rows, limits.lower, limits.upper, steps, starts)
 
 
@@ -119,7 +119,7 @@ def _quaternion_rows(skeleton: Skeleton) -> _Rows:
     balls, free = len(skeleton.ball_links), int(skeleton.free)
     quaternions = ca.SX.sym("quaternions", 4 * (balls + free))
     limits = ball_limits(skeleton)
-    rows = limits.function(_turned_only(skeleton, quaternions[4 * free :]))
+    rows = limits.function(_configuration(skeleton, quaternions[4 * free :]))
     norms = [
         0.5 * (ca.sumsqr(quaternions[4 * index : 4 * index + 4]) - 1.0)
         for index in range(balls + free)
@@ -136,7 +136,7 @@ def _quaternion_rows(skeleton: Skeleton) -> _Rows:
     )
 
 
-def _turned_only(skeleton: Skeleton, balls: Any) -> Any:
+def _configuration(skeleton: Skeleton, balls: Any) -> Any:
     """Returns a configuration with these balls (4 n_ball,) and zeros for all other joints."""
     ca = load_library("casadi")
     first = 7 if skeleton.free else 0

@@ -112,7 +112,9 @@ class RegistrationProblem(Problem):
         return placement, self._primitives.place(placement.transforms)
 
     def _response(self, placed: Placed[Primitives], *, curvature: bool) -> Response:
-        parts = [one(placed, curvature=curvature) for one in self._similarities.values()]
+        parts = [
+            similarity(placed, curvature=curvature) for similarity in self._similarities.values()
+        ]
         return reduce(Response.__add__, parts)
 
     def _joint_responses(self, placement: Placement) -> list[JointResponse]:

@@ -43,10 +43,12 @@ def cloud_pose(body: Body, surface: SkinnedSurface, observation: Observation) ->
         observation: The data.
     """
     points = surface.place(body.place(body.skeleton.rest()).transforms)
-    some = observation.points[:: max(1, len(observation.points) // SKETCH)]
-    fitting = _Fitting(KDTree(points), points, normals(points), some)
-    centre, aim = points.mean(axis=0), some.mean(axis=0)
-    rough = [fitting.to_points(rigid(turn, aim - turn @ centre)) for turn in icosahedral()]
+    sample = observation.points[:: max(1, len(observation.points) // SKETCH)]
+    fitting = _Fitting(KDTree(points), points, normals(points), sample)
+    centre, aim = points.mean(axis=0), sample.mean(axis=0)
+    rough = [
+        fitting.to_points(rigid(rotation, aim - rotation @ centre)) for rotation in icosahedral()
+    ]
     likely = sorted(rough, key=fitting.gap)[:FINALISTS]
     return body.skeleton.rest(min(map(fitting.to_planes, likely), key=fitting.gap))
 
@@ -58,13 +60,13 @@ class _Fitting:
     tree: KDTree
     points: Array
     directions: Array
-    some: Array
+    sample: Array
 
     def to_points(self, transform: Array) -> Array:
         """Returns T_world_body (4, 4) after point-to-point steps."""
         for _ in range(ROUGH):
             nearest, _, kept = self._pairs(transform)
-            transform = _between(self.points[nearest], self.some[kept])
+            transform = _rigid_fit(self.points[nearest], self.sample[kept])
         return transform
 
     def to_planes(self, transform: Array) -> Array:
@@ -82,18 +84,18 @@ class _Fitting:
 
     def _pairs(self, transform: Array) -> tuple[Indices, Array, NDArray[np.bool_]]:
         """Returns nearest points and data in the body's frame, both trimmed, and the mask."""
-        seen = transformed(inverse(transform), self.some)
+        seen = transformed(inverse(transform), self.sample)
         distances, nearest = self.tree.query(seen)
         kept = np.asarray(distances <= np.quantile(distances, KEPT))
         return np.asarray(nearest)[kept], seen[kept], kept
 
     def gap(self, transform: Array) -> float:
         """Returns the root mean square distance of the trimmed data to the surface [m]."""
-        distances = np.sort(self.tree.query(transformed(inverse(transform), self.some))[0])
+        distances = np.sort(self.tree.query(transformed(inverse(transform), self.sample))[0])
         return float(np.sqrt((distances[: int(KEPT * len(distances))] ** 2).mean()))
 
 
-def _between(source: Array, target: Array) -> Array:
+def _rigid_fit(source: Array, target: Array) -> Array:
     """Returns the least-squares rigid motion (4, 4) between pairs (N, 3) (Kabsch, 1976)."""
     middle, aim = source.mean(axis=0), target.mean(axis=0)
     left, _, right = np.linalg.svd((target - aim).T @ (source - middle))

@@ -98,11 +98,11 @@ def _check_near(body: Body, pose: Pose, observation: Observation) -> None:
     """
     if not len(body.capsules):
         return
-    some = observation.points[:: max(1, len(observation.points) // 50)]
+    sample = observation.points[:: max(1, len(observation.points) // 50)]
     placed = body.capsules.place(body.place(pose).transforms)
-    distance = float(placed.surface_distance(some).min())
+    distance = float(placed.surface_distance(sample).min())
     if distance > body.size:
-        extent = float(np.linalg.norm(np.ptp(some, axis=0)))
+        extent = float(np.linalg.norm(np.ptp(sample, axis=0)))
         hint = f"; the points are spread over {extent:.4g} m: are they in metres (depth_scale)?"
         raise DataError(
             f"the registered body is {distance:.3g} m away from the data; the start or the "

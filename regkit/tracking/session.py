@@ -45,7 +45,7 @@ class Session:
             return _posed(self.template, self.start)
         if self.start is not None:
             return given_start(self.template, self.start)
-        observations = list(self._looked_at())
+        observations = list(self._start_observations())
         if not observations:
             raise DataError("the recording has no frame", place=self.recording.name)
         return found_start(self.template, *observations)
@@ -65,20 +65,20 @@ class Session:
             RegkitError: If the frame cannot be read.
         """
         ((_, frame),) = self.recording.some([index])
-        return self._observed(index, frame)
+        return self._preprocessed(index, frame)
 
-    def _looked_at(self) -> Iterator[Observation]:
+    def _start_observations(self) -> Iterator[Observation]:
         """Yields the first frame and, for an unknown size, later ones that are usable."""
         count = 1 if self.template.given_size() is not None else self.sized_in
         for index, frame in self.recording.some(_spread(self.recording.length, count)):
             try:
-                yield self._observed(index, frame)
+                yield self._preprocessed(index, frame)
             except RegkitError:
                 # An error in a later frame is reported when that frame is tracked.
                 if index == 0:
                     raise
 
-    def _observed(self, index: int, frame: Frame) -> Observation:
+    def _preprocessed(self, index: int, frame: Frame) -> Observation:
         try:
             return self.preprocessor.preprocess(frame)
         except RegkitError as error:

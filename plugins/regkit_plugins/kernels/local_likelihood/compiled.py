@@ -68,7 +68,7 @@ def local_mixture(
     energy = 0.0
     wrenches = np.zeros((total, 6))
     blocks = np.zeros((total if curvature else 0, 6, 6))
-    explained = np.empty(count)
+    inliers = np.empty(count)
     densities, inverses, residuals = np.empty(near), np.empty((near, 6)), np.empty((near, 3))
     pulled, turned = np.empty((3, 3)), np.empty((3, 3))
     for j in range(count):
@@ -97,7 +97,7 @@ def local_mixture(
             densities[a] = mixing[i] / sqrt(determinant) * exp(-0.5 * square)
             density += densities[a]
         energy -= point_weights[j] * log(density)
-        explained[j] = 1.0 - background / density
+        inliers[j] = 1.0 - background / density
         for a in range(near):
             share = densities[a] / density
             if share < 1e-6:
@@ -147,4 +147,4 @@ def local_mixture(
                 block[3, 3 + c] += share * (turned[2, c] * ly - turned[1, c] * lz)
                 block[4, 3 + c] += share * (turned[0, c] * lz - turned[2, c] * lx)
                 block[5, 3 + c] += share * (turned[1, c] * lx - turned[0, c] * ly)
-    return energy, wrenches, blocks, explained
+    return energy, wrenches, blocks, inliers

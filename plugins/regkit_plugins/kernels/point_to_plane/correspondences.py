@@ -71,7 +71,7 @@ class BoundMatching(ResidualSimilarity):
                 away = np.einsum("ni,ni->n", self._facing, self.points) > 0.0
                 self._facing = np.where(away[:, None], -self._facing, self._facing)
         self._point_share, self._normals = point_share, normals
-        self._shown = visible(start) if self._oriented else np.arange(len(start))
+        self._visible = visible(start) if self._oriented else np.arange(len(start))
         self._cloud = cKDTree(observation.points) if kernel.reverse_weight > 0.0 else None
         self.loss = self._bound_loss(float(np.sqrt(observation.variances.mean())), start, smoothing)
         self._max_distance = kernel.max_correspondence_distance * self.loss.scale
@@ -103,8 +103,10 @@ class BoundMatching(ResidualSimilarity):
         residuals = np.zeros(0)
         if robust.scale is None:
             _, nearest = self._nearest(start, np.inf)
-            ways = self._offsets(start, np.arange(len(nearest)), self._shown[nearest])
-            residuals = self._sizes(*ways)
+            offsets_and_normals = self._offsets(
+                start, np.arange(len(nearest)), self._visible[nearest]
+            )
+            residuals = self._sizes(*offsets_and_normals)
         return robust.bound(residuals, least=deviation, smoothing=smoothing)
 
     def _matched(self, placed: Placed[Surfels]) -> Matches:
@@ -112,15 +114,15 @@ class BoundMatching(ResidualSimilarity):
         found = self._partners(placed)
         if self._cloud is None:
             return found
-        weights = placed.primitives.weights[self._shown]
+        weights = placed.primitives.weights[self._visible]
         weights = self._kernel.reverse_weight * weights / weights.sum()
         distances, points = self._cloud.query(
-            placed.centres[self._shown], distance_upper_bound=self._max_distance
+            placed.centres[self._visible], distance_upper_bound=self._max_distance
         )
         near = np.asarray(distances) < self._max_distance
         return Matches(
             np.concatenate([found.points, np.asarray(points)[near]]),
-            np.concatenate([found.surfels, self._shown[near]]),
+            np.concatenate([found.surfels, self._visible[near]]),
             np.concatenate([found.weights, weights[near]]),
             found.lost + float(weights[~near].sum()),
         )
@@ -129,19 +131,19 @@ class BoundMatching(ResidualSimilarity):
         """Returns the nearest visible surfel of each point within the distance and angle limits."""
         distances, nearest = self._nearest(placed, self._max_distance)
         points = np.flatnonzero(distances < self._max_distance)
-        surfels = self._shown[nearest[points]]
+        surfels = self._visible[nearest[points]]
         if self._facing is not None and self._kernel.angle_deg is not None:
-            alike = (self._facing[points] * placed.axes[surfels, :, 2]).sum(axis=1)
+            cosines = (self._facing[points] * placed.axes[surfels, :, 2]).sum(axis=1)
             # Without a camera the orientation of the data's normals is unknown.
-            alike = alike if self._oriented else np.abs(alike)
-            kept = alike > np.cos(np.radians(self._kernel.angle_deg))
+            cosines = cosines if self._oriented else np.abs(cosines)
+            kept = cosines > np.cos(np.radians(self._kernel.angle_deg))
             points, surfels = points[kept], surfels[kept]
         weights = self.weights[points]
         return Matches(points, surfels, weights, 1.0 - float(weights.sum()))
 
     def _nearest(self, placed: Placed[Surfels], reach: float) -> tuple[Array, Indices]:
         """Returns distances (N,) [m] and indices (N,) of the nearest among the visible surfels."""
-        tree = cKDTree(placed.centres[self._shown])
+        tree = cKDTree(placed.centres[self._visible])
         distances, nearest = tree.query(self.points, distance_upper_bound=reach)
         return np.asarray(distances), np.asarray(nearest)
 

@@ -89,7 +89,7 @@ class CoarseToFine(Method):
 
 
 @dataclass(frozen=True)
-class _Settled:
+class _LevelResult:
     """The result of one resolution: pose, energy, convergence, and effort."""
 
     pose: Pose
@@ -135,7 +135,7 @@ class BoundCoarseToFine(Registrar):
             pose = min(candidates, key=lambda one: self._energy(self.levels[0], data[0], one))
         stages = []
         for level, downsampled in zip(self.levels, data, strict=True):
-            stages.append(self._settled(level, downsampled, pose))
+            stages.append(self._minimized(level, downsampled, pose))
             pose = stages[-1].pose
         last = stages[-1]
         return RegistrationResult(
@@ -155,7 +155,7 @@ class BoundCoarseToFine(Registrar):
         similarity = self.method.kernel.bind(data, placed)
         return Evaluation(similarity(placed).energy, _known(similarity.inlier_probability(placed)))
 
-    def _settled(self, level: Resolution, data: Observation, pose: Pose) -> _Settled:
+    def _minimized(self, level: Resolution, data: Observation, pose: Pose) -> _LevelResult:
         """Returns the result of a resolution after updates of the neighbours until convergence."""
         iterations = evaluations = 0
         converged, message = False, f"it still moves after {self.method.searches} searches"
@@ -169,12 +169,14 @@ class BoundCoarseToFine(Registrar):
             iterations += solution.iterations
             evaluations += solution.evaluations
             before, placed = placed, self._placed(level, pose)
-            moved = float(np.sqrt(((placed.centres - before.centres) ** 2).sum(axis=1).mean()))
-            if moved <= self.method.motion_tolerance * level.voxel:
+            motion = float(np.sqrt(((placed.centres - before.centres) ** 2).sum(axis=1).mean()))
+            if motion <= self.method.motion_tolerance * level.voxel:
                 converged, message = True, "the body came to rest"
                 break
         inliers = _known(similarity.inlier_probability(placed))
-        return _Settled(pose, solution.value, inliers, converged, iterations, evaluations, message)
+        return _LevelResult(
+            pose, solution.value, inliers, converged, iterations, evaluations, message
+        )
 
     def _placed(self, level: Resolution, pose: Pose) -> Placed[Gaussians]:
         return level.primitives.place(self.body.place(pose).transforms)

@@ -53,16 +53,16 @@ def resolutions(
             f"the template '{body.name}' has no surface, which this method needs; use a template "
             "of kind cloud, or the method direct"
         )
-    least = finest * spacing(surface.points[:, 0])
+    smallest = finest * spacing(surface.points[:, 0])
     # Voxels smaller than the spacing of the points keep all points, but narrow the Gaussians.
-    voxels = np.geomspace(max(coarsest * body.size, least), least, count)
+    voxels = np.geomspace(max(coarsest * body.size, smallest), smallest, count)
     found = []
     for index, voxel in reversed(list(enumerate(voxels))):
         if index < count - 1:
             surface = voxel_downsampled_surface(surface, float(voxel))
         deviation = float(width * voxel / np.sqrt(2.0))
-        thin = replace(body, surface=surface)
-        found.append(Resolution(float(voxel), deviation, shape.wide(deviation).bind(thin)))
+        downsampled = replace(body, surface=surface)
+        found.append(Resolution(float(voxel), deviation, shape.wide(deviation).bind(downsampled)))
     return tuple(reversed(found))
 
 
