@@ -36,7 +36,13 @@ def cloud_description(points: Array, markers: Mapping[str, Array]) -> BodyDescri
 
 
 def cloud_body(name: str, points: Array, markers: Mapping[str, Array] | None = None) -> Body:
-    """Returns a body of one free segment with surface points (N, 3) in its frame [m]."""
+    """Returns a body of one free segment with a cloud as surface.
+
+    Args:
+        name: Name of the body in messages.
+        points: Points in the segment's frame, (N, 3) [m].
+        markers: Named points in the same frame, (3,) each [m].
+    """
     description = cloud_description(points, markers or {})
     surface = SkinnedSurface(
         segments=np.zeros((len(points), 1), dtype=np.intp),

@@ -84,6 +84,11 @@ def _named(description: BodyDescription, recording: str, frames: int) -> BodyDes
 def check(shape: Shape, x: Array, off: float) -> None:
     """Checks that proportions are plausible; a failed start or track makes them implausible.
 
+    Args:
+        shape: The parametrised template.
+        x: Shape parameters, (1 + 2 G).
+        off: Median distance of the data to the surface [m].
+
     Raises:
         DataError: If the surface is far from the data, or a bone's length is extreme.
     """

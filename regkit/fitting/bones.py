@@ -32,7 +32,11 @@ def owners_of_bones(
 ) -> dict[str, str]:
     """Returns the segment that each bone belongs to, by the bone's label.
 
-    A bone that ``bones`` does not name belongs to the segment of its own name.
+    Args:
+        mesh: The mesh.
+        template: The template.
+        bones: Segments of bones, None for the segment of the parent; bones that are not included
+            belong to the segment of the same name.
 
     Raises:
         ConfigError: If a bone or a segment is unknown, a bone belongs to none, or a segment has no

@@ -37,7 +37,13 @@ class Flesh:
 
 
 def flesh_of(mesh: SkinnedMesh, layout: Layout, spacing: float) -> dict[str, Flesh]:
-    """Returns the flesh of every segment in its frame, from a grid of a given spacing [m]."""
+    """Returns the flesh of every segment in its frame.
+
+    Args:
+        mesh: The mesh.
+        layout: Its division into segments.
+        spacing: Spacing of the grid [m].
+    """
     parts = divided(mesh, layout.T_template_mesh, layout.owners, list(layout.frames), spacing)
     return {name: part.local(layout.frames[name]) for name, part in parts.items()}
 
@@ -84,7 +90,13 @@ def divided(
 
 
 def interior_points(vertices: Array, faces: Indices, spacing: float) -> Array:
-    """Returns the points (N, 3) [m] of a grid, symmetric about the plane x = 0, inside a mesh."""
+    """Returns the points (N, 3) [m] of a grid, symmetric about the plane x = 0, inside a mesh.
+
+    Args:
+        vertices: Vertices of the mesh, (V, 3) [m].
+        faces: Vertex indices of its triangles, (F, 3); holes are closed.
+        spacing: Spacing of the grid [m].
+    """
     corners, triangles = closed(vertices, faces)
     cells = np.ceil(np.abs(corners).max(axis=0) / spacing).astype(int)
     axes = [(np.arange(-count, count) + 0.5) * spacing for count in cells]

@@ -22,6 +22,11 @@ def on_segments(mesh: SkinnedMesh, layout: Layout, template: BodyDescription) ->
     """Returns the mesh in the template's axes, with the template's segments as bones.
 
     A vertex's weight for a segment is the sum of its weights for the segment's bones.
+
+    Args:
+        mesh: The mesh.
+        layout: Its division into segments.
+        template: The template.
     """
     names = tuple(template.segments)
     owners = np.array([names.index(layout.owners[label]) for label in mesh.labels])

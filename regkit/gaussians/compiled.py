@@ -166,7 +166,15 @@ def visible_wrenches(
 def stiffness_blocks(
     mass: Array, about: Array, relative: Array, precisions: Array, shift: Array
 ) -> Array:
-    """Returns the Gauss-Newton blocks (K, 6, 6) of ``Moments.stiffness``."""
+    """Returns the Gauss-Newton blocks (K, 6, 6) of ``Moments.stiffness``.
+
+    Args:
+        mass: As in ``Moments``, (K,).
+        about: As in ``Moments``, (K, 3, 4).
+        relative: As in ``Moments``, (K, 3, 4).
+        precisions: As in ``Moments``, (K, 3, 3).
+        shift: Vectors from the means to the centres of rotation, (K, 3) [m].
+    """
     count = len(mass)
     blocks = np.empty((count, 6, 6))
     second, both, lever = np.empty((3, 3)), np.empty((3, 3)), np.empty(3)

@@ -79,7 +79,18 @@ def accumulated_wrenches(
     lengths: Array,
     count: int,
 ) -> Array:
-    """Returns wrenches (K, 6) of points and normals summed about the segments' origins, (S, 6)."""
+    """Returns wrenches (S, 6) on the segments about their origins.
+
+    Args:
+        wrenches: Wrenches on points and normals, (K, 6).
+        segments: Carriers of each point, (K, A).
+        blend: Blend weights, (K, A).
+        arms: Arms from ``place_blended``, (K, A, 3) [m].
+        turned: Carried normals from ``place_blended``, (K, A, 3).
+        axes: Axes from ``place_blended``, (K, 3, 3).
+        lengths: Norms from ``place_blended``, (K,).
+        count: Number S of segments.
+    """
     accumulated = np.zeros((count, 6))
     for k in range(len(wrenches)):
         f, n = wrenches[k], axes[k, :, 2]
@@ -112,9 +123,19 @@ def accumulated_stiffness(
     lengths: Array,
     count: int,
 ) -> Array:
-    """Returns blocks (K, 6, 6) of points and normals about the segments' origins, (S, 6, 6).
+    """Returns blocks (S, 6, 6) of the segments about their origins.
 
     Each carrier receives M^T B M with its own map M; blocks between carriers are neglected.
+
+    Args:
+        blocks: Blocks B of points and normals, (K, 6, 6).
+        segments: Carriers of each point, (K, A).
+        blend: Blend weights, (K, A).
+        arms: Arms from ``place_blended``, (K, A, 3) [m].
+        turned: Carried normals from ``place_blended``, (K, A, 3).
+        axes: Axes from ``place_blended``, (K, 3, 3).
+        lengths: Norms from ``place_blended``, (K,).
+        count: Number S of segments.
     """
     accumulated = np.zeros((count, 6, 6))
     carried, half = np.zeros((6, 6)), np.empty((6, 6))

@@ -30,7 +30,7 @@ class QuaternionCoordinates(Coordinates):
         return self.vector(self.start)
 
     def pose(self, x: Array) -> Pose:
-        """The pose whose rotations are the normalised quaternions."""
+        """Returns the pose with the normalised quaternions as rotations."""
         quaternions, hinges = self._split(x)
         unit = normalized(quaternions)
         if not self.skeleton.free:

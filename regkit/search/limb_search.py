@@ -52,7 +52,13 @@ class LimbSearch:
 
     @classmethod
     def of_all(cls, body: Body, random: np.random.Generator, samples: int) -> Iterator[LimbSearch]:
-        """Returns a search for each of a body's limbs with ``samples`` configurations."""
+        """Yields a search for each of a body's limbs.
+
+        Args:
+            body: The body.
+            random: Source of the configurations.
+            samples: Number N of configurations within the joint limits.
+        """
         rest = body.skeleton.rest()
         balls, hinges = body.skeleton.limits.sampled(random, samples)
         for limb in limbs_of(body.skeleton):

@@ -29,7 +29,13 @@ class Limb:
     hinges: Indices
 
     def rotated(self, pose: Pose, balls: Array, hinges: Array) -> Pose:
-        """Returns a pose with this limb's joints from (..., n_ball, 4) and (..., n_hinge) [rad]."""
+        """Returns poses (...) that take this limb's joints from other configurations.
+
+        Args:
+            pose: A single pose, which provides all other joints.
+            balls: Unit quaternions of all ball joints, (..., n_ball, 4).
+            hinges: Angles of all hinges, (..., n_hinge) [rad].
+        """
         all_balls = np.tile(pose.balls, (*hinges.shape[:-1], 1, 1))
         all_hinges = np.tile(pose.hinges, (*hinges.shape[:-1], 1))
         all_balls[..., self.balls, :] = balls[..., self.balls, :]

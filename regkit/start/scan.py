@@ -53,9 +53,12 @@ class Scan:
         return data_to_model(capsules, self._points), model_to_data(axes, self._tree)
 
     def misfit(self, body: Body, placement: Placement, cutoff: float) -> float:
-        """Returns the sum of both sides' mean distances, truncated at ``cutoff`` [m], in its units.
+        """Returns the sum of both sides' mean distances in units of the cutoff, from 0 to 2.
 
-        Its range is 0 to 2.
+        Args:
+            body: The body.
+            placement: Its placement.
+            cutoff: Upper bound of each distance [m].
         """
         return sum(
             float(np.minimum(np.abs(side.lengths), cutoff).mean()) / cutoff

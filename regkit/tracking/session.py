@@ -53,6 +53,11 @@ class Session:
     def tracked(self, registrar: Registrar, tracker: Tracker, pose: Pose) -> Iterator[TrackedFrame]:
         """Yields the recording's frames, tracked one by one from a pose.
 
+        Args:
+            registrar: Method bound to the body.
+            tracker: Tracker that predicts the next pose.
+            pose: Pose of the body in the first frame.
+
         Raises:
             RegkitError: If a frame cannot be read or registered; the error names it.
         """
