@@ -29,12 +29,12 @@ _LETTERS = {
 }
 
 
-_UPRIGHT = "In the first frame y points up and the front to the camera; a hand may be anyhow."
+_UPRIGHT = "In the first frame y points up and the front faces the camera."
 
 _SHAPES = """\
 Primitives of shape models; sigma is a standard deviation [m], and the surface lies at about two."""
 
-_BESIDE = "The skin: vertices that follow the segments, in a file beside this one."
+_BESIDE = "Skinned mesh: vertices that follow the segments, in a file in the same folder."
 
 
 def template_text(body: BodyDescription, opening: str, comments: Mapping[str, str]) -> str:

@@ -75,4 +75,4 @@ class ProbregFilterReg(RigidMethod):
 
 def _aligned(transformation: Any, normalization: Normalization, start: Array) -> Aligned:
     step = normalization.transform(np.asarray(transformation.rot), np.asarray(transformation.t))
-    return Aligned(step @ start, True, 0, "the library does not say how it ended")
+    return Aligned(step @ start, True, 0, "the library does not report convergence")

@@ -158,7 +158,7 @@ class BoundCoarseToFine(Registrar):
     def _minimized(self, level: Resolution, data: Observation, pose: Pose) -> _LevelResult:
         """Returns the result of a resolution after updates of the neighbours until convergence."""
         iterations = evaluations = 0
-        converged, message = False, f"it still moves after {self.method.searches} searches"
+        converged, message = False, f"no convergence in {self.method.searches} searches"
         placed = self._placed(level, pose)
         for _ in range(self.method.searches):
             similarity = self.method.kernel.bind(data, placed)
@@ -171,7 +171,7 @@ class BoundCoarseToFine(Registrar):
             before, placed = placed, self._placed(level, pose)
             motion = float(np.sqrt(((placed.centres - before.centres) ** 2).sum(axis=1).mean()))
             if motion <= self.method.motion_tolerance * level.voxel:
-                converged, message = True, "the body came to rest"
+                converged, message = True, "the motion converged"
                 break
         inliers = _known(similarity.inlier_probability(placed))
         return _LevelResult(
