@@ -62,7 +62,7 @@ def given_start(template: Template, description: PoseDescription) -> Start:
     """
     size = template.given_size()
     if size is None:
-        raise ConfigError("a given start also needs the template's size")
+        raise ConfigError("a given start needs the template's size")
     body = template.body(size)
     return Start(body, body.skeleton.pose(description))
 

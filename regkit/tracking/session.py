@@ -103,7 +103,7 @@ def _posed(template: Template, pose: Pose) -> Start:
     """
     size = template.given_size()
     if size is None:
-        raise ConfigError("a given start also needs the template's size")
+        raise ConfigError("a given start needs the template's size")
     body = template.body(size)
     rest = body.skeleton.rest()
     for name in ("root", "balls", "hinges"):
