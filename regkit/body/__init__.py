@@ -1,4 +1,4 @@
-"""Bodies: skeletons with their surface, markers and shapes, and the YAML that describes them."""
+"""Bodies: skeletons with surface, markers and shapes, and their YAML descriptions."""
 
 from regkit.body.body import Body, Markers, Stance
 from regkit.body.deformation import Deformation, Mirror, Scaling, Stretch

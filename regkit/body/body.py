@@ -1,4 +1,4 @@
-"""Bodies: a skeleton with its surface, its markers and the parameters of shape models."""
+"""Bodies: skeletons with surface, markers and shape parameters."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ class Markers:
     """Named points on segments, such as joints and fingertips.
 
     Attributes:
-        names: (M,).
-        segments: The segment that carries each, (M,).
+        names: Names of the markers, (M,).
+        segments: Segment of each marker, (M,).
         points: Positions in the segments' frames, (M, 3) [m].
     """
 
@@ -30,7 +30,7 @@ class Markers:
     points: Array
 
     def place(self, transforms: Array) -> Array:
-        """Positions in the world, (M, 3) [m], for T_world_segment (S, 4, 4)."""
+        """Returns positions in the world, (M, 3) [m], for T_world_segment (S, 4, 4)."""
         carriers = transforms[self.segments]
         return np.asarray(
             (carriers[:, :3, :3] @ self.points[:, :, None])[:, :, 0] + carriers[:, :3, 3]
@@ -39,11 +39,12 @@ class Markers:
 
 @dataclass(frozen=True)
 class Stance:
-    """How a body is likely to be found in the first frame.
+    """A likely pose in the first frame.
 
     Attributes:
-        name: What a person would call it.
-        pose: A pose of the body; of its root only the rotation counts, before it faces the camera.
+        name: A descriptive name.
+        pose: Joint angles and the root's rotation before the body faces the camera; the root's
+            position is ignored.
     """
 
     name: str
@@ -52,22 +53,22 @@ class Stance:
 
 @dataclass(frozen=True)
 class Body:
-    """What is registered, at its size.
+    """The body to register, at its size.
 
-    In the rest pose the frames of the segments are parallel; x points to the body's left, y up (for
-    a
-    hand: along the fingers) and z to the front (for a hand: out of the palm).
+    In the rest pose the frames of the segments are parallel. For a person, x points to the left, y
+    up and z to the front; for a hand, y points along the fingers and z out of the palm.
 
     Attributes:
         name: Name of the template.
         skeleton: The tree of segments.
-        capsules: The surface; also what shape models are made of that the template does not list.
+        capsules: The surface as capsules, from which shape models without listed parameters make
+            their primitives.
         markers: Points that can be compared with measured ones.
-        shapes: The primitives that the template lists, by the kind of shape model.
-        stances: Likely poses for the first frame.
+        shapes: Primitives listed in the template, by kind of shape model.
+        stances: Likely poses in the first frame.
+        size: Characteristic length, such as a person's height or a hand's length [m].
         upright: Whether y points up in the first frame, with the front towards the camera.
-        surface: Its skinned mesh or cloud, if the template brings one.
-        size: Height of a person, length of a hand, or another length that a person would name [m].
+        surface: Skinned mesh or cloud of the template, if it has one.
     """
 
     name: str
@@ -81,5 +82,5 @@ class Body:
     surface: SkinnedSurface | None = None
 
     def place(self, pose: Pose) -> Placement:
-        """The skeleton's placement in a pose."""
+        """Returns the skeleton's placement in a pose."""
         return Placement.of(self.skeleton, pose)

@@ -1,4 +1,4 @@
-"""A cloud as a body: a skeleton of one free segment, whose surface is the cloud."""
+"""Rigid clouds as bodies: a skeleton of one free segment with the cloud as surface."""
 
 from __future__ import annotations
 
@@ -13,11 +13,13 @@ from regkit.system.arrays import Array
 
 
 def cloud_description(points: Array, markers: Mapping[str, Array]) -> BodyDescription:
-    """One free segment, as long as the diagonal of the box around points (N, 3) [m].
+    """Returns the description of one free segment.
+
+    Its size is the diagonal of the points' bounding box.
 
     Args:
-        points: Of the segment's frame.
-        markers: Named points of the same frame, (3,) each.
+        points: Points in the segment's frame, (N, 3) [m].
+        markers: Named points in the same frame, (3,) each [m].
     """
     size = float(np.linalg.norm(np.ptp(points, axis=0)))
     segment = {
@@ -34,7 +36,13 @@ def cloud_description(points: Array, markers: Mapping[str, Array]) -> BodyDescri
 
 
 def cloud_body(name: str, points: Array, markers: Mapping[str, Array] | None = None) -> Body:
-    """The body of one free segment whose surface are points (N, 3) of its frame [m]."""
+    """Returns a body of one free segment with a cloud as surface.
+
+    Args:
+        name: Name of the body in messages.
+        points: Points in the segment's frame, (N, 3) [m].
+        markers: Named points in the same frame, (3,) each [m].
+    """
     description = cloud_description(points, markers or {})
     surface = SkinnedSurface(
         segments=np.zeros((len(points), 1), dtype=np.intp),

@@ -1,4 +1,4 @@
-"""Deformations: how everything in a segment's frame changes when a body is made another."""
+"""Deformations of points, lengths and rotations in segments' frames: scale, stretch, mirror."""
 
 from __future__ import annotations
 
@@ -13,63 +13,63 @@ from regkit.skeleton.joints import Vector
 from regkit.system.arrays import Array
 
 REFLECT = np.array([-1.0, 1.0, 1.0])
-"""What a point is multiplied by to be reflected in the plane x = 0."""
+"""Factors of a point's reflection in the plane x = 0."""
 
 _TURN = np.array([1.0, -1.0, -1.0])
-"""What an axis or a rotation vector is multiplied by: its sense of rotation is reflected, too."""
+"""Factors of the reflection of an axis or rotation vector, whose sense of rotation reverses."""
 
 
 class Deformation(ABC):
-    """What happens to points, lengths and rotations in a segment's frame."""
+    """A map of points, lengths and rotations in a segment's frame."""
 
     @abstractmethod
     def point(self, point: Vector) -> Vector:
-        """A point [m]."""
+        """Returns the image of a point [m]."""
 
     @abstractmethod
     def radius(self, radius: float) -> float:
-        """The radius of something round [m]; it stays round."""
+        """Returns the radius of the image of something round, which stays round [m]."""
 
     @abstractmethod
     def extents(self, extents: Vector, rotation_deg: Vector) -> Vector:
-        """Lengths [m] along the axes of a rotation vector [deg]."""
+        """Returns the images of lengths [m] along the axes of a rotation vector [deg]."""
 
     @abstractmethod
     def rotation(self, rotation_deg: Vector) -> Vector:
-        """A rotation vector, or an axis."""
+        """Returns the image of a rotation vector [deg] or of an axis."""
 
 
 @dataclass(frozen=True)
 class Scaling(Deformation):
-    """All lengths are multiplied by a factor."""
+    """Multiplication of all lengths by a factor."""
 
     factor: float
 
     def point(self, point: Vector) -> Vector:
-        """The point, farther from the segment's joint."""
+        """Returns the scaled point [m]."""
         x, y, z = point
         return (self.factor * x, self.factor * y, self.factor * z)
 
     def radius(self, radius: float) -> float:
-        """The radius, multiplied."""
+        """Returns the scaled radius [m]."""
         return self.factor * radius
 
     def extents(self, extents: Vector, rotation_deg: Vector) -> Vector:
-        """The lengths, multiplied."""
+        """Returns the scaled lengths [m]."""
         return self.point(extents)
 
     def rotation(self, rotation_deg: Vector) -> Vector:
-        """The same rotation."""
+        """Returns the same rotation [deg]."""
         return rotation_deg
 
 
 @dataclass(frozen=True)
 class Stretch(Deformation):
-    """A segment becomes longer along its bone and thicker across it.
+    """A segment's stretch along its bone and across it.
 
     Attributes:
-        matrix: What positions are multiplied by, (3, 3).
-        girth: What radii are multiplied by.
+        matrix: Linear map of positions, (3, 3).
+        girth: Factor of radii.
     """
 
     matrix: Array
@@ -77,42 +77,48 @@ class Stretch(Deformation):
 
     @classmethod
     def along(cls, bone: Array, length: float, girth: float) -> Stretch:
-        """A factor along the unit vector of a bone (3,), zero for none, and one across it."""
+        """Returns a stretch by ``length`` along a bone and ``girth`` across it.
+
+        Args:
+            bone: Unit vector of the bone, or zero without a direction, (3,).
+            length: Factor along the bone.
+            girth: Factor across the bone.
+        """
         return cls(girth * np.eye(3) + (length - girth) * np.outer(bone, bone), girth)
 
     def point(self, point: Vector) -> Vector:
-        """The point, moved along and across the bone."""
+        """Returns the stretched point [m]."""
         return vector(self.matrix @ point)
 
     def radius(self, radius: float) -> float:
-        """The radius, by the girth."""
+        """Returns the radius multiplied by the girth [m]."""
         return self.girth * radius
 
     def extents(self, extents: Vector, rotation_deg: Vector) -> Vector:
-        """The lengths that their axes get, which keep their directions."""
+        """Returns the stretched lengths of the axes, which keep their directions [m]."""
         axes = vector_to_matrix(np.radians(rotation_deg))
         return vector(np.linalg.norm(self.matrix @ axes, axis=0) * extents)
 
     def rotation(self, rotation_deg: Vector) -> Vector:
-        """The same rotation."""
+        """Returns the same rotation [deg]."""
         return rotation_deg
 
 
 class Mirror(Deformation):
-    """The reflection in the plane x = 0: right from left."""
+    """Reflection in the plane x = 0, which exchanges left and right."""
 
     def point(self, point: Vector) -> Vector:
-        """The mirror image of a point."""
+        """Returns the mirror image of a point [m]."""
         return rounded(REFLECT * point, 15)
 
     def radius(self, radius: float) -> float:
-        """The same radius."""
+        """Returns the same radius [m]."""
         return radius
 
     def extents(self, extents: Vector, rotation_deg: Vector) -> Vector:
-        """The same lengths."""
+        """Returns the same lengths [m]."""
         return extents
 
     def rotation(self, rotation_deg: Vector) -> Vector:
-        """The mirror image of a rotation vector, or of an axis."""
+        """Returns the mirror image of a rotation vector [deg] or of an axis."""
         return rounded(_TURN * rotation_deg, 15)

@@ -1,4 +1,4 @@
-"""What a template's YAML holds beyond its skeleton: a size, stances, shapes and a mesh."""
+"""The YAML description of a template: a skeleton with size, stances, shapes and mesh."""
 
 from __future__ import annotations
 
@@ -29,37 +29,37 @@ def _positive(value: tuple[float, float]) -> tuple[float, float]:
 
 
 class SizeDescription(Model):
-    """The length by which a person would name the body's size."""
+    """The characteristic length of a body."""
 
     name: str
-    """What is measured: the height of a person, the length of a hand."""
+    """Name of the length, such as height for a person or length for a hand."""
     value: Annotated[float, Field(gt=0.0)]
-    """The length at which all other lengths of this file hold [m]."""
+    """Value for which all other lengths of the file hold [m]."""
     range: Annotated[Range, AfterValidator(_positive)]
-    """The smallest and the largest that occur [m]; tried where no size is given."""
+    """Smallest and largest occurring value [m], searched if no size is given."""
 
 
 class BodyDescription(SkeletonDescription):
-    """A template: skeleton, surface, markers, and the parameters of shape models."""
+    """A template: skeleton, surface, markers, and parameters of shape models."""
 
     renamed: ClassVar[dict[str, str]] = {"gaussians": "shapes"}
 
     title: str
-    """What it is, in a line."""
+    """Description of the template in one line."""
     sources: tuple[str, ...] = ()
-    """Where the proportions and the joint limits come from."""
+    """Sources of the proportions and the joint limits."""
     size: SizeDescription
-    """The size at which the lengths hold."""
+    """Size for which the lengths hold."""
     stances: dict[str, PoseDescription] = Field(default_factory=dict)
-    """Likely poses of the first frame, facing the camera; the rest pose is always tried."""
+    """Likely poses in the first frame, facing the camera; the rest pose is always tried."""
     upright: bool = False
-    """Whether the body's y axis points up in the first frame; without it every turn about the line
-    of sight is tried, and the back as well as the front."""
+    """Whether the body's y axis points up in the first frame; otherwise all rotations about the
+    line of sight are tried, for the front and the back."""
     shapes: Shapes = Field(default_factory=dict)
-    """Parameters of shape models, by their kind and then by segment: a list with those of each
-    primitive. A shape model that is not listed makes its primitives from the capsules."""
+    """Parameters of shape models, by kind and then by segment: a list with one entry per primitive.
+    A shape model that is not listed makes its primitives from the capsules."""
     mesh: InputPath | None = None
-    """A skinned mesh for shape models that take one: an ``.npz`` file whose bones have the names of
+    """Skinned mesh for shape models that use one: an ``.npz`` file whose bones are named after the
     segments."""
 
     @model_validator(mode="after")
@@ -78,11 +78,11 @@ class BodyDescription(SkeletonDescription):
         return self
 
     def body(self, name: str, size: float) -> Body:
-        """The body called ``name``, scaled so that its size is ``size`` [m].
+        """Returns the body called ``name``, scaled so that its size is ``size`` [m].
 
         Raises:
-            ConfigError: If a stance names a joint that there is not.
-            DataError: If the mesh is missing or wrong.
+            ConfigError: If a stance names an unknown joint.
+            DataError: If the mesh is missing or invalid.
         """
         scale = size / self.size.value
         skeleton = compiled(self, scale)
@@ -129,14 +129,14 @@ class BodyDescription(SkeletonDescription):
         )
 
     def unchecked(self) -> dict[str, str]:
-        """Why shape models that the template lists cannot be loaded, by their kind."""
+        """Returns the reasons why listed shape models cannot be loaded, by kind."""
         return {one.kind: one.reason for one in self._unchecked()}
 
     def check_shapes(self) -> None:
-        """Refuse a template whose shapes cannot all be stretched and fitted.
+        """Checks that all listed shapes can be stretched and fitted.
 
         Raises:
-            ConfigError: If it lists a shape model that cannot be loaded.
+            ConfigError: If a listed shape model cannot be loaded.
         """
         for one in self._unchecked():
             one.refuse()

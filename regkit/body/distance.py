@@ -1,8 +1,7 @@
 """The two-sided distance between a posed body and a cloud.
 
-The distances of the data to the model show which points the body does not cover; those of the model
-to the data show which parts of the body have no points. Either side alone accepts a body of a wrong
-size.
+The distances from data to model show which points the body does not cover; those from model to data
+show which parts of the body have no points. Either side alone accepts a body of the wrong size.
 """
 
 from __future__ import annotations
@@ -23,11 +22,11 @@ class SurfaceDistances:
 
     Attributes:
         lengths: Signed distances from the spheres' surfaces, (R,) [m].
-        directions: From the body to the data, the directions in which the distances are measured,
-            (R, 3): unit vectors, or zero where a distance is zero and stays so.
-        points: Points (R, 3) [m] on the lines through the spheres' centres along the directions.
-        segments: The segment of each, (R,).
-        capsules: The capsule of each, (R,).
+        directions: Unit directions of the distances from the body to the data, (R, 3); zero where a
+            distance is zero and constant.
+        points: Points on the lines through the spheres' centres along the directions, (R, 3) [m].
+        segments: Segment of each sphere, (R,).
+        capsules: Capsule of each sphere, (R,).
         along: Position of the centre on the capsule's axis, from 0 to 1, (R,).
     """
 
@@ -39,26 +38,26 @@ class SurfaceDistances:
     along: Array
 
     def rows(self, placement: Placement) -> Array:
-        """The derivative (R, n) of the distances to the degrees of freedom."""
+        """Returns the derivative (R, n) of the distances to the degrees of freedom."""
         return placement.rows(self.segments, self.points, -self.directions)
 
 
 def data_to_model(
     capsules: Capsules, points: Array, tangent_at: Array | None = None
 ) -> SurfaceDistances:
-    """Distances of points to the surface of placed capsules, negative inside.
+    """Returns the distances of points to the surface of placed capsules, negative inside.
 
     Args:
-        capsules: In the world.
-        points: (N, 3) [m].
-        tangent_at: Points (N, 3) [m] near the surface; each distance is then measured to the
-            tangent plane of the surface nearest to such a point.
+        capsules: Capsules in the world.
+        points: Points in the world, (N, 3) [m].
+        tangent_at: Points (N, 3) [m] near the surface; if given, each distance is measured to the
+            tangent plane at the nearest surface point of ``tangent_at``.
     """
     feet = points if tangent_at is None else tangent_at
     nearest, distances, directions = capsules.nearest(feet)
     start, end = capsules.ends[nearest, 0], capsules.ends[nearest, 1]
     first, last = capsules.radii[nearest].T
-    # The nearest sphere's centre is on the axis, its radius and the distance behind the point.
+    # The nearest sphere's centre is on the axis, one radius plus the distance behind the point.
     axis, widening = end - start, last - first
     reached = feet - start - (distances + first)[:, None] * directions
     square = np.maximum((axis**2).sum(axis=1), 1e-12)
@@ -78,13 +77,13 @@ def data_to_model(
 
 
 def model_to_data(axes: AxisPoints, cloud: KDTree) -> SurfaceDistances:
-    """Distances of spheres on a body's axes, placed in the world, to their nearest points."""
+    """Returns the distances of spheres on a body's axes, in the world, to the nearest points."""
     distances, nearest = cloud.query(axes.points)
     lengths = np.maximum(distances - axes.radii, 0.0)
-    ways = np.asarray(cloud.data)[nearest] - axes.points
+    offsets = np.asarray(cloud.data)[nearest] - axes.points
     return SurfaceDistances(
         lengths=lengths,
-        directions=ways / np.maximum(distances, 1e-9)[:, None] * (lengths > 0.0)[:, None],
+        directions=offsets / np.maximum(distances, 1e-9)[:, None] * (lengths > 0.0)[:, None],
         points=axes.points,
         segments=axes.segments,
         capsules=axes.capsules,

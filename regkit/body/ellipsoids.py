@@ -1,4 +1,4 @@
-"""Solids by their mean and standard deviations: parameters that many shape models have."""
+"""Parameters of solids by mean and standard deviations, shared by many shape models."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class EllipsoidParameters(ShapeParameters):
     """Rotation vector of the solid's own axes in the segment's frame [deg]."""
 
     def deformed(self, deformation: Deformation) -> Self:
-        """The solid's own axes follow the deformation; a sphere stays one."""
+        """Returns the solid with its own axes deformed; a sphere stays a sphere."""
         return self.model_copy(
             update={
                 "centre": deformation.point(self.centre),
@@ -41,15 +41,15 @@ class EllipsoidParameters(ShapeParameters):
         )
 
     def moments(self) -> tuple[Array, Array]:
-        """The mean (3,) [m] and ``R diag(sigma^2) R^T`` (3, 3) [m^2]."""
+        """Returns the mean (3,) [m] and ``R diag(sigma^2) R^T`` (3, 3) [m^2]."""
         axes = vector_to_matrix(np.radians(self.rotation_deg)) * np.broadcast_to(self.sigma, 3)
         return np.array(self.centre), axes @ axes.T
 
     @classmethod
     def fitted(cls, points: Array, like: Self | None = None) -> Self:
-        """The solid with the moments of points (N, 3) [m], a sphere if ``like`` is one.
+        """Returns the solid with the moments of points (N, 3) [m], a sphere if ``like`` is one.
 
-        Its axes are named so that it is rotated as little as possible.
+        The axes are ordered and signed for the smallest rotation.
         """
         centre = points.mean(axis=0)
         if like is not None and isinstance(like.sigma, float):
@@ -64,19 +64,19 @@ class EllipsoidParameters(ShapeParameters):
 
 
 class BallParameters(EllipsoidParameters):
-    """A solid that is as large in all directions, such as an isotropic Gaussian."""
+    """A solid of the same size in all directions, such as an isotropic Gaussian."""
 
     sigma: Deviation
     """Standard deviation [m]."""
 
     @classmethod
     def fitted(cls, points: Array, like: Self | None = None) -> Self:
-        """The ball with the mean and the total variance of points (N, 3) [m]."""
+        """Returns the ball with the mean and total variance of points (N, 3) [m]."""
         found = {"centre": rounded(points.mean(axis=0)), "sigma": _radius(points)}
         return cls.model_validate(found) if like is None else like.model_copy(update=found)
 
 
 def _radius(points: Array) -> float:
-    """The root mean square of the deviations along three axes, rounded as ``rounded`` does."""
+    """Returns the root mean square deviation per axis [m], rounded like ``rounded``."""
     square = ((points - points.mean(axis=0)) ** 2).sum(axis=1).mean() / 3.0
     return round(float(np.sqrt(square)), 4)

@@ -1,4 +1,4 @@
-"""Groups of segments that share their proportions: those that are left and right of one another."""
+"""Groups of segments that share their proportions, such as left and right arm."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ class Groups:
 
     Attributes:
         names: Names of the groups, (G,).
-        of_segments: The group of each segment, parents first as in the skeleton, (S,).
-        bones: Unit vectors in the segments' frames, (S, 3); zero where a segment has no direction.
+        of_segments: Group of each segment, in the skeleton's order, (S,).
+        bones: Unit vectors of the bones in the segments' frames, (S, 3); zero without a direction.
     """
 
     names: tuple[str, ...]
@@ -30,7 +30,7 @@ class Groups:
 
     @classmethod
     def of(cls, description: BodyDescription) -> Groups:
-        """The groups of a template: ``left_thigh`` and ``right_thigh`` are ``thigh``."""
+        """Returns the groups of a template: ``left_thigh`` and ``right_thigh`` form ``thigh``."""
         order = parents_first(description.segments)
         groups = [group_name(segment) for segment in order]
         names = tuple(dict.fromkeys(groups))
@@ -39,20 +39,20 @@ class Groups:
 
 
 def group_name(segment: str) -> str:
-    """The segment's name without its side."""
+    """Returns the segment's name without its side."""
     parts = [part for part in segment.split("_") if part.lower() not in _SIDES]
     return "_".join(parts) or segment
 
 
 def _bone(name: str, segments: dict[str, SegmentDescription]) -> Array:
-    """From the joint to what hangs on the segment: joints, else markers, else its surface."""
+    """Returns the direction from the joint to child joints, else markers, else the surface."""
     segment = segments[name]
     children = [child.offset for child in segments.values() if child.parent == name]
     surface = [capsule.end for capsule in segment.capsules]
     for ends in (children, list(segment.markers.values()), surface):
-        # What hangs to the left and to the right of a trunk leaves the direction in the middle.
-        way = np.sum(ends, axis=0) if ends else np.zeros(3)
-        length = float(np.linalg.norm(way))
+        # Children to the left and right of a trunk leave the direction in the middle.
+        direction = np.sum(ends, axis=0) if ends else np.zeros(3)
+        length = float(np.linalg.norm(direction))
         if length > 1e-6:
-            return np.asarray(way / length)
+            return np.asarray(direction / length)
     return np.zeros(3)

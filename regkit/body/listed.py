@@ -1,4 +1,4 @@
-"""The primitives of a shape model that a template lists, on the segments of a body."""
+"""Primitives that a template lists for a shape model, on the segments of a body."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ class ListedShape(Generic[P_co]):
     """K primitives in the frames of their segments, at the body's size.
 
     Attributes:
-        segments: The segment that carries each, (K,).
-        parameters: Their parameters, (K,).
+        segments: Segment of each primitive, (K,).
+        parameters: Parameters of the primitives, (K,).
     """
 
     segments: Indices
@@ -35,7 +35,12 @@ class ListedShape(Generic[P_co]):
 def ellipsoids(
     listed: ListedShape[EllipsoidParameters],
 ) -> tuple[Indices, Array, Array, Array, Array]:
-    """Segments (K,), centres (K, 3), axes (K, 3, 3), scales (K, 3) and weights of one (K,)."""
+    """Returns the arrays of K Gaussians: segments, centres, axes, scales and weights.
+
+    Returns:
+        Segments (K,), centres (K, 3) [m], R_segment_primitive (K, 3, 3), standard deviations
+        (K, 3) [m], and unit weights (K,).
+    """
     solids = listed.parameters
     return (
         listed.segments,

@@ -1,4 +1,4 @@
-"""Proportions: by how much the lengths and the girths of a body differ from its template's."""
+"""Proportions: ratios of a body's lengths and girths to its template's."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ from regkit.system.arrays import Array
 
 @dataclass(frozen=True)
 class Proportions:
-    """Factors on the template's own lengths.
+    """Factors of the template's own lengths.
 
-    A segment keeps the directions of everything in its frame, but is stretched: along its bone by
-    its group's length factor, across it, and in its radii, by its girth factor. So a trunk's girth
-    is also the distance of its shoulders or hips.
+    Directions in a segment's frame stay the same. The length factor of the segment's group
+    stretches along its bone, the girth factor stretches across it and multiplies radii. A trunk's
+    girth factor thus also changes the distance of shoulders or hips.
 
     Attributes:
-        groups: The groups of the template's segments.
-        lengths: (G,).
-        girths: (G,).
+        groups: Groups of the template's segments.
+        lengths: Length factors, (G,).
+        girths: Girth factors, (G,).
     """
 
     groups: Groups
@@ -34,9 +34,9 @@ class Proportions:
     girths: Array
 
     def applied(self, template: BodyDescription) -> BodyDescription:
-        """The template with these proportions; its size is what its height (along y) became.
+        """Returns the template with these proportions, at the size of its new height (along y).
 
-        It has no mesh: the template's own would not fit it, but ``skin`` does.
+        The result has no mesh, since the template's own does not fit; ``skin`` returns one.
         """
         order = parents_first(template.segments)
         stretches = {name: self._stretch(index) for index, name in enumerate(order)}
@@ -58,10 +58,10 @@ class Proportions:
         )
 
     def skin(self, template: BodyDescription) -> SkinnedMesh | None:
-        """The template's mesh with these proportions, if it has one.
+        """Returns the template's mesh with these proportions; None without a mesh.
 
         Raises:
-            DataError: If the mesh is missing or wrong.
+            DataError: If the mesh is missing or invalid.
         """
         if template.mesh is None:
             return None
@@ -109,7 +109,7 @@ def _radius(radius: float | tuple[float, float], stretch: Stretch) -> float | tu
 
 
 def height(description: BodyDescription) -> float:
-    """How far the surface reaches along y in the rest pose [m]."""
+    """Returns the extent of the surface along y in the rest pose [m]."""
     body = description.body("rest", description.size.value)
     placement = body.place(body.skeleton.rest())
     capsules = body.capsules.place(placement.transforms)

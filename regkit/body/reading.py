@@ -14,8 +14,8 @@ from regkit.config.registry import registered
 def description_in(path: Path) -> BodyDescription:
     """Returns the template in a YAML file.
 
-    The result is cached until the file changes, or other shape models are registered that validate
-    it.
+    The result is cached until the file or the set of registered shape models, which validate it,
+    changes.
 
     Raises:
         RegkitError: If the file is missing or invalid.

@@ -1,4 +1,4 @@
-"""Numbers and names as a template's YAML writes them."""
+"""Numbers and names in the style of a template's YAML."""
 
 from __future__ import annotations
 
@@ -18,30 +18,30 @@ _VECTOR: Any = Vector
 
 
 def key(name: str) -> str:
-    """The key of a mapping."""
+    """Returns a name as the key of a mapping."""
     return f"{word(name)}:"
 
 
 def word(text: str) -> str:
-    """A name as it is, if YAML takes it for no number, truth value or structure."""
+    """Returns a name, quoted if YAML would read it as a number, truth value or structure."""
     plain = re.fullmatch(r"[A-Za-z_]\w*", text) and text.lower() not in _RESERVED
     return text if plain else json.dumps(text)
 
 
 def row(values: Iterable[float], decimals: int = 4) -> str:
-    """Several numbers."""
+    """Returns several numbers as a list."""
     return f"[{', '.join(number(value, decimals) for value in values)}]"
 
 
 def number(value: float, decimals: int) -> str:
-    """A number with a blank where others have a sign; degrees lose their needless decimals."""
+    """Returns a number aligned with signed ones; degrees omit unnecessary decimals."""
     if decimals == 4:
         return f"{round(value, 4) + 0.0: .4f}"
     return f"{round(value, decimals) + 0.0:g}"
 
 
 def fields_row(model: BaseModel) -> str:
-    """A model in one line: four decimals of lengths, one of degrees; defaults are left out."""
+    """Returns a model in one line: four decimals for lengths, one for degrees, no defaults."""
     fields = [
         f"{word(name)}: {_field(name, getattr(model, name), signed=field.annotation == _VECTOR)}"
         for name, field in type(model).model_fields.items()

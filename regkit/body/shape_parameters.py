@@ -1,4 +1,4 @@
-"""The parameters of shape models: what a template lists of each primitive."""
+"""Parameters of shape models, as listed in templates."""
 
 from __future__ import annotations
 
@@ -15,50 +15,50 @@ from regkit.system.errors import ConfigError
 
 
 class ShapeParameters(Model, ABC):
-    """One primitive of a shape model in the frame of its segment, as a template lists it.
+    """Parameters of one primitive in its segment's frame, as a template lists them.
 
-    The fields are what a user writes. A shape model names its own class as
+    The fields are the keys that a user writes. A shape model declares its class as
     ``ShapeModel.parameters``.
     """
 
     @abstractmethod
     def deformed(self, deformation: Deformation) -> Self:
-        """The primitive in a segment that is scaled, stretched or mirrored."""
+        """Returns the primitive in a scaled, stretched or mirrored segment."""
 
     @abstractmethod
     def moments(self) -> tuple[Array, Array]:
-        """The solid's mean (3,) [m] and covariance (3, 3) [m^2] in the segment's frame."""
+        """Returns mean (3,) [m] and covariance (3, 3) [m^2] of the solid in its segment's frame."""
 
     @classmethod
     @abstractmethod
     def fitted(cls, points: Array, like: Self | None = None) -> Self:
-        """The primitive that fills points (N, 3) [m], which lie evenly inside a mesh.
+        """Returns the primitive that fills evenly spread points inside a mesh.
 
         Args:
-            points: In the segment's frame.
-            like: What another template lists here; its options are kept.
+            points: Points in the segment's frame, (N, 3) [m].
+            like: Parameters of another template at this place, whose options the result keeps.
         """
 
     def yaml(self) -> str:
-        """A mapping in one line, with four decimals of lengths [m] and one of angles [deg]."""
+        """Returns a mapping in one line, with four decimals of lengths [m], one of angles [deg]."""
         return fields_row(self)
 
 
 class UncheckedParameters(ShapeParameters):
-    """A primitive of a shape model that cannot be loaded here: kept as it stands.
+    """Parameters of a shape model that cannot be loaded here, kept unchanged.
 
-    Its shape model alone could check, deform or fit it.
+    Only the shape model itself can check, deform or fit them.
     """
 
     kind: str
-    """The shape model."""
+    """Kind of the shape model."""
     reason: str
-    """Why it cannot be loaded."""
+    """Reason why it cannot be loaded."""
     given: Mapping[str, Any]
-    """What the template lists."""
+    """The listed parameters."""
 
     def deformed(self, deformation: Deformation) -> Self:
-        """Nobody knows.
+        """Refuses, since the shape model is unknown.
 
         Raises:
             ConfigError: Always.
@@ -66,7 +66,7 @@ class UncheckedParameters(ShapeParameters):
         self.refuse()
 
     def moments(self) -> tuple[Array, Array]:
-        """Nobody knows.
+        """Refuses, since the shape model is unknown.
 
         Raises:
             ConfigError: Always.
@@ -75,7 +75,7 @@ class UncheckedParameters(ShapeParameters):
 
     @classmethod
     def fitted(cls, points: Array, like: Self | None = None) -> Self:
-        """Nobody knows.
+        """Refuses, since the shape model is unknown.
 
         Raises:
             ConfigError: Always.
@@ -84,11 +84,11 @@ class UncheckedParameters(ShapeParameters):
         like.refuse()
 
     def yaml(self) -> str:
-        """As it stands."""
+        """Returns the listed parameters unchanged."""
         return json.dumps(self.given, ensure_ascii=False)
 
     def refuse(self) -> Never:
-        """Say which shape model is needed.
+        """Raises an error that names the required shape model.
 
         Raises:
             ConfigError: Always.

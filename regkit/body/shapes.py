@@ -1,4 +1,4 @@
-"""``shapes`` of a template: by the kind of shape model, then by segment."""
+"""Validation of a template's ``shapes``, by kind of shape model and by segment."""
 
 from __future__ import annotations
 
@@ -20,20 +20,20 @@ from regkit.system.errors import PluginError
 
 
 class ParametricShape(Plugin, ABC):
-    """A shape model as far as templates know it."""
+    """The part of a shape model that templates depend on."""
 
     group = "regkit.shapes"
 
     parameters: ClassVar[type[ShapeParameters] | None] = None
-    """What a template can list of each of its primitives; without it the shape model makes them
-    from the capsules or the mesh alone."""
+    """Parameters that a template can list for each primitive; None if the shape model always makes
+    its primitives from the capsules or the mesh."""
 
     @classmethod
     def parameters_of(cls, kind: str) -> type[ShapeParameters] | None:
-        """What a template can list of the primitives of a kind.
+        """Returns the parameter class of a kind, or None if templates cannot list any.
 
         Raises:
-            PluginError: If the shape model cannot be loaded, or the class is none of parameters.
+            PluginError: If the shape model cannot be loaded, or does not name a parameter class.
         """
         found: Any = cls.load(kind).parameters
         if found is None:
@@ -44,7 +44,7 @@ class ParametricShape(Plugin, ABC):
 
 
 class _ByKind:
-    """How pydantic validates and describes ``shapes``."""
+    """Validation and JSON schema of ``shapes`` for pydantic."""
 
     @classmethod
     def __get_pydantic_core_schema__(cls, _: Any, __: GetCoreSchemaHandler) -> CoreSchema:
@@ -54,15 +54,15 @@ class _ByKind:
 
     @classmethod
     def _json_schema(cls, _: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
-        """The installed shape models, and any other; a broken one is left out."""
+        """Returns a schema of the installed shape models and of unknown ones; skips broken ones."""
         properties = {}
         for kind in ParametricShape.available():
             try:
                 parameters = ParametricShape.parameters_of(kind)
                 if parameters is not None:
                     listed = handler(_schema(parameters))
-                    told = f"By segment, the primitives of the shape model '{kind}'."
-                    properties[kind] = {"description": told, **listed}
+                    description = f"Primitives of the shape model '{kind}', by segment."
+                    properties[kind] = {"description": description, **listed}
             except (PluginError, PydanticInvalidForJsonSchema):
                 continue
         other = handler(_schema(dict[str, Any]))
@@ -74,12 +74,12 @@ Shapes = Annotated[dict[str, dict[str, tuple[ShapeParameters, ...]]], _ByKind]
 
 
 def _schema(parameters: Any) -> CoreSchema:
-    """What is listed of one kind: by segment, the parameters of each primitive."""
+    """Returns the schema of one kind: by segment, the parameters of each primitive."""
     return TypeAdapter(dict[str, tuple[parameters, ...]]).core_schema
 
 
 def _validated(value: Any) -> dict[str, dict[str, tuple[ShapeParameters, ...]]]:
-    """Each kind as the class of its shape model checks it."""
+    """Returns the shapes, each kind validated by the class of its shape model."""
     fields = {
         kind: core_schema.typed_dict_field(_schema(_listed_of(kind)))
         for kind in (value if isinstance(value, Mapping) else ())
@@ -90,17 +90,19 @@ def _validated(value: Any) -> dict[str, dict[str, tuple[ShapeParameters, ...]]]:
 
 
 def _listed_of(kind: str) -> Any:
-    """The type of what is listed of a kind; without its shape model it is kept as it stands."""
+    """Returns the type of a kind's parameters, unchecked if its shape model cannot be loaded."""
     try:
         parameters = ParametricShape.parameters_of(kind)
     except PluginError as error:
-        return Annotated[UncheckedParameters, BeforeValidator(partial(_kept, kind, str(error)))]
+        return Annotated[
+            UncheckedParameters, BeforeValidator(partial(_unchecked, kind, str(error)))
+        ]
     if parameters is None:
         raise misplaced(ParametricShape, f"the shape model '{kind}' has no parameters", kind)
     return parameters
 
 
-def _kept(kind: str, reason: str, value: Any) -> UncheckedParameters:
+def _unchecked(kind: str, reason: str, value: Any) -> UncheckedParameters:
     if isinstance(value, UncheckedParameters):
         return value
     if not isinstance(value, Mapping):

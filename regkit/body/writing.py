@@ -1,4 +1,4 @@
-"""Templates as YAML that a person can read: aligned rows, sections and comments."""
+"""Templates as readable YAML: aligned rows, sections and comments."""
 
 from __future__ import annotations
 
@@ -29,23 +29,23 @@ _LETTERS = {
 }
 
 
-_UPRIGHT = "In the first frame y points up and the front to the camera; a hand may be anyhow."
+_UPRIGHT = "In the first frame y points up and the front faces the camera."
 
 _SHAPES = """\
 Primitives of shape models; sigma is a standard deviation [m], and the surface lies at about two."""
 
-_BESIDE = "The skin: vertices that follow the segments, in a file beside this one."
+_BESIDE = "Skinned mesh: vertices that follow the segments, in a file in the same folder."
 
 
 def template_text(body: BodyDescription, opening: str, comments: Mapping[str, str]) -> str:
-    """The YAML of a template; lengths have four decimals [m] and angles one [deg].
+    """Returns the YAML of a template; lengths have four decimals [m] and angles one [deg].
 
-    Its mesh, if it has one, has to lie beside it.
+    The mesh, if any, must be in the same folder.
 
     Args:
         body: The template.
-        opening: What to say at its top.
-        comments: What to say of the joint of a segment, by the segment's name.
+        opening: Comment at the top.
+        comments: Comments on the joints of segments, by the segment's name.
     """
     lines = [*_comment(opening), "", f"title: {json.dumps(body.title)}"]
     if body.sources:
@@ -149,7 +149,7 @@ def _coupling(coupling: CouplingDescription) -> str:
 
 
 def _axes_at_right_angles(joint: BallJoint) -> tuple[str, str]:
-    """The twist and swing axes, in full where rounding would turn them to one another."""
+    """Returns twist and swing axes, unrounded where rounding would destroy orthogonality."""
     axes = (joint.twist_axis, joint.swing_axis)
     twist, swing = np.round(axes, 4)
     if abs(float(twist @ swing)) < 1e-7:
@@ -165,7 +165,7 @@ def _capsule(capsule: CapsuleDescription) -> str:
 
 
 def _axis(axis: Sequence[float]) -> str:
-    """A letter where there is one, else four decimals of the unit vector."""
+    """Returns a letter for a coordinate axis, else the unit vector with four decimals."""
     return _LETTERS.get(tuple(axis)) or row(axis)
 
 

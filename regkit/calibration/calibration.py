@@ -1,4 +1,4 @@
-"""Calibration: a template that has the proportions of the person or hand in a recording."""
+"""Calibration: a template with the proportions of the person or hand in a recording."""
 
 from __future__ import annotations
 
@@ -25,62 +25,61 @@ from regkit.system.optional import one_blas_thread
 from regkit.tracking import Session, TrackedFrame
 
 ROUNDS = 2
-"""How often the body is tracked and its proportions are found: a body that is nearer to the subject
-is tracked better."""
+"""Number of rounds of tracking and fitting: a body closer to the subject is tracked better."""
 
 VOXEL, SMALLEST_VOXEL = 0.018, 0.01
-"""Side of the cubes whose points are averaged, as a part of the body's size, and at least [m]."""
+"""Voxel size as a fraction of the body's size, and its lower bound [m]."""
 
 
 class Watcher(Protocol):
-    """Who wants to know how far a calibration is."""
+    """An observer of a calibration's progress."""
 
     def begin(self, task: str, steps: int) -> None:
-        """Something begins that takes so many steps."""
+        """Announces a task with a number of steps."""
 
     def advance(self) -> None:
-        """One more step is done."""
+        """Reports one completed step."""
 
 
 class Calibration(Model):
-    """How a subject's proportions are found."""
+    """Settings of the estimation of a subject's proportions."""
 
     template: Template
-    """What is seen, of usual proportions."""
+    """Template of the subject, with average proportions."""
     preprocessor: Preprocessor | None = None
-    """How frames become data; points averaged in cubes that suit the body's size without it."""
+    """Preprocessor of the frames; by default voxels that suit the body's size."""
     start: PoseDescription | None = None
-    """Pose in the first frame; found from the cloud without it. It needs the template's size."""
+    """Pose in the first frame, which needs the template's size; by default it is searched for."""
     frames: Annotated[int, Field(ge=1)] = 12
-    """In how many frames the body is looked at, spread over those that are tracked."""
+    """Number of frames used for the fit, spread over the tracked part of the recording."""
     longest: Annotated[int, Field(ge=1)] = 300
-    """How many frames are tracked at most, from the start of the recording."""
+    """Maximum number of tracked frames, from the start of the recording."""
     method: Method = slot_default(Method)
-    """What registers the body to each frame of the recording."""
+    """Method that registers the body to each frame of the recording."""
     tracker: Tracker = slot_default(Tracker)
-    """How one frame's pose leads to the next, if the method does not say."""
+    """Tracker that predicts the next frame's pose, unless the method defines one."""
     solver: Solver = slot_default(Solver, max_iterations=30, value_tolerance=1e-4)
-    """What makes the gaps of all frames small."""
+    """Solver of the joint problem over all frames."""
 
     def subject(self, recording: Recording, watcher: Watcher) -> Subject:
-        """The subject of a recording.
+        """Returns the subject of a recording.
 
         Raises:
-            RegkitError: If the template has no capsules, the recording cannot be tracked, or the
-                body that comes out is none.
+            RegkitError: If the template has no capsules, tracking fails, or the fitted body is
+                implausible.
         """
         with one_blas_thread():
             return self._subject(recording, watcher)
 
     def _subject(self, recording: Recording, watcher: Watcher) -> Subject:
         shape = Shape(self.template.description())
-        # The fit finds the size; a start needs only a rough one.
+        # The fit finds the size; the start needs only a rough one.
         session = Session(recording, self.template, self._preprocessor(), self.start, sized_in=1)
         start = session.begin()
         if not len(start.body.capsules):
             raise ConfigError(
-                f"the template '{start.body.name}' has no capsules, without which its proportions "
-                "cannot be found"
+                f"the template '{start.body.name}' has no capsules, which calibration needs to "
+                "find its proportions"
             )
         x = shape.origin(start.body.size)
         for _ in range(ROUNDS):
@@ -90,7 +89,7 @@ class Calibration(Model):
         return Subject.found(shape, x, looks, recording.name)
 
     def _preprocessor(self) -> Preprocessor:
-        """The given preprocessor, or one for a body of the usual size."""
+        """Returns the given preprocessor, or one for a body of the median candidate size."""
         if self.preprocessor is not None:
             return self.preprocessor
         size = float(np.median(self.template.candidate_sizes()))
@@ -99,7 +98,7 @@ class Calibration(Model):
         return Preprocessor.parse(data, place="calibration", field="preprocessor")
 
     def _looks(self, session: Session, start: Start, watcher: Watcher) -> Looks:
-        """The body tracked, and the frames chosen in which it is looked at."""
+        """Tracks the body and returns the frames chosen for the fit."""
         length = min(session.recording.length, self.longest)
         watcher.begin("tracking", length)
         registrar = self.method.bind(start.body)
@@ -109,7 +108,7 @@ class Calibration(Model):
     def _fitted(
         self, shape: Shape, x: Array, looks: Looks, watcher: Watcher
     ) -> tuple[Array, Looks]:
-        """The proportions (1 + 2 G) and poses of least gaps."""
+        """Returns the fitted proportions (1 + 2 G) and poses."""
         watcher.begin("fitting", 1)
         problem = SubjectProblem(shape, x, looks.clouds, looks.poses)
         solution = self.solver.minimize(problem)

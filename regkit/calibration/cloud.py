@@ -1,4 +1,4 @@
-"""The data of one frame, and their two-sided distance to a body that is being calibrated."""
+"""The data of one frame and their two-sided distance to a body under calibration."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from regkit.observation import Observation
 from regkit.system.arrays import Array
 
 MOST_POINTS = 500
-"""Proportions follow from this many points of a frame as well as from all of them."""
+"""This many points of a frame determine the proportions as well as all of them."""
 
 AXIS_POINTS = 5
 """Number of spheres on each capsule's axis."""
@@ -27,8 +27,8 @@ class Cloud:
     """One frame's data.
 
     Attributes:
-        observation: The data.
-        points: Some of its points, (N, 3) [m].
+        observation: The observation of the frame.
+        points: A subset of its points, (N, 3) [m].
         tree: All of its points.
     """
 
@@ -38,33 +38,33 @@ class Cloud:
 
     @classmethod
     def of(cls, observation: Observation) -> Cloud:
-        """The cloud of a frame."""
+        """Returns the cloud of a frame."""
         step = max(1, -(-len(observation.points) // MOST_POINTS))
         return cls(observation, observation.points[::step], KDTree(observation.points))
 
     def data_to_model(self, capsules: Capsules, span: float) -> SurfaceDistances:
-        """Distances of the points to the surface, whose noise lies along their rays.
+        """Returns the distances of the points to the surface, with noise along the rays.
 
-        A point belongs where its ray meets the surface within ``span`` [m], and its distance is
-        that to the tangent plane there, so that its noise has no influence on where it belongs.
-        With the distance to the nearest surface, noise of 2 cm makes a person's shins thinner by
-        7 %.
+        A point corresponds to the place where its ray meets the surface within ``span`` [m], and
+        its distance is to the tangent plane there, so that noise does not bias the correspondence.
+        With the nearest surface points instead, noise of 2 cm makes a person's shins 7 % thinner.
         """
         if self.observation.camera is None:
             return data_to_model(capsules, self.points)
-        return data_to_model(capsules, self.points, _met(self.points, capsules, span))
+        return data_to_model(capsules, self.points, _ray_hits(self.points, capsules, span))
 
     def model_to_data(self, capsules: Capsules) -> tuple[SurfaceDistances, Array]:
-        """Distances of spheres on the axes to the nearest points, and their weights (R,).
+        """Returns the distances of spheres on the axes to the nearest points, and weights (R,).
 
-        A sphere that the camera cannot see has the weight zero; the weights sum to one at most.
+        The weight of a sphere that is hidden from the camera is zero; the weights sum to at most
+        one.
         """
         axes = capsules.axis_samples(AXIS_POINTS)
         weights = (1.0 - self._hidden(axes.points, axes.radii)) / len(axes.along)
         return model_to_data(axes, self.tree), weights
 
     def _hidden(self, centres: Array, thick: Array) -> Array:
-        """One where the camera measured well before a sphere, else zero, (R,)."""
+        """Returns one where the camera measured well in front of a sphere, else zero, (R,)."""
         camera, depth = self.observation.camera, self.observation.depth
         if camera is None or depth is None:
             return np.zeros(len(centres))
@@ -76,26 +76,28 @@ class Cloud:
         return before.astype(np.float64)
 
 
-def _met(points: Array, capsules: Capsules, span: float) -> Array:
-    """Where the rays of points from the origin meet a surface, or come nearest to it, (N, 3) [m].
+def _ray_hits(points: Array, capsules: Capsules, span: float) -> Array:
+    """Returns where the rays of points meet a surface, or come nearest to it, (N, 3) [m].
 
-    Each ray is traced within ``span`` [m] of its point. A ray that begins beneath the surface is
-    occluded by another part, and its point stays.
+    Each ray starts at the origin and is traced within ``span`` [m] of its point. A ray that begins
+    beneath the surface is occluded by another part, and its point stays unchanged.
     """
     rays = points / np.linalg.norm(points, axis=1, keepdims=True)
     at = np.full(len(points), -span)
     distances = capsules.surface_distance(points + at[:, None] * rays)
     best, least = np.where(distances > 0.0, at, 0.0), distances.copy()
-    going = np.flatnonzero(distances > 0.0)
+    active = np.flatnonzero(distances > 0.0)
     for _ in range(STEPS):
-        at[going] = np.minimum(at[going] + distances[going], span)
-        some = rays[going]
-        distances[going] = capsules.surface_distance(points[going] + at[going, None] * some)
-        nearer = going[distances[going] < least[going]]
+        at[active] = np.minimum(at[active] + distances[active], span)
+        active_rays = rays[active]
+        distances[active] = capsules.surface_distance(
+            points[active] + at[active, None] * active_rays
+        )
+        nearer = active[distances[active] < least[active]]
         best[nearer], least[nearer] = at[nearer], distances[nearer]
-        going = going[(distances[going] > _TOUCHED * span) & (at[going] < span)]
+        active = active[(distances[active] > _CONTACT * span) & (at[active] < span)]
     return np.asarray(points + best[:, None] * rays)
 
 
-_TOUCHED = 0.01
-"""A ray that comes so near, as a part of the span, has met the surface."""
+_CONTACT = 0.01
+"""A ray has met the surface if it comes this near, as a fraction of the span."""

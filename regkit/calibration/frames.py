@@ -1,4 +1,4 @@
-"""The frames of a recording in which a body is looked at."""
+"""The frames of a recording that a calibration uses."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ class Looks:
     """A body seen in several frames.
 
     Attributes:
-        first: Its pose in the recording's first frame.
-        clouds: The data of the frames that are looked at.
-        poses: The body's poses in them.
+        first: Pose in the recording's first frame.
+        clouds: Data of the selected frames.
+        poses: Poses of the body in these frames.
     """
 
     first: Pose
@@ -32,7 +32,7 @@ class Looks:
 
 @dataclass(frozen=True)
 class _Look:
-    """The data of a frame, and what was found in it."""
+    """The data of a frame and their registration."""
 
     cloud: Cloud
     pose: Pose
@@ -40,17 +40,17 @@ class _Look:
 
 
 def spread(track: Iterable[TrackedFrame], length: int, count: int) -> Looks:
-    """Of each of ``count`` equal parts of a track the frame with the most inliers.
+    """Returns the frame with the most inliers of each of ``count`` equal parts of a track.
 
-    Of the others nothing is kept, and of these only what the fit takes.
+    Only the best frame of each part is kept in memory.
 
     Args:
         track: The tracked frames.
-        length: How many there are.
-        count: How many are wanted; all of them if that is more.
+        length: Number of tracked frames.
+        count: Number of frames to select, at most ``length``.
 
     Raises:
-        DataError: If there is no frame.
+        DataError: If the track is empty.
     """
     count = min(count, length)
     best: dict[int, _Look] = {}
@@ -58,7 +58,7 @@ def spread(track: Iterable[TrackedFrame], length: int, count: int) -> Looks:
     for index, frame in enumerate(track):
         found, part = frame.registered, index * count // length
         first = found.pose if first is None else first
-        # A method that cannot tell says NaN, which is never more.
+        # A method without inlier probabilities reports NaN, which never exceeds anything.
         if part not in best or found.inlier_share > best[part].inlier_share:
             best[part] = _Look(Cloud.of(frame.observation), found.pose, found.inlier_share)
     if first is None:
@@ -68,7 +68,7 @@ def spread(track: Iterable[TrackedFrame], length: int, count: int) -> Looks:
 
 
 def distances(body: Body, looks: Looks) -> Array:
-    """The distances of the points of all frames to the body's surface, (N,) [m]."""
+    """Returns the distances of the points of all frames to the body's surface, (N,) [m]."""
     found = []
     for cloud, pose in zip(looks.clouds, looks.poses, strict=True):
         capsules = body.capsules.place(body.place(pose).transforms)

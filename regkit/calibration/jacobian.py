@@ -1,4 +1,4 @@
-"""How surface distances change with the proportions of a body, bone by bone."""
+"""Derivatives of surface distances to the proportions of a body, bone by bone."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from regkit.system.arrays import Array, Indices
 
 @dataclass(frozen=True)
 class ProportionJacobian:
-    """How the spheres on a posed body's axes move and grow.
+    """Motion and growth of the spheres on a posed body's axes with its proportions.
 
-    A length or girth of a segment stretches all that is in the segment's frame: the axes of its own
-    capsules, and the joints of the segments that hang on it, with all that hangs on these.
+    A segment's length or girth stretches everything in the segment's frame: the axes of its own
+    capsules, and the joints of its child segments with all their descendants.
 
     Attributes:
         body: The body.
-        placement: Its pose.
-        groups: The groups of its proportions, G of them.
+        placement: Its placement.
+        groups: The G groups of its proportions.
     """
 
     body: Body
@@ -32,10 +32,10 @@ class ProportionJacobian:
     groups: Groups
 
     def rows(self, distances: SurfaceDistances) -> Array:
-        """The derivative (R, 2 G) to the logarithms of the groups' lengths, then of their girths.
+        """Returns the derivative (R, 2 G) to the logarithms of the groups' lengths, then girths.
 
-        At the logarithm of a factor a length changes by itself, so that the template's own lengths
-        do not matter.
+        A length's derivative to the logarithm of its factor is the length itself, so that the
+        template's own lengths do not matter.
         """
         along, segments, own = distances.along, distances.segments, distances.capsules
         ends, radii = self.body.capsules.ends[own], self.body.capsules.radii[own]
@@ -49,19 +49,19 @@ class ProportionJacobian:
 
     @cached_property
     def _origins(self) -> Array:
-        """The derivative (S, 2 G, 3) of the segments' origins in the world; the root's rests."""
+        """Derivative (S, 2 G, 3) of the segments' origins in the world; the root's is zero."""
         origins = np.zeros((len(self.body.skeleton.parents), 2 * len(self.groups.names), 3))
         transforms = self.placement.transforms
         for segment, parent in enumerate(self.body.skeleton.parents):
             if parent >= 0:
-                way = transforms[segment, :3, 3] - transforms[parent, :3, 3]
-                offset = way @ transforms[parent, :3, :3]
+                offset_in_world = transforms[segment, :3, 3] - transforms[parent, :3, 3]
+                offset = offset_in_world @ transforms[parent, :3, :3]
                 stretched = self._stretched(np.array([parent]), offset[None])[0]
                 origins[segment] = origins[parent] + stretched
         return origins
 
     def _stretched(self, segments: Indices, points: Array) -> Array:
-        """The derivative (R, 2 G, 3) in the world of points (R, 3) that are in segments' frames."""
+        """Returns the derivative (R, 2 G, 3) in the world of points (R, 3) in segments' frames."""
         bones, groups = self.groups.bones[segments], self.groups.of_segments[segments]
         lengthwise = (points * bones).sum(axis=1, keepdims=True) * bones
         turns = self.placement.transforms[segments, :3, :3]

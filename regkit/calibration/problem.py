@@ -16,35 +16,35 @@ from regkit.skeleton import Pose
 from regkit.system.arrays import Array, Indices
 
 CUTOFF = 2.0
-"""The cutoff of distances in units of the usual one, the median, which holds the noise of the data
-and the misfit of such a body."""
+"""Cutoff of distances in units of the median, which covers the noise of the data and the body's
+misfit."""
 
 RANGE = 0.06
-"""The surface is traced along a point's ray within this part of the body's size."""
+"""A point's ray is traced within this fraction of the body's size."""
 
 EVIDENCE = 1000.0
-"""Number of independent distances in all frames together: neighbouring points and frames repeat
-each other."""
+"""Number of independent distances in all frames together: neighbouring points and frames are
+correlated."""
 
 STIFFNESS = 0.05
 """Weight of a joint's rotation [rad] against a distance [cutoff]; a joint without data stays."""
 
 
 class SubjectProblem(Problem):
-    """Surface distances in all frames, turns of the joints, and how unusual the proportions are.
+    """Surface distances in all frames, with priors on joint rotations and proportions.
 
     With the distances g in units of the cutoff, their weights w, the joints' rotations t and the
-    numbers s of the shape, whose usual sizes are u, the energy over F frames is
+    shape parameters s with standard deviations u, the energy over F frames is
 
         EVIDENCE / F sum_F (sum 1/2 w log(1 + g^2) + sum 1/2 (STIFFNESS t)^2) + sum 1/2 (s / u)^2.
 
-    Under the logarithm, Cauchy's loss, points that are not of the body count little.
+    The logarithm, Cauchy's loss, gives outliers little weight.
 
     Args:
         shape: The body's proportions.
-        start: Where they begin, (1 + 2 G).
-        clouds: The data of F frames.
-        poses: The body's poses in them.
+        start: Initial shape parameters, (1 + 2 G).
+        clouds: Data of F frames.
+        poses: Initial poses of the body in these frames.
     """
 
     def __init__(
@@ -53,7 +53,7 @@ class SubjectProblem(Problem):
         self._shape, self._clouds = shape, clouds
         body = shape.body(start)
         self._range = RANGE * body.size
-        self._cutoff = CUTOFF * self._usual_distance(body, poses)
+        self._cutoff = CUTOFF * self._median_distance(body, poses)
         self._charts = [TangentCoordinates(body.skeleton, pose) for pose in poses]
         self._weight = EVIDENCE / len(clouds)
         self._spring = np.full(len(self._charts[0].origin()), STIFFNESS**2)
@@ -65,20 +65,20 @@ class SubjectProblem(Problem):
         self.upper = np.concatenate([free, *upper])
 
     def shape(self, x: Array) -> Array:
-        """The numbers of the shape (1 + 2 G) in coordinates x (m,)."""
+        """Returns the shape parameters (1 + 2 G) in coordinates x (m,)."""
         return x[: len(self._shape)]
 
     def poses(self, x: Array) -> tuple[Pose, ...]:
-        """The poses of the frames at coordinates x (m,)."""
-        places = self._places()
-        return tuple(chart.pose(x[own]) for chart, own in zip(self._charts, places, strict=True))
+        """Returns the poses of the frames at coordinates x (m,)."""
+        indices = self._step_indices()
+        return tuple(chart.pose(x[own]) for chart, own in zip(self._charts, indices, strict=True))
 
     def value_and_gradient(self, x: Array) -> tuple[float, Array]:
-        """The energy at coordinates x (m,) and its gradient (m,)."""
+        """Returns the energy at coordinates x (m,) and its gradient (m,)."""
         return self.normal_equations(x)[:2]
 
     def normal_equations(self, x: Array) -> tuple[float, Array, Array]:
-        """The energy, its gradient (m,) and the Gauss-Newton matrix (m, m)."""
+        """Returns the energy, its gradient (m,) and the Gauss-Newton matrix (m, m)."""
         shape, springs = self.shape(x), self._shape.springs()
         body = self._shape.body(shape)
         value = 0.5 * float(springs @ shape**2)
@@ -86,7 +86,7 @@ class SubjectProblem(Problem):
         gradient[: len(shape)] = springs * shape
         matrix[: len(shape), : len(shape)] = np.diag(springs)
         shapes = np.arange(len(shape))
-        for chart, cloud, own in zip(self._charts, self._clouds, self._places(), strict=True):
+        for chart, cloud, own in zip(self._charts, self._clouds, self._step_indices(), strict=True):
             part = self._frame(body, chart, cloud, x[own])
             both = np.concatenate([shapes, own])
             value += self._weight * part[0]
@@ -95,9 +95,9 @@ class SubjectProblem(Problem):
         return value, gradient, matrix
 
     def projected(self, x: Array) -> Array:
-        """The poses brought back within the limits of hinges and balls."""
+        """Returns coordinates (m,) with hinges and ball joints projected onto their limits."""
         x = np.clip(x, self.lower, self.upper)
-        for chart, own in zip(self._charts, self._places(), strict=True):
+        for chart, own in zip(self._charts, self._step_indices(), strict=True):
             pose = chart.pose(x[own])
             within = chart.skeleton.limits.projected(pose)
             if within is not pose:
@@ -107,7 +107,7 @@ class SubjectProblem(Problem):
     def _frame(
         self, body: Body, chart: TangentCoordinates, cloud: Cloud, step: Array
     ) -> tuple[float, Array, Array]:
-        """What one frame contributes, its derivatives to the shape and then to the pose's step."""
+        """Returns a frame's energy and derivatives, to the shape and then to the pose's step."""
         placement = body.place(chart.pose(step))
         capsules = body.capsules.place(placement.transforms)
         proportions = ProportionJacobian(body, placement, self._shape.groups)
@@ -128,8 +128,8 @@ class SubjectProblem(Problem):
         gradient = (tensions * distances) @ rows + spring * rest
         return energy, gradient, rows.T @ (tensions[:, None] * rows) + np.diag(spring)
 
-    def _usual_distance(self, body: Body, poses: Sequence[Pose]) -> float:
-        """The median distance of all points to the surface [m]."""
+    def _median_distance(self, body: Body, poses: Sequence[Pose]) -> float:
+        """Returns the median distance of all points to the surface [m]."""
         lengths = [
             cloud.data_to_model(
                 body.capsules.place(body.place(pose).transforms), self._range
@@ -138,8 +138,8 @@ class SubjectProblem(Problem):
         ]
         return float(np.median(np.abs(np.concatenate(lengths))))
 
-    def _places(self) -> list[Indices]:
-        """Where the steps of each pose stand among the coordinates."""
+    def _step_indices(self) -> list[Indices]:
+        """Returns the indices of each pose's step among the coordinates."""
         dofs = len(self._spring)
         first = len(self._shape)
         return [first + frame * dofs + np.arange(dofs) for frame in range(len(self._charts))]

@@ -1,4 +1,4 @@
-"""The outcome of a calibration, and whether it can be believed."""
+"""The outcome of a calibration and its plausibility."""
 
 from __future__ import annotations
 
@@ -14,25 +14,25 @@ from regkit.system.arrays import Array
 from regkit.system.errors import DataError
 
 FARTHEST = 0.015
-"""A body whose surface is farther from most data, as a part of its size, was not found."""
+"""A fit has failed if the median distance of the data exceeds this fraction of the body's size."""
 
 EXTREME = 1.25
-"""Nor was one with a bone so many times longer or shorter than the template's at the same size."""
+"""A fit has failed if a bone's length differs by more than this factor from the scaled template."""
 
 FAR = 0.03
-"""Points farther from the surface, as a part of the size, can hardly be those of the body."""
+"""Points farther from the surface than this fraction of the size are hardly the body's."""
 
 
 @dataclass(frozen=True)
 class Subject:
-    """The person or hand that was seen.
+    """The person or hand in a recording.
 
     Attributes:
         description: The template with the subject's proportions, at the subject's size.
-        proportions: By how much they differ from the template's.
-        frames: In how many frames the subject was looked at.
-        distance: Median distance of the data in these to the surface [m].
-        strange: Share of the data that are so far from it that they can hardly be the subject's.
+        proportions: Ratios of the subject's proportions to the template's.
+        frames: Number of frames used for the fit.
+        distance: Median distance of their data to the surface [m].
+        strange: Fraction of the data too far from the surface to be the subject's.
     """
 
     description: BodyDescription
@@ -43,10 +43,16 @@ class Subject:
 
     @classmethod
     def found(cls, shape: Shape, x: Array, looks: Looks, recording: str) -> Subject:
-        """The subject whose shape is the vector x (1 + 2 G), seen in frames of a recording.
+        """Returns the subject with the shape parameters x (1 + 2 G).
+
+        Args:
+            shape: The parametrised template.
+            x: Shape parameters, (1 + 2 G).
+            looks: The frames used for the fit.
+            recording: Name of the recording.
 
         Raises:
-            DataError: If no body is like that, or the data are elsewhere.
+            DataError: If the proportions are implausible or the data are far from the surface.
         """
         body = shape.body(x)
         gaps = distances(body, looks)
@@ -65,7 +71,7 @@ class Subject:
 
 
 def _named(description: BodyDescription, recording: str, frames: int) -> BodyDescription:
-    """The description, which says where its proportions come from."""
+    """Returns the description with the origin of its proportions in title and sources."""
     source = f"Lengths and girths: fitted to {frames} frames of the recording {recording}"
     return description.model_copy(
         update={
@@ -76,19 +82,24 @@ def _named(description: BodyDescription, recording: str, frames: int) -> BodyDes
 
 
 def check(shape: Shape, x: Array, off: float) -> None:
-    """Refuse proportions that no subject has, which come of a start or a track that went wrong.
+    """Checks that proportions are plausible; a failed start or track makes them implausible.
+
+    Args:
+        shape: The parametrised template.
+        x: Shape parameters, (1 + 2 G).
+        off: Median distance of the data to the surface [m].
 
     Raises:
         DataError: If the surface is far from the data, or a bone's length is extreme.
     """
-    cure = "the body was not found; give its size or a start, or take another recording"
+    advice = "the body was not found; give its size or a start, or use another recording"
     size = shape.description(x).size.value
     if off > FARTHEST * size:
-        raise DataError(f"the body's surface lies {100.0 * off:.1f} cm from the data: {cure}")
+        raise DataError(f"the body's surface lies {100.0 * off:.1f} cm from the data: {advice}")
     lengths = x[1 : 1 + len(shape.groups.names)]
     worst = int(np.abs(lengths).argmax())
     if abs(lengths[worst]) > np.log(EXTREME):
         raise DataError(
             f"'{shape.groups.names[worst]}' came out {np.exp(lengths[worst]):.2f} times as long as "
-            f"in the template, all else being scaled: {cure}"
+            f"in the scaled template: {advice}"
         )

@@ -1,4 +1,4 @@
-"""Which segment of a template each bone of a mesh belongs to."""
+"""The map from a mesh's bones to a template's segments."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class BoneMap(RootModel[dict[str, str | None]]):
 
 
 def read_bone_map(path: Path) -> dict[str, str | None]:
-    """The bone map in a YAML file.
+    """Returns the bone map in a YAML file.
 
     Raises:
         RegkitError: If the file is missing or wrong.
@@ -30,9 +30,13 @@ def read_bone_map(path: Path) -> dict[str, str | None]:
 def owners_of_bones(
     mesh: SkinnedMesh, template: BodyDescription, bones: Mapping[str, str | None]
 ) -> dict[str, str]:
-    """The segment that each bone belongs to, by the bone's label.
+    """Returns the segment that each bone belongs to, by the bone's label.
 
-    A bone that ``bones`` does not name belongs to the segment of its own name.
+    Args:
+        mesh: The mesh.
+        template: The template.
+        bones: Segments of bones, None for the segment of the parent; bones that are not included
+            belong to the segment of the same name.
 
     Raises:
         ConfigError: If a bone or a segment is unknown, a bone belongs to none, or a segment has no
@@ -62,7 +66,10 @@ def owners_of_bones(
 
 
 def first_bones(mesh: SkinnedMesh, owners: Mapping[str, str]) -> dict[str, int]:
-    """The bone at whose start each segment has its joint: its first, as parents come first."""
+    """Returns the first bone of each segment, whose start is the segment's joint.
+
+    Parents come first among the bones.
+    """
     first: dict[str, int] = {}
     for bone, label in enumerate(mesh.labels):
         first.setdefault(owners[label], bone)
@@ -72,17 +79,17 @@ def first_bones(mesh: SkinnedMesh, owners: Mapping[str, str]) -> dict[str, int]:
 def _check_all_mapped(
     labels: Sequence[str], bones: Mapping[str, str | None], segments: Sequence[str]
 ) -> None:
-    """Refuse bones without a segment, and segments without a bone.
+    """Checks that every bone has a segment and every segment a bone.
 
     Raises:
-        ConfigError: If there are any.
+        ConfigError: If a bone or a segment is unmapped.
     """
     unmapped = [label for label in labels if label not in bones]
     bare = [segment for segment in segments if segment not in bones.values()]
     if unmapped:
         raise ConfigError(
-            f"no segment is named after the bones {', '.join(unmapped)}; say where each belongs in "
-            "the map of bones, as 'bone: segment', or null for the segment of its parent"
+            f"no segment is named after the bones {', '.join(unmapped)}; map each of them in the "
+            "map of bones, as 'bone: segment', or null for the segment of its parent"
             + (f" (no bone yet: {', '.join(bare)})" if bare else "")
         )
     if bare:

@@ -1,4 +1,4 @@
-"""Clusters of points, for solids that are fitted to one each."""
+"""Clusters of points, one per fitted solid."""
 
 from __future__ import annotations
 
@@ -8,11 +8,14 @@ from regkit.system.arrays import Array, Indices
 
 
 def clusters(points: Array, centres: Array, in_plane: int = 0) -> Indices:
-    """Lloyd's k-means: the cluster (N,) of each point, from first centres (K, 3).
-
-    The last ``in_plane`` centres are kept in the plane x = 0.
+    """Returns the cluster (N,) of each point by Lloyd's k-means.
 
     Source: Lloyd, Least squares quantization in PCM, IEEE Trans. Inf. Theory 28, 1982.
+
+    Args:
+        points: (N, 3) [m].
+        centres: Initial centres, (K, 3) [m].
+        in_plane: Number of last centres that stay in the plane x = 0.
     """
     centres = centres.copy()
     kept = slice(len(centres) - in_plane, len(centres))
@@ -30,7 +33,7 @@ def clusters(points: Array, centres: Array, in_plane: int = 0) -> Indices:
 
 
 def spread(points: Array, count: int) -> Indices:
-    """``count`` of the points, (K,), each as far as can be from those before it."""
+    """Returns the indices (K,) of ``count`` points chosen by farthest-point sampling."""
     chosen = [int(((points - points.mean(axis=0)) ** 2).sum(axis=1).argmax())]
     distances = ((points - points[chosen[0]]) ** 2).sum(axis=1)
     while len(chosen) < count:

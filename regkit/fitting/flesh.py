@@ -1,4 +1,4 @@
-"""What a mesh says of each segment: points inside it and points on its surface."""
+"""Samples of a mesh for each segment: points inside it and points on its surface."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ class Flesh:
     """One segment's part of a mesh, in the segment's frame.
 
     Attributes:
-        interior: (N, 3) points on a regular grid inside [m].
-        surface: (M, 3) centres of the triangles [m].
-        areas: (M,) areas of the triangles [m^2].
+        interior: Points inside, on a regular grid, (N, 3) [m].
+        surface: Centres of the triangles, (M, 3) [m].
+        areas: Areas of the triangles, (M,) [m^2].
     """
 
     interior: Array
@@ -32,12 +32,18 @@ class Flesh:
     areas: Array
 
     def local(self, frame: SegmentFrame) -> Flesh:
-        """The same in the frame of a segment, if this is in the template's axes."""
+        """Returns the same samples in a segment's frame, from samples in the template's axes."""
         return Flesh(frame.local(self.interior), frame.local(self.surface), self.areas)
 
 
 def flesh_of(mesh: SkinnedMesh, layout: Layout, spacing: float) -> dict[str, Flesh]:
-    """The flesh of every segment, from a grid whose points are ``spacing`` apart [m]."""
+    """Returns the flesh of every segment in its frame.
+
+    Args:
+        mesh: The mesh.
+        layout: Its division into segments.
+        spacing: Spacing of the grid [m].
+    """
     parts = divided(mesh, layout.T_template_mesh, layout.owners, list(layout.frames), spacing)
     return {name: part.local(layout.frames[name]) for name, part in parts.items()}
 
@@ -49,16 +55,16 @@ def divided(
     names: Sequence[str],
     spacing: float,
 ) -> dict[str, Flesh]:
-    """The flesh of every segment in the template's axes, in the pose of the mesh.
+    """Returns the flesh of every segment in the template's axes, in the pose of the mesh.
 
-    A point belongs to the segment that the nearest vertex follows most.
+    A point belongs to the segment with the largest weight at the nearest vertex.
 
     Args:
         mesh: The mesh.
-        T_template_mesh: (4, 4) from the mesh's axes to the template's [m].
-        owner_of_bone: The segment that each bone belongs to, by the bone's label.
-        names: The segments.
-        spacing: Distance of the points of the grid [m].
+        T_template_mesh: Transform from the mesh's axes to the template's, (4, 4) [m].
+        owner_of_bone: Segment of each bone, by the bone's label.
+        names: Names of the segments.
+        spacing: Spacing of the grid [m].
     """
     vertices = transformed(T_template_mesh, mesh.vertices)
     followed = np.zeros((len(vertices), len(names)))
@@ -84,7 +90,13 @@ def divided(
 
 
 def interior_points(vertices: Array, faces: Indices, spacing: float) -> Array:
-    """The points (N, 3) inside a mesh of a grid that is symmetric about the plane x = 0."""
+    """Returns the points (N, 3) [m] of a grid, symmetric about the plane x = 0, inside a mesh.
+
+    Args:
+        vertices: Vertices of the mesh, (V, 3) [m].
+        faces: Vertex indices of its triangles, (F, 3); holes are closed.
+        spacing: Spacing of the grid [m].
+    """
     corners, triangles = closed(vertices, faces)
     cells = np.ceil(np.abs(corners).max(axis=0) / spacing).astype(int)
     axes = [(np.arange(-count, count) + 0.5) * spacing for count in cells]
@@ -102,15 +114,15 @@ def interior_points(vertices: Array, faces: Indices, spacing: float) -> Array:
 
 
 def closed(vertices: Array, faces: Indices) -> tuple[Array, Indices]:
-    """The mesh with each of its holes closed by a fan of triangles around the hole's middle."""
+    """Returns the mesh with each hole closed by a fan of triangles around the hole's centre."""
     edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
     reverse = {(int(b), int(a)) for a, b in edges}
     rim = np.array([edge for edge in edges if (int(edge[0]), int(edge[1])) not in reverse])
     if not len(rim):
         return vertices, faces
     count = len(vertices)
-    ties = coo_array((np.ones(len(rim)), (rim[:, 0], rim[:, 1])), shape=(count, count))
-    _, hole = connected_components(ties, directed=False)
+    adjacency = coo_array((np.ones(len(rim)), (rim[:, 0], rim[:, 1])), shape=(count, count))
+    _, hole = connected_components(adjacency, directed=False)
     holes, hole_of_edge = np.unique(hole[rim[:, 0]], return_inverse=True)
     middles = [
         vertices[rim[hole_of_edge == index]].mean(axis=(0, 1)) for index in range(len(holes))

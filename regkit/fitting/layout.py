@@ -1,4 +1,4 @@
-"""How a mesh is divided into the segments of a template, and turned into its rest pose."""
+"""The division of a mesh into the segments of a template, and its rest pose."""
 
 from __future__ import annotations
 
@@ -17,26 +17,26 @@ class SegmentFrame:
     """The frame of a segment in a mesh.
 
     Attributes:
-        origin: (3,) the segment's joint, in the template's axes [m].
-        rotation: (3, 3) turns the segment from the mesh's pose into the template's rest pose.
+        origin: The segment's joint in the template's axes, (3,) [m].
+        rotation: Rotation of the segment from the mesh's pose to the template's rest pose, (3, 3).
     """
 
     origin: Array
     rotation: Array
 
     def local(self, points: Array) -> Array:
-        """Points (N, 3) or (3,) of the mesh, in the template's axes, in the segment's frame."""
+        """Returns points (N, 3) or (3,) of the template's axes in the segment's frame [m]."""
         return np.asarray((points - self.origin) @ self.rotation.T)
 
 
 @dataclass(frozen=True)
 class Layout:
-    """How a mesh is divided into the segments of a template.
+    """The division of a mesh into the segments of a template.
 
     Attributes:
-        T_template_mesh: (4, 4) from the mesh's axes to the template's [m].
-        owners: The segment that each bone belongs to, by the bone's label.
-        frames: The frame of each segment.
+        T_template_mesh: Transform from the mesh's axes to the template's, (4, 4) [m].
+        owners: Segment of each bone, by the bone's label.
+        frames: Frame of each segment.
     """
 
     T_template_mesh: Array
@@ -44,7 +44,7 @@ class Layout:
     frames: Mapping[str, SegmentFrame]
 
     def neutral(self, mesh: SkinnedMesh) -> Array:
-        """The mesh's vertices (V, 3) [m] in the template's rest pose, by linear blend skinning."""
+        """Returns the vertices (V, 3) [m] in the template's rest pose, by linear blend skinning."""
         turn = self.T_template_mesh[:3, :3]
         frames = [self.frames[self.owners[label]] for label in mesh.labels]
         rotations = np.array([turn.T @ frame.rotation @ turn for frame in frames])

@@ -1,4 +1,4 @@
-"""The shape of a mesh in the terms of a template: proportions, offsets and shapes."""
+"""The shape of a mesh in terms of a template: proportions, offsets and shapes."""
 
 from __future__ import annotations
 
@@ -24,14 +24,13 @@ from regkit.system.arrays import Array
 
 @dataclass(frozen=True)
 class MeshShape:
-    """The shape of a mesh, in the terms of a template.
+    """The shape of a mesh in terms of a template.
 
     Attributes:
         template: The template.
-        layout: How the mesh is divided into its segments.
-        parts: The flesh of each, in the template's axes.
-        added: Shape models of which the template lists nothing, and the class of their parameters:
-            each segment gets one primitive.
+        layout: Division of the mesh into the template's segments.
+        parts: Samples of each segment, in the template's axes.
+        added: Parameter classes of further shape models, by kind: each segment gets one primitive.
     """
 
     template: BodyDescription
@@ -40,14 +39,14 @@ class MeshShape:
     added: Mapping[str, type[ShapeParameters]]
 
     def description(self) -> BodyDescription:
-        """The template with the mesh's joints and shapes; the rest is stretched with these."""
+        """Returns the template with the mesh's joints and shapes, everything else stretched."""
         stretched = self.proportions().applied(self.template)
         segments = {name: self._segment(name, one) for name, one in stretched.segments.items()}
         return stretched.model_copy(update={"segments": segments, "shapes": self.shapes})
 
     @cached_property
     def shapes(self) -> dict[str, dict[str, tuple[ShapeParameters, ...]]]:
-        """The primitives of every kind and segment."""
+        """Fitted primitives by kind of shape model and by segment."""
         listed = {
             kind: {name: self._fitted(kind, name, own) for name, own in by_segment.items()}
             for kind, by_segment in self.template.shapes.items()
@@ -61,7 +60,7 @@ class MeshShape:
         }
 
     def proportions(self) -> Proportions:
-        """The mean factors of each group of segments."""
+        """Returns the mean length and girth factors of each group of segments."""
         groups = Groups.of(self.template)
         order = parents_first(self.template.segments)
         factors = np.array(
@@ -74,7 +73,7 @@ class MeshShape:
         return Proportions(groups, lengths, girths)
 
     def _factors(self, name: str, bone: Array) -> tuple[float, float]:
-        """By how much a segment is longer along its bone, and thicker across it."""
+        """Returns a segment's length factor along its bone and girth factor across it."""
         kinds = [kind for kind, own in self.template.shapes.items() if own.get(name)]
         if not kinds:
             return 1.0, 1.0
@@ -92,7 +91,7 @@ class MeshShape:
         return float(np.sqrt((bone @ after @ bone) / (bone @ before @ bone))), girth
 
     def _segment(self, name: str, stretched: SegmentDescription) -> SegmentDescription:
-        """Joints are where the mesh has them, and markers at joints with these."""
+        """Returns a segment with the mesh's joint, and with markers moved along with joints."""
         own = self.template.segments[name]
         markers = dict(stretched.markers)
         for marker, at in own.markers.items():
@@ -105,30 +104,31 @@ class MeshShape:
     def _fitted(
         self, kind: str, name: str, before: tuple[ShapeParameters, ...]
     ) -> tuple[ShapeParameters, ...]:
-        """As many primitives as the template lists, each like its own.
+        """Returns one fitted primitive for each of the template's.
 
-        They are fitted to clusters, which begin where the template's lie in its segment.
+        The primitives are fitted to clusters of the segment's points; the initial centres follow
+        the template's primitives.
         """
         if not before:
             return ()
         points = self._points(kind, name)
         centres = np.array([one.moments()[0] for one in before])
-        wider = points.std(axis=0) / np.sqrt(np.diag(_mixture(before)))
-        guess = points.mean(axis=0) + wider * (centres - centres.mean(axis=0))
+        spread_ratio = points.std(axis=0) / np.sqrt(np.diag(_mixture(before)))
+        guess = points.mean(axis=0) + spread_ratio * (centres - centres.mean(axis=0))
         owners = clusters(points, points[cKDTree(points).query(guess)[1]])
         return tuple(
             type(one).fitted(points[owners == index], one) for index, one in enumerate(before)
         )
 
     def _points(self, kind: str, name: str) -> Array:
-        """The points inside a segment and what is fixed to it without primitives of its own."""
+        """Returns points inside a segment and inside fixed segments without primitives."""
         frame = self.layout.frames[name]
         return np.concatenate(
-            [frame.local(self.parts[one].interior) for one in self._together(kind, name)]
+            [frame.local(self.parts[one].interior) for one in self._rigidly_attached(kind, name)]
         )
 
-    def _together(self, kind: str, name: str) -> list[str]:
-        """The segment and those that are fixed to it and have no primitives of this kind."""
+    def _rigidly_attached(self, kind: str, name: str) -> list[str]:
+        """Returns a segment and the segments fixed to it that lack primitives of this kind."""
         names = [name]
         for parent in names:
             names += [
@@ -141,13 +141,13 @@ class MeshShape:
         return names
 
     def _offset(self, name: str) -> Array:
-        """Where a segment's joint is in its parent's frame (3,) [m]."""
+        """Returns the position of a segment's joint in its parent's frame, (3,) [m]."""
         parent = self.template.segments[name].parent
         assert parent is not None
         return self.layout.frames[parent].local(self.layout.frames[name].origin)
 
 
 def _mixture(primitives: Sequence[ShapeParameters]) -> Array:
-    """The covariance (3, 3) of several primitives together, each of the same weight [m^2]."""
+    """Returns the covariance (3, 3) [m^2] of a mixture of primitives with equal weights."""
     means, covariances = zip(*(one.moments() for one in primitives), strict=True)
     return np.asarray(np.cov(np.array(means).T, bias=True) + np.mean(covariances, axis=0))

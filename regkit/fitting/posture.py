@@ -1,4 +1,4 @@
-"""How a mesh stands: where its joints are, and how its segments are turned against the template."""
+"""The posture of a mesh: its joints, and the rotations of its segments against the template."""
 
 from __future__ import annotations
 
@@ -19,35 +19,35 @@ from regkit.system.arrays import Array
 from regkit.system.errors import DataError
 
 BENT = np.radians(15.0)
-"""A joint that is bent so far shows its axis [rad]."""
+"""A joint bent by at least this angle reveals its axis [rad]."""
 
 STRAIGHT = np.radians(3.0)
-"""Bones that include no larger angle go straight on [rad]."""
+"""Bones with at most this angle between them count as straight [rad]."""
 
 MIRRORED = 0.02
-"""So much better, as a part of the whole, must a mirror image fit to be taken for one."""
+"""A fit counts as mirrored if a reflection is better by more than this fraction."""
 
 _WEAK = 1e-6
-"""How much a segment is drawn to where its parent would carry it, against its own directions."""
+"""Weight of the parent's rotation relative to the segment's own directions."""
 
 
 @dataclass(frozen=True)
 class Posture:
-    """The joints of a mesh, and the template to compare with.
+    """The joints of a mesh, compared with a template.
 
     Attributes:
         template: The template.
-        joints: Where each segment's joint is in the mesh (3,) [m].
+        joints: Position of each segment's joint in the mesh, (3,) [m].
     """
 
     template: BodyDescription
     joints: Mapping[str, Array]
 
     def root(self) -> tuple[Array, Array]:
-        """The axes (3, 3), as columns, and the origin (3,) [m] of the root's frame in the mesh.
+        """Returns axes (3, 3), as columns, and origin (3,) [m] of the root's frame in the mesh.
 
-        The origin of a root that lies between the joints of its children in the template, as that
-        of a pelvis does, lies between them in the mesh; else it is the joint's.
+        If the template's root lies between the joints of its children, such as a pelvis, its origin
+        lies between them in the mesh, too; otherwise the origin is the root's joint.
 
         Raises:
             DataError: If the mesh is the template's mirror image.
@@ -57,30 +57,29 @@ class Posture:
         pairs = self._pairs(name, self.joints[name])
         origin = self.joints[name]
         if len(offsets):
-            # Shares that are not negative, have the sum one, and meet in the root's origin.
+            # Find non-negative weights that sum to one and combine the joints to the root's origin.
             equations = np.vstack([offsets.T / np.abs(offsets).max(), np.ones(len(offsets))])
             shares, missed = nnls(equations, np.array([0.0, 0.0, 0.0, 1.0]))
             if missed < 1e-3:
                 origin = shares @ np.array([self.joints[child] for child in self._children(name)])
                 pairs = self._pairs(name, origin)
-        rotation, mirrored = _turn(pairs, np.eye(3))
+        rotation, mirrored = _aligning_rotation(pairs, np.eye(3))
         if mirrored:
             raise DataError(
                 f"the joints around '{name}' are a mirror image of the template's: exchange left "
-                "and right in the map, or take the template of the other side"
+                "and right in the map, or use the template of the other side"
             )
         return rotation, origin
 
     def frames(self, flesh: Mapping[str, Flesh]) -> dict[str, SegmentFrame]:
-        """The frame of every segment, if the joints are in the root's axes.
+        """Returns the frame of every segment; the joints must be in the root's axes.
 
-        A segment is turned until its bones point as the template's do, and otherwise as little as
-        it can be against its parent. Where a hinge that goes straight on at rest is bent in the
-        mesh, the bend gives its axis. A segment at the end of a limb points to the middle of its
-        flesh; one that is fixed goes with its parent.
+        A segment's rotation aligns its bones with the template's, with the least rotation against
+        its parent. A bent hinge whose bones are straight at rest also reveals its axis. A segment
+        at the end of a limb points to the centre of its flesh. A fixed segment follows its parent.
 
         Args:
-            flesh: That of each segment, in the root's axes.
+            flesh: Samples of each segment, in the root's axes.
 
         Raises:
             DataError: If the end of a limb points the wrong way.
@@ -100,27 +99,27 @@ class Posture:
                     to_flesh = flesh[name].interior.mean(axis=0) - self.joints[name]
                     pairs = [(_unit(middle), _unit(to_flesh))]
                     self._check_end(name, nominal @ pairs[0][0], pairs[0][1])
-            axes[name] = _turn(pairs, nominal)[0]
+            axes[name] = _aligning_rotation(pairs, nominal)[0]
         return {name: SegmentFrame(self.joints[name], axes[name].T) for name in segments}
 
     def _children(self, name: str) -> dict[str, SegmentDescription]:
         return {own: one for own, one in self.template.segments.items() if one.parent == name}
 
     def _pairs(self, name: str, origin: Array) -> list[tuple[Array, Array]]:
-        """Directions in the template's segment, and the same ones in the mesh."""
+        """Returns pairs of directions: in the template's segment, and in the mesh."""
         pairs = []
         for child, segment in self._children(name).items():
-            way = self.joints[child] - origin
-            if np.linalg.norm(segment.offset) > 1e-6 and np.linalg.norm(way) > 1e-6:
+            direction = self.joints[child] - origin
+            if np.linalg.norm(segment.offset) > 1e-6 and np.linalg.norm(direction) > 1e-6:
                 bone = _unit(np.array(segment.offset))
-                pairs.append((bone, _unit(way)))
-                pairs += self._bend(child, segment, bone, way)
+                pairs.append((bone, _unit(direction)))
+                pairs += self._bend(child, segment, bone, direction)
         return pairs
 
     def _bend(
-        self, name: str, segment: SegmentDescription, bone: Array, way: Array
+        self, name: str, segment: SegmentDescription, bone: Array, direction: Array
     ) -> list[tuple[Array, Array]]:
-        """The axis of a hinge, if the mesh shows it."""
+        """Returns a hinge's axis in template and mesh if the mesh reveals it, else nothing."""
         grandchildren = self._children(name)
         hinge = segment.joint
         if (
@@ -130,19 +129,19 @@ class Posture:
         ):
             return []
         ((last, grandchild),) = grandchildren.items()
-        further = self.joints[last] - self.joints[name]
-        if np.linalg.norm(grandchild.offset) < 1e-6 or np.linalg.norm(further) < 1e-6:
+        next_direction = self.joints[last] - self.joints[name]
+        if np.linalg.norm(grandchild.offset) < 1e-6 or np.linalg.norm(next_direction) < 1e-6:
             return []
         sine = np.linalg.norm(np.cross(bone, _unit(np.array(grandchild.offset))))
-        bend = np.cross(_unit(way), _unit(further))
+        bend = np.cross(_unit(direction), _unit(next_direction))
         if sine > np.sin(STRAIGHT) or np.linalg.norm(bend) < np.sin(BENT):
             return []
         low, high = hinge.limits_deg or (0.0, 0.0)
-        sense = 1.0 if low + high >= 0.0 else -1.0
-        return [(sense * np.array(hinge.axis), _unit(bend))]
+        sign = 1.0 if low + high >= 0.0 else -1.0
+        return [(sign * np.array(hinge.axis), _unit(bend))]
 
     def _middle(self, name: str) -> Array | None:
-        """The middle of a segment's primitives in the template (3,) [m], if they have one."""
+        """Returns the centre (3,) [m] of a segment's primitives in the template, if it has any."""
         for by_segment in self.template.shapes.values():
             if by_segment.get(name):
                 middle = np.mean([one.moments()[0] for one in by_segment[name]], axis=0)
@@ -157,10 +156,10 @@ class Posture:
             )
 
 
-def _turn(pairs: list[tuple[Array, Array]], nominal: Array) -> tuple[Array, bool]:
-    """The rotation (3, 3) that turns the first of each pair nearest to the second.
+def _aligning_rotation(pairs: list[tuple[Array, Array]], nominal: Array) -> tuple[Array, bool]:
+    """Returns the rotation (3, 3) that aligns pairs best, and whether a reflection is better.
 
-    What they leave open stays as in ``nominal``. Also whether a reflection would do it better.
+    Undetermined directions follow ``nominal``.
 
     Source: Kabsch, A solution for the best rotation to relate two sets of vectors, 1976.
     """

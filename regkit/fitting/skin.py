@@ -1,4 +1,4 @@
-"""The templates' meshes: fewer vertices, which follow segments instead of bones."""
+"""The meshes of templates: decimated, with segments as bones."""
 
 from __future__ import annotations
 
@@ -19,9 +19,14 @@ from regkit.system.arrays import Indices
 
 
 def on_segments(mesh: SkinnedMesh, layout: Layout, template: BodyDescription) -> SkinnedMesh:
-    """The same vertices, in the template's axes, with the template's segments for bones.
+    """Returns the mesh in the template's axes, with the template's segments as bones.
 
-    A vertex follows a segment by as much as it followed all of the segment's bones together.
+    A vertex's weight for a segment is the sum of its weights for the segment's bones.
+
+    Args:
+        mesh: The mesh.
+        layout: Its division into segments.
+        template: The template.
     """
     names = tuple(template.segments)
     owners = np.array([names.index(layout.owners[label]) for label in mesh.labels])
@@ -46,14 +51,14 @@ def on_segments(mesh: SkinnedMesh, layout: Layout, template: BodyDescription) ->
 
 
 def decimated(mesh: SkinnedMesh, count: int) -> SkinnedMesh:
-    """The largest piece of a mesh with ``count`` of its vertices, spread evenly over its surface.
+    """Returns the largest connected piece of a mesh, reduced to ``count`` vertices.
 
-    Every other vertex joins the nearest of these; vertices are near when they lie and face alike,
-    so that the two sides of a finger stay apart. Triangles between three of them are kept. What is
-    not tied to the largest piece (eyes, a tongue) is left out.
+    The kept vertices are spread evenly over the surface, and every other vertex joins the nearest
+    of them. The distance includes the normals, so that the two sides of a finger stay separate.
+    Triangles between three kept vertices remain. Separate pieces such as eyes are left out.
 
     Source: Valette, Chassery, Approximated centroidal Voronoi diagrams for uniform polygonal mesh
-    coarsening, Computer Graphics Forum 23, 2004; here the clusters are those of spread vertices.
+    coarsening, Computer Graphics Forum 23, 2004; here farthest-point samples define the clusters.
     """
     mesh = _largest_piece(mesh)
     if count >= len(mesh.vertices):
@@ -73,28 +78,28 @@ def decimated(mesh: SkinnedMesh, count: int) -> SkinnedMesh:
 def _largest_piece(mesh: SkinnedMesh) -> SkinnedMesh:
     count = len(mesh.vertices)
     ends = np.concatenate([mesh.faces[:, :2], mesh.faces[:, 1:]])
-    ties = coo_array((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=(count, count))
-    _, piece = connected_components(ties, directed=False)
+    adjacency = coo_array((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=(count, count))
+    _, piece = connected_components(adjacency, directed=False)
     largest = np.bincount(piece).argmax()
     own = replace(mesh, faces=mesh.faces[piece[mesh.faces[:, 0]] == largest])
     return _subset(own, np.flatnonzero(piece == largest))
 
 
 def _subset(mesh: SkinnedMesh, kept: Indices) -> SkinnedMesh:
-    """Some vertices of a mesh whose faces have only these."""
-    number = np.zeros(len(mesh.vertices), dtype=np.intp)
-    number[kept] = np.arange(len(kept))
+    """Returns a mesh with some of its vertices, on which all its faces must lie."""
+    new_index = np.zeros(len(mesh.vertices), dtype=np.intp)
+    new_index[kept] = np.arange(len(kept))
     return replace(
         mesh,
         vertices=mesh.vertices[kept],
-        faces=number[mesh.faces],
+        faces=new_index[mesh.faces],
         indices=mesh.indices[kept],
         weights=mesh.weights[kept],
     )
 
 
 def _spacing(mesh: SkinnedMesh, count: int) -> float:
-    """About how far apart so many vertices are on the surface [m]."""
+    """Returns the approximate spacing of ``count`` vertices on the surface [m]."""
     corners = mesh.vertices[mesh.faces]
     edges = corners[:, 1:] - corners[:, :1]
     area = 0.5 * float(np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1).sum())

@@ -1,4 +1,4 @@
-"""A template in the shape of a mesh."""
+"""A template fitted to a mesh."""
 
 from __future__ import annotations
 
@@ -22,24 +22,24 @@ from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError, DataError
 
 FINENESS = 150
-"""So many points of the grid inside the mesh lie along the template's size."""
+"""Number of grid points along the template's size."""
 
 FEWEST = 8
-"""Points inside a segment that each primitive of it needs."""
+"""Minimum number of points inside a segment for each of its primitives."""
 
 LIKELY = 2.0
-"""A mesh so many times larger or smaller than any size of the template has other units."""
+"""A mesh outside the template's sizes by more than this factor has other units."""
 
 
 @dataclass(frozen=True)
 class FittedTemplate:
-    """A template in the shape of a mesh.
+    """A template fitted to a mesh.
 
     Attributes:
         description: The template, at the mesh's size.
-        skin: The mesh, whose bones are the template's segments.
-        owners: The segment that each bone of the mesh belongs to.
-        proportions: By how much lengths and girths differ from the template's own.
+        skin: The mesh with the template's segments as bones.
+        owners: Segment of each bone of the mesh.
+        proportions: Ratios of the mesh's lengths and girths to the template's.
     """
 
     description: BodyDescription
@@ -56,24 +56,24 @@ class FittedTemplate:
         vertices: int,
         shapes: Sequence[str] = (),
     ) -> FittedTemplate:
-        """A template with the joints of another, in the shape of a mesh.
+        """Returns a template with the joints of another, in the shape of a mesh.
 
         Args:
             mesh: The mesh, in any pose and in any axes.
-            template: Joints, limits and stances are kept; so is how many primitives of each shape
-                model a segment has.
-            bones: The segment of each bone; see ``owners_of_bones``.
-            vertices: So many of the mesh's vertices are kept.
-            shapes: Further shape models whose parameters are fitted: one primitive per segment,
-                unless the template lists others.
+            template: Template that provides joints, limits, stances, and the number of primitives
+                per segment and shape model.
+            bones: Segment of each bone; see ``owners_of_bones``.
+            vertices: Number of the mesh's vertices to keep.
+            shapes: Further shape models to fit: one primitive per segment, unless the template
+                lists others.
 
         Raises:
-            ConfigError: If bones and segments do not fit together, or a shape model has no
-                parameters that could be fitted.
-            DataError: If the mesh is no body like the template's.
+            ConfigError: If bones and segments do not match, or a shape model has no parameters
+                to fit.
+            DataError: If the mesh does not resemble the template's body.
         """
         if not template.shapes:
-            raise DataError("the template lists no shapes, so that none can be fitted")
+            raise DataError("the template lists no shapes, so there is nothing to fit")
         added = {kind: parameters_of(kind) for kind in shapes if kind not in template.shapes}
         template.check_shapes()
         owners = owners_of_bones(mesh, template, bones)
@@ -95,7 +95,7 @@ class FittedTemplate:
 
 
 def parameters_of(kind: str) -> type[ShapeParameters]:
-    """The class of a shape model's parameters.
+    """Returns the class of a shape model's parameters.
 
     Raises:
         ConfigError: If it has none.
@@ -108,10 +108,10 @@ def parameters_of(kind: str) -> type[ShapeParameters]:
 
 
 def _rough_size(template: BodyDescription, joints: Mapping[str, Array]) -> float:
-    """The size by the distances of joints [m].
+    """Returns the size estimated from the distances of joints [m].
 
     Raises:
-        DataError: If no body of this template is like that.
+        DataError: If the size is far from the template's range.
     """
     parents = {name: one.parent for name, one in template.segments.items() if one.parent}
     own = sum(float(np.linalg.norm(template.segments[name].offset)) for name in parents)
@@ -120,8 +120,8 @@ def _rough_size(template: BodyDescription, joints: Mapping[str, Array]) -> float
     size = template.size.value * (found / own if own > 0.0 else 1.0)
     if not low / LIKELY <= size <= high * LIKELY:
         raise DataError(
-            f"by its joints the mesh would have a {template.size.name} of {size:.4g} m; the "
-            f"template's is {low:g} to {high:g} m: lengths must be in metres"
+            f"by its joints the mesh has a {template.size.name} of {size:.4g} m; the template's is "
+            f"{low:g} to {high:g} m: lengths must be in metres"
         )
     return size
 
@@ -129,7 +129,7 @@ def _rough_size(template: BodyDescription, joints: Mapping[str, Array]) -> float
 def _sized(
     description: BodyDescription, template: BodyDescription, skin: SkinnedMesh
 ) -> BodyDescription:
-    """The description with the size that its height (along y, at rest) gives it."""
+    """Returns the description with the size that follows from its height (along y, at rest)."""
     own, other = (one.body("rest", one.size.value) for one in (description, template))
     transforms = own.place(own.skeleton.rest()).transforms
     if other.surface is None:
@@ -144,10 +144,10 @@ def _sized(
 
 
 def _check_filled(template: BodyDescription, parts: Mapping[str, Flesh]) -> None:
-    """Refuse a mesh that encloses nothing where there should be primitives.
+    """Checks that the mesh encloses every segment.
 
     Raises:
-        DataError: If a segment is empty.
+        DataError: If a segment has too few points for its primitives.
     """
     for name, part in parts.items():
         most = max(len(by_segment.get(name, ())) for by_segment in template.shapes.values())

@@ -1,4 +1,4 @@
-"""A body's surface points as Gaussians: those of a cloud, or the vertices of a mesh."""
+"""Shape models with one Gaussian per surface point: of a point cloud or a mesh's vertices."""
 
 from __future__ import annotations
 
@@ -19,23 +19,23 @@ Length = Annotated[float, Field(gt=0.0)]
 
 
 class CloudShape(ShapeModel, ABC):
-    """A Gaussian at each point of a body's surface, all of the same width."""
+    """One Gaussian per point of a body's surface, all of the same width."""
 
     makes: ClassVar[type[Primitives]] = Gaussians
 
     width: Length | None = None
-    """Standard deviation in the surface [m]; the distance of neighbouring points without it."""
+    """Standard deviation along the surface [m]; by default the spacing of neighbouring points."""
 
     @abstractmethod
     def flat(self) -> float:
-        """The standard deviation along the normal, as a part of the width."""
+        """Returns the standard deviation along the normal as a fraction of the width."""
 
     def wide(self, width: float) -> Self:
-        """The same shape model with another width [m]."""
+        """Returns a copy of the shape model with another width [m]."""
         return self.model_copy(update={"width": width})
 
     def bind(self, body: Body) -> Gaussians:
-        """One Gaussian for each point of the surface, on the segment that carries most of it.
+        """Returns one Gaussian per surface point, on the segment with the largest blend weight.
 
         Raises:
             ConfigError: If the body has no surface.
@@ -43,8 +43,8 @@ class CloudShape(ShapeModel, ABC):
         surface = body.surface
         if surface is None:
             raise ConfigError(
-                f"shape '{self.kind}' makes Gaussians of a surface's points, and the template "
-                f"'{body.name}' has none; take a template with a surface, or another shape"
+                f"shape '{self.kind}' needs a surface, and the template '{body.name}' has none; "
+                "take a template with a surface, or another shape"
             )
         carrier = surface.blend.argmax(axis=1)
         vertices = np.arange(len(surface))
@@ -63,7 +63,7 @@ class CloudShape(ShapeModel, ABC):
 
 
 def along(directions: Array) -> Array:
-    """Right-handed axes (N, 3, 3) whose third one is a unit vector (N, 3).
+    """Returns right-handed axes (N, 3, 3) whose third axis is a given unit vector (N, 3).
 
     Source: Duff et al., Building an Orthonormal Basis, Revisited, 2017, listing 3.
     """

@@ -1,7 +1,7 @@
-"""The visible sides of Gaussians and what moments do to them, in compiled loops.
+"""Visible sides of Gaussians, and wrenches and stiffness from moments, in compiled loops.
 
-On a dozen Gaussians NumPy's calls cost more than their work. The formulas stand where these
-functions are called.
+For a dozen Gaussians NumPy's call overhead would dominate. ``Visible`` and ``Moments`` document
+the formulas.
 """
 
 from __future__ import annotations
@@ -18,7 +18,15 @@ from regkit.system.compiled import compiled
 def visible_sides(
     centres: Array, axes: Array, scales: Array, depth: float, flattening: float
 ) -> tuple[Array, Array, Array, Array, Array, Array, Array]:
-    """Means, covariances, C, C^-1 e, e, h and |m| of K Gaussians, as in ``Visible``."""
+    """Returns means, covariances, C, C^-1 e, e, h and |m| of K Gaussians; see ``Visible``.
+
+    Args:
+        centres: m, in the camera frame, (K, 3) [m].
+        axes: R_world_primitive, (K, 3, 3).
+        scales: Standard deviations, (K, 3) [m].
+        depth: Offset of the visible mean towards the camera as a fraction of h.
+        flattening: Reduction of the variance along the ray as a fraction of h^2.
+    """
     count = len(centres)
     means, pulled, rays = np.empty((count, 3)), np.empty((count, 3)), np.empty((count, 3))
     covariances, whole = np.empty((count, 3, 3)), np.empty((count, 3, 3))
@@ -52,7 +60,7 @@ def visible_sides(
 
 @compiled
 def inverses(matrices: Array, variance: float) -> tuple[Array, Array]:
-    """The inverses (K, 3, 3) of symmetric M + variance I, and log |M + variance I|, (K,)."""
+    """Returns the inverses (K, 3, 3) of symmetric M + variance I, and log |M + variance I| (K,)."""
     count = len(matrices)
     result, logarithms = np.empty((count, 3, 3)), np.empty(count)
     for k in range(count):
@@ -86,7 +94,22 @@ def visible_wrenches(
     depth: float,
     flattening: float,
 ) -> Array:
-    """The derivative (K, 6) of ``Visible.wrenches``; ``shrinking`` is what log |C| adds to G."""
+    """Returns the wrenches (K, 6) of ``Visible.wrenches``.
+
+    Args:
+        mass: As in ``Moments``, (K,).
+        about: As in ``Moments``, (K, 3, 4).
+        relative: As in ``Moments``, (K, 3, 4).
+        precisions: As in ``Moments``, (K, 3, 3).
+        shrinking: Contribution of log |C| to -G, (K, 3, 3).
+        whole: As in ``Visible``, (K, 3, 3) [m^2].
+        pulled: As in ``Visible``, (K, 3).
+        rays: As in ``Visible``, (K, 3).
+        reaches: As in ``Visible``, (K, 1) [m].
+        distances: As in ``Visible``, (K, 1) [m].
+        depth: Offset of the visible mean towards the camera as a fraction of h.
+        flattening: Reduction of the variance along the ray as a fraction of h^2.
+    """
     count = len(mass)
     wrenches = np.empty((count, 6))
     first, across, to_ray = np.empty((3, 4)), np.empty(3), np.empty(3)
@@ -143,7 +166,15 @@ def visible_wrenches(
 def stiffness_blocks(
     mass: Array, about: Array, relative: Array, precisions: Array, shift: Array
 ) -> Array:
-    """The blocks (K, 6, 6) of ``Moments.stiffness``."""
+    """Returns the Gauss-Newton blocks (K, 6, 6) of ``Moments.stiffness``.
+
+    Args:
+        mass: As in ``Moments``, (K,).
+        about: As in ``Moments``, (K, 3, 4).
+        relative: As in ``Moments``, (K, 3, 4).
+        precisions: As in ``Moments``, (K, 3, 3).
+        shift: Vectors from the means to the centres of rotation, (K, 3) [m].
+    """
     count = len(mass)
     blocks = np.empty((count, 6, 6))
     second, both, lever = np.empty((3, 3)), np.empty((3, 3)), np.empty(3)

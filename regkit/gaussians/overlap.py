@@ -1,4 +1,4 @@
-"""The overlap of Gaussians with those of the data: the paper's similarity, eq. 8."""
+"""Overlap of model and data Gaussians: the paper's similarity, eq. 8."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ from regkit.primitives import Gaussians, Placed
 from regkit.system.arrays import Array
 
 SELF_OVERLAP = 2.0**-1.5
-"""The overlap of an isotropic Gaussian with itself, over its integral."""
+"""Overlap of an isotropic Gaussian with itself, divided by its integral."""
 
 
 class Overlap(GaussianSimilarity):
-    """Eq. 8 in closed form, summed over all pairs, with the sign of an energy.
+    """The negative of eq. 8 in closed form, summed over all pairs.
 
     With q = y_j - m_i and S = C_i + (sigma_j^2 + smoothing^2) I it reads
 
         E_ij = (2 pi)^(3/2) sqrt(|C_i| sigma_j^6 / |S|) exp(-1/2 q^T S^-1 q).
 
     Args:
-        observation: The data.
-        start: The primitives in the start pose.
-        smoothing: Standard deviation [m] of the Gaussian that smooths the data.
+        observation: Points, weights and variances of the data.
+        start: Primitives in the start pose.
+        smoothing: Standard deviation of the Gaussian that smooths the data [m].
         frozen: Whether covariances keep their orientation of the start pose.
     """
 
@@ -37,7 +37,7 @@ class Overlap(GaussianSimilarity):
         smoothing: float,
         frozen: bool,
     ) -> None:
-        # The integrals of the data's Gaussians but for (2 pi)^(3/2).
+        # The integrals of the data's Gaussians without the common factor (2 pi)^(3/2).
         masses = observation.weights * observation.variances**1.5
         super().__init__(
             observation,
@@ -49,10 +49,10 @@ class Overlap(GaussianSimilarity):
         )
 
     def weigh(self, densities: Array, data_weights: Array) -> float | None:
-        """A pair's weight is its overlap, for the derivative of exp is exp."""
+        """Leaves the densities as weights: exp is its own derivative."""
         return None
 
     def inliers(self, densities: Array, data_weights: Array) -> Array:
-        """Each point's overlap with the primitives, as a part of that with itself."""
+        """Returns each point's overlap with the primitives as a fraction of its self-overlap."""
         overlap = densities.sum(axis=0) / data_weights
         return np.asarray(np.minimum(overlap / SELF_OVERLAP, 1.0))

@@ -2,8 +2,8 @@
 
 With homogeneous coordinates h = (y, 1) and Z = [I, -m], so that Z h = y - m, the exponent of a pair
 is the quadratic form -1/2 h^T (Z^T P Z) h, linear in the ten features of the data (y y^T, y, 1).
-What a Gaussian needs back are the moments sum w h h^T, for whatever weights w a kernel makes of the
-densities: the densities themselves (correlation) or their shares of a point (likelihood).
+Gradient and Gauss-Newton blocks need only the moments sum w h h^T. A kernel derives the weights w
+from the densities: the densities themselves (correlation) or posterior probabilities (likelihood).
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ from regkit.system.arrays import Array
 
 
 class Pairs:
-    """The data side, for points of one variance.
+    """Features of N data points that share one variance.
 
     Args:
-        points: (N, 3) [m], near the origin: far from it the features cancel badly.
-        weights: Of the points, (N,), positive.
+        points: (N, 3) [m], centred near the origin: far from it the features cancel badly.
+        weights: Positive weights of the points, (N,).
         count: Number K of model Gaussians.
     """
 
@@ -29,7 +29,7 @@ class Pairs:
         x, y, z = points.T
         ones = np.ones(len(points))
         features = [x * x, y * y, z * z, x * y, x * z, y * z, x, y, z, ones]
-        # Equal weights are a constant; others are a feature more, whose coefficient is one.
+        # Equal weights are a constant; others add one feature whose coefficient is one.
         self._log_weight = float(np.log(weights[0])) if np.ptp(weights) == 0.0 else 0.0
         if np.ptp(weights) > 0.0:
             features.append(np.log(weights))
@@ -42,10 +42,15 @@ class Pairs:
         self._relative[:, :, :3] = np.eye(3)
 
     def densities(self, means: Array, precisions: Array, log_scales: Array) -> Array:
-        """Of every pair, the point's weight times exp(log_scale - 1/2 (y - m)^T P (y - m)).
+        """Returns ``weight * exp(log_scale - 1/2 (y - m)^T P (y - m))`` of every pair.
+
+        Args:
+            means: m, (K, 3) [m], in the frame of the points.
+            precisions: P, (K, 3, 3) [1/m^2].
+            log_scales: (K,).
 
         Returns:
-            (K, N), in a buffer that the next call uses again.
+            (K, N), in a buffer that the next call overwrites.
         """
         self._relative[:, :, 3] = -means
         turned = self._relative.transpose(0, 2, 1)
@@ -59,7 +64,12 @@ class Pairs:
         return self._kernel
 
     def moments(self, shares: Array, precisions: Array) -> Moments:
-        """The moments of the data about the means of ``densities``, under weights (K, N)."""
+        """Returns the moments of the data about the means of the last ``densities``.
+
+        Args:
+            shares: Weights of the pairs, (K, N).
+            precisions: P, (K, 3, 3) [1/m^2].
+        """
         flat = shares @ self._transposed
         about = self._relative @ flat.take(_MATRIX, axis=1).reshape(-1, 4, 4)
         return Moments(flat[:, 9], about, self._relative, precisions)
@@ -72,8 +82,8 @@ class Moments:
     Attributes:
         mass: sum w, (K,).
         about: sum w q h^T, (K, 3, 4).
-        relative: Z, (K, 3, 4), so that q = Z h.
-        precisions: P, (K, 3, 3), the inverse of model and data covariance together.
+        relative: Z, (K, 3, 4), with q = Z h.
+        precisions: P, inverse of the sum of model and data covariance, (K, 3, 3) [1/m^2].
     """
 
     mass: Array
@@ -82,29 +92,29 @@ class Moments:
     precisions: Array
 
     def pulls(self) -> tuple[Array, Array]:
-        """Sum w P q, (K, 3), and sum w P q q^T, (K, 3, 3)."""
+        """Returns sum w P q (K, 3) and sum w P q q^T (K, 3, 3)."""
         pulled = self.precisions @ self.about
         return pulled[:, :, 3], pulled @ self.relative.transpose(0, 2, 1)
 
     def stiffness(self, shift: Array) -> Array:
-        """The Gauss-Newton blocks (K, 6, 6): sum w J^T P J with J = [I, -[q]x].
+        """Returns the Gauss-Newton blocks (K, 6, 6): sum w J^T P J with J = [I, -[q]x].
 
-        The residual turns with the segment, since the data are isotropic; so its derivative to a
-        motion of the segment is that of the model's material at y.
+        The data are isotropic, so the residual rotates with the segment, and its derivative to a
+        motion of the segment is the velocity of the model's material at y.
 
         Args:
-            shift: From the means to the points about which the motions turn, (K, 3) [m].
+            shift: Vectors from the means to the centres of rotation, (K, 3) [m].
         """
         return stiffness_blocks(self.mass, self.about, self.relative, self.precisions, shift)
 
 
 _FLOOR = -600.0
-"""Exponents below this are raised to it: such a density is nothing (1e-261), but numbers near
-underflow take the processor up to a hundred times as long."""
+"""Lower bound of exponents. Such a density is negligible (1e-261), while numbers near underflow
+slow the processor up to a hundredfold."""
 
 _MATRIX = np.array([0, 3, 4, 6, 3, 1, 5, 7, 4, 5, 2, 8, 6, 7, 8, 9])
-"""Where the ten moments stand in the flattened matrix sum w h h^T."""
+"""Indices of the ten moments in the flattened matrix sum w h h^T."""
 
 _COEFFICIENTS = np.zeros((16, 10))
 _COEFFICIENTS[np.arange(16), _MATRIX] = -0.5
-"""From a flattened matrix Q (16,) to the coefficients of the ten features in -1/2 h^T Q h."""
+"""Maps a flattened matrix Q (16,) to the coefficients of the ten features in -1/2 h^T Q h."""

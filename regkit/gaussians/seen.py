@@ -1,7 +1,4 @@
-"""Gaussians as a kernel sees them: means and covariances.
-
-The moments of the data under them become wrenches on the primitives.
-"""
+"""Gaussians as a kernel sees them: means and covariances, and wrenches from their moments."""
 
 from __future__ import annotations
 
@@ -18,30 +15,30 @@ class Seen(ABC):
     """K Gaussians in the world, as a kernel sees them.
 
     Attributes:
-        means: (K, 3) [m].
+        means: Means in the world, (K, 3) [m].
     """
 
     means: Array
 
     rigid: ClassVar[bool]
-    """Whether the covariances only turn, so that their determinants do not depend on the pose."""
+    """Whether the covariances only rotate, so that their determinants do not depend on the pose."""
 
     @abstractmethod
     def precisions(self, variance: float) -> Array:
-        """P = (C + variance I)^-1, (K, 3, 3)."""
+        """Returns P = (C + variance I)^-1 (K, 3, 3) [1/m^2] for a data variance [m^2]."""
 
     @abstractmethod
     def log_volumes(self) -> Array:
-        """Log |C|, (K,)."""
+        """Returns log |C|, (K,)."""
 
     @abstractmethod
     def areas(self) -> Array:
-        """The area of each that a camera sees, (K,) [m^2], or that it shows at most."""
+        """Returns the visible area of each, or without a camera its largest section, (K,) [m^2]."""
 
     @abstractmethod
     def wrenches(self, moments: Moments, volume_power: float) -> Array:
-        """The derivative (K, 6) to the primitives' motions about their centres.
+        """Returns the derivative (K, 6) to the primitives' motions about their centres.
 
-        It is that of sum w (1/2 q^T P q - 1/2 log |P| - volume_power / 2 log |C|), with the weights
-        w of the moments.
+        The energy is sum w (1/2 q^T P q - 1/2 log |P| - volume_power / 2 log |C|) with the fixed
+        weights w of the moments.
         """

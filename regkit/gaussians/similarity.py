@@ -1,4 +1,4 @@
-"""What the kernels that compare Gaussians have in common: everything but how pairs are weighed."""
+"""Base class of kernels that compare Gaussians: a kernel defines only the weights of pairs."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from regkit.system.arrays import Array, Indices
 
 @dataclass(frozen=True)
 class _Group:
-    """Data of one variance [m^2], their weights (N,), and log_scale (K,) in the start pose."""
+    """Data of one variance [m^2]: their weights (N,), and log_scale (K,) in the start pose."""
 
     variance: float
     weights: Array
@@ -32,22 +32,22 @@ class _Group:
 class GaussianSimilarity(Similarity):
     """An energy of the densities exp(log_scale - 1/2 q^T P q) of all pairs, with q = y - m.
 
-    P is the inverse of the model's and the data's covariance together. A kernel says what energy
-    the densities make, and by how much each pair weighs in it: the energy's derivative is the sum
-    over the pairs of weight times the derivative of 1/2 q^T P q - log_scale. All else follows from
-    the moments of the data under these weights. Data of different variances are treated in turn.
+    P is the inverse of the sum of the model's and the data's covariance. A kernel defines the
+    energy of the densities and the weight of each pair: the energy's derivative is the sum over
+    the pairs of weight times the derivative of 1/2 q^T P q - log_scale. Everything else follows
+    from the moments of the data under these weights. Data of different variances form groups.
 
     Args:
-        observation: The data.
-        start: The primitives in the start pose.
-        data_weights: Of the points, (N,), summing to one.
-        log_weights: Of the primitives, (K,), part of log_scale.
-        smoothing: Standard deviation [m] of the Gaussian that smooths the data.
+        observation: Points, variances and camera of the data.
+        start: Primitives in the start pose.
+        data_weights: Weights of the points, (N,), summing to one.
+        log_weights: Logarithms of the primitives' weights, (K,), a summand of log_scale.
+        smoothing: Standard deviation of the Gaussian that smooths the data [m].
         frozen: Whether covariances keep their orientation of the start pose.
     """
 
     volume_power: ClassVar[float]
-    """log_scale holds 1/2 log |P|, and so many times 1/2 log |C|."""
+    """Coefficient of 1/2 log |C| in log_scale, which also contains 1/2 log |P|."""
 
     def __init__(
         self,
@@ -75,22 +75,27 @@ class GaussianSimilarity(Similarity):
 
     @abstractmethod
     def weigh(self, densities: Array, data_weights: Array) -> float | None:
-        """The energy of densities (K, N), which hold the data weights (N,) already.
+        """Returns the energy and turns the densities into the weights of the pairs, in place.
 
-        The densities become the pairs' weights in place. None stands for minus the sum of these,
-        which the moments hold anyway.
+        Args:
+            densities: (K, N), multiplied by the data weights; overwritten with the weights.
+            data_weights: (N,).
+
+        Returns:
+            The energy, or None for minus the sum of the weights, which the moments contain.
         """
 
     @abstractmethod
     def inliers(self, densities: Array, data_weights: Array) -> Array:
-        """Inlier probabilities by densities (K, N), which hold the data weights (N,) already.
+        """Returns the probability that each point is an inlier, (N,), from 0 to 1.
 
-        Returns:
-            (N,), from 0 to 1.
+        Args:
+            densities: (K, N), multiplied by the data weights.
+            data_weights: (N,).
         """
 
     def inlier_probability(self, placed: Placed[Gaussians]) -> Array:
-        """The probability (N,) that each point is an inlier."""
+        """Returns the probability (N,) that each point is an inlier, from 0 to 1."""
         view = self._view(placed)
         probability = np.empty(len(self._group_of))
         for index, group in enumerate(self._groups):
@@ -99,14 +104,14 @@ class GaussianSimilarity(Similarity):
         return probability
 
     def __call__(self, placed: Placed[Gaussians], *, curvature: bool = False) -> Response:
-        """The energy, the wrenches about the primitives' centres, and the Gauss-Newton blocks."""
+        """Returns the energy, wrenches about the primitives' centres, and Gauss-Newton blocks."""
         view = self._view(placed)
         levers = placed.centres - view.means if curvature else None
         parts = [self._part(group, view, levers) for group in self._groups]
         return reduce(Response.__add__, parts)
 
     def energy(self, placed: Placed[Gaussians]) -> float:
-        """The energy alone, without moments."""
+        """Returns the energy alone, without moments."""
         view, total = self._view(placed), 0.0
         for group in self._groups:
             densities, _ = self._densities(group, view)
@@ -115,7 +120,7 @@ class GaussianSimilarity(Similarity):
         return total
 
     def _part(self, group: _Group, view: Seen, levers: Array | None) -> Response:
-        """What the data of one variance contribute."""
+        """Returns the contribution of the data of one variance."""
         densities, precisions = self._densities(group, view)
         energy = self.weigh(densities, group.weights)
         moments = group.pairs.moments(densities, precisions)
@@ -126,7 +131,7 @@ class GaussianSimilarity(Similarity):
         )
 
     def _densities(self, group: _Group, view: Seen) -> tuple[Array, Array]:
-        """Densities (K, N) of the data of one variance, and the precisions (K, 3, 3) they have."""
+        """Returns densities (K, N) and precisions (K, 3, 3) for the data of one variance."""
         precisions = view.precisions(group.variance)
         log_scales = group.log_scales if view.rigid else self._log_scales(view, precisions)
         means = view.means - self._centre
@@ -149,7 +154,7 @@ class GaussianSimilarity(Similarity):
 
 
 def _distinct(values: Array) -> tuple[Array, Indices]:
-    """The distinct values, and which of them each value (N,) is; equal ones need no sorting."""
+    """Returns the distinct values and each value's index (N,) among them; skips a needless sort."""
     if (values == values[0]).all():
         return values[:1], np.zeros(len(values), dtype=np.intp)
     distinct, which = np.unique(values, return_inverse=True)

@@ -1,4 +1,4 @@
-"""The side of Gaussians that a camera sees."""
+"""The visible side of Gaussians."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from regkit.system.arrays import Array
 
 @dataclass(frozen=True)
 class Visible(Seen):
-    """The front of 2-sigma ellipsoids, for a camera at the origin.
+    """The visible side of 2-sigma ellipsoids, for a camera at the origin.
 
-    Along the unit ray e to its centre m an ellipsoid reaches h = 2 / sqrt(e^T C^-1 e) before the
-    centre. Its visible side has the mean m - 2/3 h e, the covariance C - (1/4 - 1/18) h^2 e e^T,
-    and the area pi sqrt(|4 C| e^T (4 C)^-1 e).
+    Along the unit ray e to its centre m, the surface of an ellipsoid lies h = 2 / sqrt(e^T C^-1 e)
+    before the centre. Its visible side has the mean m - 2/3 h e, the covariance
+    C - (1/4 - 1/18) h^2 e e^T and the projected area pi sqrt(|4 C| e^T (4 C)^-1 e).
 
     Attributes:
-        covariances: Of the visible side, (K, 3, 3) [m^2].
-        whole: C, of the whole ellipsoid, (K, 3, 3) [m^2].
-        pulled: C^-1 e, (K, 3).
+        covariances: Covariances of the visible sides, (K, 3, 3) [m^2].
+        whole: C, covariances of the whole ellipsoids, (K, 3, 3) [m^2].
+        pulled: C^-1 e, (K, 3) [1/m^2].
         rays: e, (K, 3).
         reaches: h, (K, 1) [m].
         distances: |m|, (K, 1) [m].
@@ -43,7 +43,7 @@ class Visible(Seen):
 
     @classmethod
     def of(cls, placed: Placed[Gaussians]) -> Visible:
-        """The visible side of the primitives."""
+        """Returns the visible sides of placed Gaussians."""
         return cls(
             *visible_sides(
                 placed.centres, placed.axes, placed.primitives.scales, _DEPTH, _FLATTENING
@@ -51,20 +51,20 @@ class Visible(Seen):
         )
 
     def precisions(self, variance: float) -> Array:
-        """The visible side's axes are not the Gaussian's own, so P is inverted."""
+        """Returns P by inversion: the visible side's axes are not the Gaussian's own."""
         return inverses(self.covariances, variance)[0]
 
     def log_volumes(self) -> Array:
-        """Of the visible sides."""
+        """Returns log |C| of the visible sides, (K,)."""
         return inverses(self.covariances, 0.0)[1]
 
     def areas(self) -> Array:
-        """Pi sqrt(|4 C| e^T (4 C)^-1 e), with e^T C^-1 e = 4 / h^2."""
+        """Returns pi sqrt(|4 C| e^T (4 C)^-1 e), where e^T C^-1 e = 4 / h^2, (K,) [m^2]."""
         roots = np.sqrt(np.linalg.det(self.whole))
         return np.asarray(8.0 * np.pi * roots / self.reaches[:, 0])
 
     def wrenches(self, moments: Moments, volume_power: float) -> Array:
-        """By the chain rule through the covariance, h and e.
+        """Returns the derivative (K, 6) by the chain rule through the covariance, h and e.
 
         With a and G the derivatives to mean and covariance, k = 7/36 and b = C^-1 e,
 
@@ -92,14 +92,14 @@ class Visible(Seen):
 
 
 def seen(placed: Placed[Gaussians], camera: Camera | None) -> Seen:
-    """The visible side, if the shape model asks for it and there is a camera; else the volume."""
+    """Returns the visible sides of surface Gaussians before a camera, else whole Gaussians."""
     if camera is not None and isinstance(placed.primitives, SurfaceGaussians):
         return Visible.of(placed)
     return Volume.of(placed)
 
 
 _DEPTH = 2.0 / 3.0
-"""How far before the centre the visible side's mean is, as a part of h."""
+"""Offset of the visible side's mean towards the camera, as a fraction of h."""
 
 _FLATTENING = 1.0 / 4.0 - 1.0 / 18.0
-"""What its variance along the ray lacks of the whole ellipsoid's, as a part of h^2."""
+"""Reduction of the variance along the ray by occlusion, as a fraction of h^2."""

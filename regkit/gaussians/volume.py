@@ -1,4 +1,4 @@
-"""Whole Gaussians, and Gaussians of frozen covariances, as a kernel sees them."""
+"""Whole Gaussians, and Gaussians with frozen covariances, as a kernel sees them."""
 
 from __future__ import annotations
 
@@ -29,28 +29,28 @@ class Volume(Seen):
 
     @classmethod
     def of(cls, placed: Placed[Gaussians]) -> Volume:
-        """The primitives themselves."""
+        """Returns placed Gaussians as they are."""
         return cls(placed.centres, placed.axes, placed.primitives.scales)
 
     def precisions(self, variance: float) -> Array:
-        """P is diagonal in the Gaussian's own axes."""
+        """Returns P, which is diagonal in the Gaussian's own axes."""
         spread = (self.scales**2 + variance)[:, None, :]
         return np.asarray((self.axes / spread) @ self.axes.transpose(0, 2, 1))
 
     def log_volumes(self) -> Array:
-        """Of the squared scales."""
+        """Returns log |C| as the logarithm of the squared scales."""
         return np.asarray(2.0 * np.log(self.scales.prod(axis=1)))
 
     def areas(self) -> Array:
-        """The largest sections of the 2-sigma ellipsoids."""
+        """Returns the areas (K,) [m^2] of the largest sections of the 2-sigma ellipsoids."""
         scales = np.sort(self.scales, axis=1)
         return np.asarray(4.0 * np.pi * scales[:, 1] * scales[:, 2])
 
     def wrenches(self, moments: Moments, volume_power: float) -> Array:
-        """The torque is that of the forces -P q applied at the data points y.
+        """Returns the forces -P q and their torques when applied at the data points y.
 
-        The exact derivative to the rotation applies them at the product's mean, m + C P q. But y
-        lies on the same line of action, since q = C P q + sigma^2 P q.
+        The exact derivative to the rotation applies the forces at the product mean, m + C P q.
+        Since q = C P q + sigma^2 P q, y lies on the same line of action.
         """
         pulls, levers = moments.pulls()
         wrenches = np.empty((len(pulls), 6))
@@ -61,10 +61,10 @@ class Volume(Seen):
 
 @dataclass(frozen=True)
 class Frozen(Seen):
-    """Gaussians whose covariances keep those of the start pose, as the paper has it (after eq. 11).
+    """Gaussians whose covariances stay those of the start pose, as in the paper (after eq. 11).
 
     Attributes:
-        start: How they were seen there.
+        start: The Gaussians in the start pose.
     """
 
     rigid: ClassVar[bool] = True
@@ -72,22 +72,22 @@ class Frozen(Seen):
 
     @classmethod
     def of(cls, start: Seen, moved: Array) -> Frozen:
-        """Gaussians that have moved by (K, 3) [m] since the start."""
+        """Returns Gaussians displaced by (K, 3) [m] since the start."""
         return cls(start.means + moved, start)
 
     def precisions(self, variance: float) -> Array:
-        """Those of the start."""
+        """Returns P in the start pose."""
         return self.start.precisions(variance)
 
     def log_volumes(self) -> Array:
-        """Those of the start."""
+        """Returns log |C| in the start pose."""
         return self.start.log_volumes()
 
     def areas(self) -> Array:
-        """Those of the start."""
+        """Returns the areas in the start pose."""
         return self.start.areas()
 
     def wrenches(self, moments: Moments, volume_power: float) -> Array:
-        """Forces alone."""
+        """Returns forces without torques."""
         pulls, _ = moments.pulls()
         return np.concatenate([-pulls, np.zeros_like(pulls)], axis=1)

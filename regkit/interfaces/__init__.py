@@ -1,4 +1,4 @@
-"""The interfaces of plug-ins, abstract base classes, and the types that pass between them."""
+"""The interfaces of plug-ins, as abstract base classes, and the types that pass between them."""
 
 from regkit.interfaces.dataset import Dataset, Recording
 from regkit.interfaces.kernel import Kernel, Response, Similarity
@@ -19,7 +19,7 @@ from regkit.interfaces.term import JointEnergy, JointResponse, Scene, Term, Visi
 from regkit.interfaces.tracker import BoundTracker, Past, Tracker
 
 SLOTS = (Dataset, Template, Preprocessor, ShapeModel, Kernel, Term, Solver, Tracker, Method)
-"""Every group of plug-ins, in the order in which data passes them."""
+"""All groups of plug-ins, in the order of the data flow."""
 
 __all__ = [
     "SLOTS",

@@ -1,4 +1,4 @@
-"""Datasets: recordings of frames, with reference joints where there are any."""
+"""Datasets: recordings of frames, with reference joints if available."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from regkit.system.errors import ConfigError, DataError
 
 @dataclass(frozen=True)
 class Recording(ABC):
-    """Frames in the order of time.
+    """Frames in temporal order.
 
     Attributes:
-        name: Unique within its dataset, and fit to be a folder's name.
-        fps: Frames per second at which it was recorded.
+        name: Name, unique within the dataset and valid as a folder name.
+        fps: Frame rate of the recording [1/s].
         length: Number of frames.
-        subject: The dataset's name of who is seen, if it tells them apart.
+        subject: Identifier of the recorded subject, if the dataset distinguishes them.
     """
 
     name: str
@@ -34,50 +34,51 @@ class Recording(ABC):
     subject: str | None = field(default=None, kw_only=True)
 
     def prepare(self) -> None:  # noqa: B027 - most recordings have nothing to prepare.
-        """Make what the frames are read from, where that takes a while: render or unpack them.
+        """Prepares the source of the frames where that takes a while, such as rendering.
 
-        It is called before the frames are asked for, which must come all the same without it.
+        It is called before the frames are requested, but the frames must also be available
+        without it.
 
         Raises:
-            RegkitError: If that is not possible.
+            RegkitError: If the preparation fails.
         """
 
     @abstractmethod
     def frames(self) -> Iterator[Frame]:
-        """The frames, read one by one.
+        """Returns the frames, read one by one.
 
         Raises:
             DataError: If a frame is missing or damaged.
         """
 
     def some(self, indices: Iterable[int]) -> Iterator[tuple[int, Frame]]:
-        """Some of the frames, in the order of time, and their numbers.
+        """Yields selected frames with their indices, in temporal order.
 
-        A recording that can read any frame at once does so; others read past those between.
+        The default reads all frames in between; recordings with random access override it.
 
         Args:
-            indices: The frames' numbers, from 0.
+            indices: Indices of the frames, from 0.
 
         Raises:
             DataError: If a frame is missing or damaged.
         """
         wanted = sorted(set(indices))
-        # Whoever waits for the last of them must not read on.
+        # Stop after the last frame: reading on would delay the caller.
         for index, frame in enumerate(islice(self.frames(), wanted[-1] + 1 if wanted else 0)):
             if index in wanted:
                 yield index, frame
 
     @abstractmethod
     def truth(self) -> Truth | None:
-        """The reference joints of the frames, or None.
+        """Returns the reference joints of the frames; None without any.
 
         Raises:
-            DataError: If they are there but damaged.
+            DataError: If the reference is damaged.
         """
 
 
 SHOWN = 5
-"""A message names no more recordings than this."""
+"""Maximum number of recordings in a message."""
 
 
 class Dataset(Plugin, ABC):
@@ -87,38 +88,38 @@ class Dataset(Plugin, ABC):
     renamed: ClassVar[dict[str, str]] = {"sequences": "recordings"}
 
     recordings: tuple[str, ...] | None = None
-    """Names of the recordings to use; all that there are without it."""
+    """Names of the recordings to use; all by default."""
     frames: Annotated[int, Field(ge=1)] | None = None
-    """Use only so many frames from the start of each recording."""
+    """Maximum number of frames from the start of each recording; all by default."""
     compared: bool = True
-    """Whether poses are compared with the reference joints, where there are any."""
+    """Whether to compare poses with the reference joints, if there are any."""
     joints: dict[str, str] = Field(default_factory=dict)
-    """Names of the data's reference joints to the template's markers, where they differ."""
+    """Map from the reference joints to the template's markers, where the names differ."""
 
     @classmethod
     def in_folder(cls, folder: str | Path, **fields: Any) -> dict[str, Any]:
-        """Data for the dataset in a folder: clouds if it has ``clouds/``, else depth images."""
+        """Returns data for a dataset in a folder: clouds if it has ``clouds/``, else depth."""
         kind = "clouds" if (Path(folder) / "clouds").is_dir() else "depth"
         return cls.default(kind, root=str(folder), **fields)
 
     @abstractmethod
     def found(self) -> list[Recording]:
-        """Every recording that there is, cut to ``frames``.
+        """Returns all recordings, truncated to ``frames``.
 
         Raises:
             DataError: If there is none, or one is damaged.
         """
 
     def wanted(self, name: str) -> bool:
-        """Whether a recording is used; what is not need not even be read."""
+        """Returns whether a recording is used; others need not be read."""
         return self.recordings is None or name in self.recordings
 
     def chosen(self) -> list[Recording]:
-        """The recordings to use.
+        """Returns the recordings to use.
 
         Raises:
             DataError: If there is none, one is damaged, or two have the same name.
-            ConfigError: If one is named that there is not.
+            ConfigError: If ``recordings`` contains an unknown name.
         """
         found: dict[str, Recording] = {}
         for recording in self.found():
@@ -137,11 +138,11 @@ class Dataset(Plugin, ABC):
         return [found[name] for name in self.recordings]
 
     def only(self, name: str | None = None) -> Recording:
-        """The recording of a name, or the only one that there is.
+        """Returns the recording of a name, or the only recording.
 
         Raises:
             DataError: If there is none, or it is damaged.
-            ConfigError: If there is none of that name, or there are several.
+            ConfigError: If the name is unknown, or missing although there are several.
         """
         if name is not None:
             return self.model_copy(update={"recordings": (name,)}).chosen()[0]

@@ -1,4 +1,4 @@
-"""Kernels: how well placed primitives explain data, and the forces that the data put on them."""
+"""Kernels: the similarity of placed primitives and data, and the forces on the primitives."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from regkit.system.arrays import Array
 
 @dataclass(frozen=True)
 class Response:
-    """An energy, which registration makes small, and its derivative.
+    """An energy to minimise and its derivatives.
 
     Attributes:
-        energy: The energy; the lower, the better the primitives explain the data.
-        wrenches: Its derivative to each primitive's motion, (K, 6): to the translation of the
-            primitive, then to a rotation vector in the world about the primitive's own centre.
-        stiffness: Gauss-Newton blocks of its second derivative to the same motions, (K, 6, 6), if
-            they were asked for and the kernel has them.
+        energy: The energy; lower values mean a better explanation of the data.
+        wrenches: Derivative to each primitive's motion, (K, 6): to its translation, then to a
+            rotation vector in the world about its centre.
+        stiffness: Gauss-Newton blocks of the second derivative to the same motions, (K, 6, 6); None
+            if not requested or not available.
     """
 
     energy: float
@@ -30,7 +30,7 @@ class Response:
     stiffness: Array | None = None
 
     def __add__(self, other: Response) -> Response:
-        """The sum of two energies of the same primitives; it has blocks if both have."""
+        """Returns the sum of two energies of the same primitives, with blocks if both have them."""
         stiffness = None
         if self.stiffness is not None and other.stiffness is not None:
             stiffness = self.stiffness + other.stiffness
@@ -42,31 +42,31 @@ class Similarity(ABC):
 
     @abstractmethod
     def __call__(self, placed: Placed[Any], *, curvature: bool = False) -> Response:
-        """The energy of primitives in the world, its derivative, and the stiffness if asked for."""
+        """Returns the energy of placed primitives, its wrenches and, on request, its stiffness."""
 
     def energy(self, placed: Placed[Any]) -> float:
-        """The energy alone, where that takes less than all of the response."""
+        """Returns the energy alone, for kernels that evaluate it faster than the full response."""
         return self(placed).energy
 
     def inlier_probability(self, placed: Placed[Any]) -> Array | None:
-        """The probability (N,) that each point is an inlier; None if the kernel cannot tell."""
+        """Returns the probability (N,) that each point is an inlier; None if it is unknown."""
         return None
 
 
 class Kernel(Plugin, ABC):
-    """Compares primitives with data; it never sees a skeleton."""
+    """A comparison of primitives with data, independent of the skeleton."""
 
     group = "regkit.kernels"
     declared = ("accepts",)
 
     accepts: ClassVar[type[Primitives]]
-    """The primitives that it can compare."""
+    """Type of primitives that the kernel compares."""
 
     def check_shape(self, shape: ShapeModel) -> None:
-        """Refuse a shape model whose primitives it cannot compare.
+        """Checks that the kernel can compare the primitives of a shape model.
 
         Raises:
-            ValueError: If it makes others, to be told where the two stand together.
+            ValueError: If it cannot; the config reports it with the place of both.
         """
         if not issubclass(shape.makes, self.accepts):
             raise ValueError(
@@ -78,11 +78,11 @@ class Kernel(Plugin, ABC):
     def bind(
         self, observation: Observation, start: Placed[Any], *, smoothing: float = 0.0
     ) -> Similarity:
-        """Bind the kernel to a frame.
+        """Binds the kernel to a frame.
 
         Args:
             observation: The data.
-            start: The primitives in the pose from which the frame is registered.
-            smoothing: Standard deviation [m] of a Gaussian that smooths the energy over space, by
-                which a first, coarse solution sees farther.
+            start: The primitives in the start pose of the registration.
+            smoothing: Standard deviation of a Gaussian that smooths the energy over space, for a
+                larger basin in coarse solutions [m].
         """

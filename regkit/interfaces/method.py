@@ -1,4 +1,4 @@
-"""Methods: whole ways to find a body's pose in one frame."""
+"""Methods: complete algorithms that register a body to a frame."""
 
 from __future__ import annotations
 
@@ -11,17 +11,16 @@ from regkit.interfaces.tracker import Tracker
 
 
 class Method(Plugin, ABC):
-    """A way to register a body to a frame."""
+    """An algorithm that registers a body to a frame."""
 
     group = "regkit.methods"
 
     tracker: Tracker | None = None
-    """How one frame's pose leads to the next with this method; the experiment's tracker without
-    it."""
+    """Tracker for this method; the experiment's tracker by default."""
 
     @abstractmethod
     def bind(self, body: Body) -> Registrar:
-        """Do once what does not depend on the data.
+        """Binds the method to a body, with all work that does not depend on the data.
 
         Raises:
             RegkitError: If the method cannot register such a body.

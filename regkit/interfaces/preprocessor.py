@@ -1,4 +1,4 @@
-"""Preprocessors: from a frame to the data that a kernel compares with."""
+"""Preprocessors: from frames to the data of kernels."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from regkit.observation import Frame, Observation
 
 
 class Preprocessor(Plugin, ABC):
-    """Makes a sum of Gaussians of a frame's points."""
+    """A conversion of a frame's points to a sum of Gaussians."""
 
     group = "regkit.preprocessors"
     former_group = "regkit.observers"
 
     @abstractmethod
     def preprocess(self, frame: Frame) -> Observation:
-        """The frame as data.
+        """Returns the data of a frame.
 
         Raises:
-            DataError: If it holds too few points, or points that are not finite.
+            DataError: If the frame has too few points, or points that are not finite.
         """

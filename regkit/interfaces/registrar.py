@@ -1,4 +1,4 @@
-"""Registrars: methods made ready for a body, which find its pose in a frame."""
+"""Registrars: methods bound to a body, which register it to frames."""
 
 from __future__ import annotations
 
@@ -21,15 +21,14 @@ class RegistrationResult:
     """The outcome of one registration.
 
     Attributes:
-        pose: The pose found.
+        pose: The registered pose.
         energy: Its energy, in the method's own units.
-        inlier_share: Share of the points that are inliers, from 0 to 1; NaN where the method cannot
-            tell.
+        inlier_share: Fraction of the points that are inliers, from 0 to 1; NaN if unknown.
         converged: Whether the solver met a tolerance.
-        iterations: Its steps.
-        evaluations: How often it looked at the energy.
-        message: Why it ended.
-        multipliers: How hard the limits hold the pose, if the solver knows.
+        iterations: Number of steps of the solver.
+        evaluations: Number of energy evaluations.
+        message: Reason why the solver ended.
+        multipliers: Multipliers of the limits, if the solver computes them.
     """
 
     pose: Pose
@@ -43,18 +42,18 @@ class RegistrationResult:
 
     @classmethod
     def given(cls, pose: Pose) -> RegistrationResult:
-        """A pose that was given, not found."""
+        """Returns the result for a given pose, which no registration found."""
         return cls(pose, np.nan, np.nan, True, 0, 0, "given")
 
 
 @dataclass(frozen=True)
 class Evaluation:
-    """How well a pose explains a frame.
+    """Quality of a pose for a frame.
 
     Attributes:
-        energy: The method's energy there, bound to the frame at this very pose, so that poses can
-            be compared with one another.
-        inlier_probability: Of each point, (N,), from 0 to 1.
+        energy: The method's energy, bound to the frame at this pose, so that different poses are
+            comparable.
+        inlier_probability: Inlier probability of each point, (N,), from 0 to 1; NaN if unknown.
     """
 
     energy: float
@@ -62,21 +61,21 @@ class Evaluation:
 
     @property
     def inlier_share(self) -> float:
-        """The share of the points that are inliers with more than little probability."""
+        """Fraction of points with an inlier probability of at least ``LITTLE``; NaN if unknown."""
         known = np.isfinite(self.inlier_probability).all()
         return float((self.inlier_probability >= LITTLE).mean()) if known else float("nan")
 
 
 LITTLE = 0.1
-"""A point of less inlier probability counts as an outlier."""
+"""A point with a lower inlier probability is an outlier."""
 
 
 class Registrar(ABC):
-    """A method made ready for one body.
+    """A method bound to a body.
 
     Attributes:
         body: The body.
-        primitives: What its shape model made of the body.
+        primitives: The primitives of the body's shape model.
     """
 
     body: Body
@@ -91,19 +90,18 @@ class Registrar(ABC):
         prior: Pose | None = None,
         warm_start: RegistrationResult | None = None,
     ) -> RegistrationResult:
-        """The body's pose in a frame.
+        """Registers the body to a frame.
 
-        The search starts from the candidate that explains the frame best, and everything is bound
-        to that candidate.
+        The candidate that explains the frame best is the start, and everything is bound to it.
 
         Args:
             observation: The frame's data.
-            candidates: Poses from which the search may start, one at least.
-            prior: The pose that is kept where the data say nothing; the first candidate without it.
-            warm_start: The result of the frame before, from which a solver may take more than the
+            candidates: Candidate start poses, at least one.
+            prior: Pose to which unobserved joints stay close; by default the first candidate.
+            warm_start: Result of the previous frame, from which a solver may reuse more than the
                 pose.
         """
 
     @abstractmethod
     def evaluate(self, observation: Observation, pose: Pose) -> Evaluation:
-        """How well a pose explains a frame, without moving it."""
+        """Returns the quality of a pose for a frame without changing the pose."""

@@ -1,4 +1,4 @@
-"""Shape models: what stands for the surface of a body."""
+"""Shape models: representations of a body's surface by primitives."""
 
 from __future__ import annotations
 
@@ -12,31 +12,31 @@ from regkit.system.errors import ConfigError
 
 
 class ShapeModel(ParametricShape, ABC):
-    """Turns a body into primitives that its segments carry; it never sees a joint.
+    """A map from a body to primitives on its segments, independent of the joints.
 
-    One whose ``parameters`` are a class finds what the template lists in ``body.shapes``, scaled to
-    the body's size.
+    The primitives that a template lists for a shape model with ``parameters`` are available in
+    ``body.shapes``, scaled to the body's size.
     """
 
     group = ParametricShape.group
     declared = ("makes",)
 
     makes: ClassVar[type[Primitives]]
-    """The type of the primitives."""
+    """Type of the primitives."""
 
     def capsules_of(self, body: Body) -> Capsules:
-        """The body's capsules, of which the shape model makes its primitives.
+        """Returns the body's capsules for a shape model that needs them.
 
         Raises:
             ConfigError: If the body has none.
         """
         if not len(body.capsules):
             raise ConfigError(
-                f"the template '{body.name}' has no capsules, of which the shape '{self.kind}' is "
-                "made; give its segments some, or take a shape that the template lists"
+                f"the template '{body.name}' has no capsules, which the shape '{self.kind}' needs; "
+                "give its segments some, or use a shape that the template lists"
             )
         return body.capsules
 
     @abstractmethod
     def bind(self, body: Body) -> Primitives:
-        """Primitives in the frames of the body's segments."""
+        """Returns primitives in the frames of the body's segments."""

@@ -1,4 +1,4 @@
-"""Solvers, and the problems that they solve: a smooth function on a box, within constraints."""
+"""Solvers, and their problems: smooth functions on a box with constraints."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from regkit.system.errors import PluginError
 
 
 class Constraints(ABC):
-    """Smooth functions of x, in C rows, that a solution keeps between bounds.
+    """Smooth functions of x in C rows, with bounds on a solution.
 
     Attributes:
-        names: What each row limits, for messages, (C).
+        names: Name of each row for messages, (C,).
         lower: Lower bounds, (C,), possibly -inf.
-        upper: Upper bounds, (C,), possibly inf; where both are equal, the row is an equation.
+        upper: Upper bounds, (C,), possibly inf; equal bounds make an equality constraint.
     """
 
     names: tuple[str, ...]
@@ -28,18 +28,18 @@ class Constraints(ABC):
 
     @abstractmethod
     def values(self, x: Array) -> Array:
-        """The rows (C,) at x (m,)."""
+        """Returns the values (C,) of the rows at x (m,)."""
 
     @abstractmethod
     def jacobian(self, x: Array) -> Array:
-        """Their derivative (C, m)."""
+        """Returns the Jacobian (C, m) of the rows at x (m,)."""
 
     @abstractmethod
     def curvature(self, x: Array, multipliers: Array) -> Array:
-        """The second derivative (m, m) of the sum of multipliers (C,) times rows."""
+        """Returns the Hessian (m, m) at x (m,) of the sum of multipliers (C,) times rows."""
 
     def violations(self, x: Array) -> Array:
-        """How far each row (C,) is beyond its bounds, zero within."""
+        """Returns each row's distance (C,) beyond its bounds, zero within."""
         values = self.values(x)
         beyond = np.maximum(self.lower - values, values - self.upper)
         return np.asarray(np.maximum(beyond, 0.0))
@@ -47,11 +47,11 @@ class Constraints(ABC):
 
 @dataclass(frozen=True)
 class Multipliers:
-    """How hard a solution is held: the energy gained where a bound gives way by one.
+    """Lagrange multipliers: the decrease in energy when a bound is relaxed by one.
 
     Attributes:
-        bounds: Of the variables' bounds, (m,), negative at a lower one.
-        constraints: Of the constraints, (C,).
+        bounds: Multipliers of the variables' bounds, (m,), negative at lower bounds.
+        constraints: Multipliers of the constraints, (C,).
     """
 
     bounds: Array
@@ -59,13 +59,13 @@ class Multipliers:
 
 
 class Problem(ABC):
-    """A function to be made small.
+    """A function to minimise.
 
     Attributes:
-        start: Where to begin, (m,); it lies within the bounds.
+        start: Initial point within the bounds, (m,).
         lower: Lower bounds, (m,), possibly -inf.
         upper: Upper bounds, (m,), possibly inf.
-        multipliers: Those of the solution of a similar problem, with which a solver may begin.
+        multipliers: Multipliers of a similar problem's solution, for a warm start.
     """
 
     start: Array
@@ -75,41 +75,41 @@ class Problem(ABC):
 
     @abstractmethod
     def value_and_gradient(self, x: Array) -> tuple[float, Array]:
-        """The value at x (m,) and its gradient (m,)."""
+        """Returns the value at x (m,) and its gradient (m,)."""
 
     def normal_equations(self, x: Array) -> tuple[float, Array, Array] | None:
-        """The value, the gradient (m,) and a positive semi-definite matrix (m, m) of curvature.
+        """Returns the value, the gradient (m,) and a positive semi-definite curvature (m, m).
 
         None if the problem has no such matrix.
         """
         return None
 
     def without_curvature(self) -> tuple[str, ...]:
-        """What the problem has no such matrix for; empty if it has one."""
+        """Returns the names of the parts without such a matrix; empty if all have one."""
         return () if self.normal_equations(self.start) else ("the problem",)
 
     def constraints(self) -> Constraints | None:
-        """What else a solution keeps, for solvers that can hold it; None if nothing."""
+        """Returns constraints for solvers that support them; None without any."""
         return None
 
     def projected(self, x: Array) -> Array:
-        """The point nearest to x (m,) that keeps all limits; here, those of the box."""
+        """Returns the projection of x (m,) onto all limits, by default those of the box."""
         return np.clip(x, self.lower, self.upper)
 
 
 @dataclass(frozen=True)
 class Solution:
-    """Where a solver ended.
+    """The result of a solver.
 
     Attributes:
-        x: The best point that it saw, (m,), within the bounds.
-        value: The value there; never more than at the start.
-        converged: Whether a tolerance was met; false if it ran out of iterations or could not go
-            on.
-        iterations: Steps taken.
-        evaluations: Calls of ``value_and_gradient``.
-        message: Why it ended.
-        multipliers: How hard it is held there, if the solver knows.
+        x: The best evaluated point, (m,), within the bounds.
+        value: Value at x, never greater than at the start.
+        converged: Whether a tolerance was met; false at the maximum number of iterations, or if the
+            solver failed to progress.
+        iterations: Number of steps.
+        evaluations: Number of calls of ``value_and_gradient``.
+        message: Reason why the solver ended.
+        multipliers: Multipliers at x, if the solver computes them.
     """
 
     x: Array
@@ -123,14 +123,14 @@ class Solution:
 
 @dataclass(frozen=True)
 class LimitKeeping:
-    """What a solver does with joint limits, in a few words each.
+    """A solver's treatment of joint limits, in a few words each.
 
-    Couplings are no limits: what follows another joint has no coordinate, so every solver holds it.
+    Couplings are satisfied by every solver, because a coupled hinge has no coordinate.
 
     Attributes:
-        hinges: How it keeps the limits of hinges.
-        balls: How it keeps the swing and twist limits of ball joints.
-        hard: Whether no solution is ever beyond any limit.
+        hinges: Treatment of the limits of hinges.
+        balls: Treatment of the swing and twist limits of ball joints.
+        hard: Whether every solution satisfies all limits.
     """
 
     hinges: str
@@ -139,18 +139,18 @@ class LimitKeeping:
 
 
 class Solver(Plugin, ABC):
-    """Makes a problem's value small."""
+    """A minimiser of problems."""
 
     group = "regkit.solvers"
 
     limits: ClassVar[LimitKeeping] = LimitKeeping(
         hinges="bounds", balls="not kept; the term `limits` penalises", hard=False
     )
-    """What it does with joint limits; every solver keeps bounds."""
+    """Treatment of joint limits; every solver satisfies bounds."""
 
     @classmethod
     def keeping_limits(cls) -> list[str]:
-        """The installed solvers that never leave a joint limit; a broken one is none of them."""
+        """Returns the installed solvers that satisfy all joint limits; skips broken ones."""
         able = []
         for kind in cls.available():
             try:
@@ -161,7 +161,7 @@ class Solver(Plugin, ABC):
 
     @abstractmethod
     def minimize(self, problem: Problem) -> Solution:
-        """A point that is no worse than the start.
+        """Returns a point with a value no greater than at the start.
 
         Raises:
             DataError: If the value at the start is not finite.

@@ -1,4 +1,4 @@
-"""Templates: bodies before their size is known."""
+"""Templates: bodies of undetermined size."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from regkit.config.preset import YAML
 
 
 class Template(Plugin, ABC):
-    """A body that can be had in any size."""
+    """A body available in any size."""
 
     group = "regkit.templates"
 
     @classmethod
     def named(cls, name: str) -> dict[str, Any]:
-        """Data for a name alone: a kind, the YAML file of a template, or a rigid cloud or mesh."""
+        """Returns data for a name: a kind, or the file of a template, rigid cloud or mesh."""
         suffix = Path(name).suffix.lower()
         if suffix in YAML:
             return cls.default("file", path=name)
@@ -29,18 +29,18 @@ class Template(Plugin, ABC):
 
     @abstractmethod
     def description(self) -> BodyDescription:
-        """What the template's YAML says.
+        """Returns the description in the template's YAML.
 
         Raises:
-            RegkitError: If the file is missing or wrong.
+            RegkitError: If the file is missing or invalid.
         """
 
     @abstractmethod
     def given_size(self) -> float | None:
-        """The size that the user gave [m], or None if it is to be found from the data."""
+        """Returns the size given by the user [m]; None if it must be estimated from the data."""
 
     def candidate_sizes(self, count: int = 5) -> tuple[float, ...]:
-        """The given size alone, or ``count`` sizes over the range that occurs [m]."""
+        """Returns the given size alone, or ``count`` sizes over the range of the template [m]."""
         given = self.given_size()
         if given is not None:
             return (given,)
@@ -50,9 +50,9 @@ class Template(Plugin, ABC):
         return tuple(float(size) for size in np.geomspace(smallest, largest, count))
 
     def name(self) -> str:
-        """What the body is called in messages."""
+        """Returns the name of the body in messages."""
         return self.kind
 
     def body(self, size: float) -> Body:
-        """The body whose size is ``size`` [m]."""
+        """Returns the body of a size [m]."""
         return self.description().body(self.name(), size)

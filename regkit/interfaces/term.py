@@ -1,4 +1,4 @@
-"""Terms: what is asked of a pose beyond explaining the data, and which primitives take part."""
+"""Terms: demands on a pose besides explaining the data, and weights of primitives."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from regkit.system.arrays import Array
 
 @dataclass(frozen=True)
 class Scene:
-    """What is known when a frame's registration begins.
+    """The state at the start of a frame's registration.
 
     Attributes:
-        body: What is registered.
+        body: The body.
         observation: The frame's data.
-        prior: The pose that is kept where the data say nothing.
-        placed: The primitives in the pose from which the frame is registered.
+        prior: Pose to which unobserved joints stay close.
+        placed: The primitives in the start pose.
     """
 
     body: Body
@@ -34,12 +34,12 @@ class Scene:
 
 @dataclass(frozen=True)
 class JointResponse:
-    """An energy of the joints and its derivative.
+    """An energy of the joints and its derivatives.
 
     Attributes:
         energy: The energy.
-        force: Its derivative to the degrees of freedom at the pose, (n,).
-        stiffness: A positive semi-definite matrix (n, n) of its curvature.
+        force: Derivative to the degrees of freedom at the pose, (n,).
+        stiffness: Positive semi-definite curvature, (n, n).
     """
 
     energy: float
@@ -48,42 +48,42 @@ class JointResponse:
 
 
 class JointEnergy(ABC):
-    """An energy that looks at the joints alone."""
+    """An energy of the joints alone."""
 
     @abstractmethod
     def __call__(self, pose: Pose) -> JointResponse:
-        """The energy in a pose, its derivative and its curvature."""
+        """Returns the energy of a pose, its derivative and its curvature."""
 
 
 @dataclass(frozen=True)
 class VisibilityWeights:
-    """By how much each primitive is visible: factors (K,) on the weights, from 0 to 1."""
+    """Visibility of each primitive: factors (K,) of the weights, from 0 to 1."""
 
     factors: Array
 
 
 Effect = VisibilityWeights | Similarity | JointEnergy
-"""What a term does: weigh the primitives, or add an energy of them or of the joints."""
+"""Effect of a term: weights of primitives, or an energy of primitives or joints."""
 
 
 class Term(Plugin, ABC):
-    """One demand on a pose, which any kernel can be combined with."""
+    """A demand on a pose, which combines with any kernel."""
 
     group = "regkit.terms"
 
     accepts: ClassVar[type[Primitives]] = Primitives
-    """The primitives that it can look at."""
+    """Type of primitives that the term supports."""
 
     weighs: ClassVar[bool] = False
-    """Whether it gives visibility weights, which the kernel is bound with, and not an energy."""
+    """Whether the term returns visibility weights, to which the kernel is bound, and no energy."""
 
     def check(self, body: Body) -> None:
-        """Refuse a body that the term cannot be used with, before any frame is read.
+        """Checks that the term supports a body, before any frame is read.
 
         Raises:
-            RegkitError: If it asks for what the body does not have.
+            RegkitError: If the body lacks something that the term needs.
         """
 
     @abstractmethod
     def bind(self, scene: Scene) -> Effect:
-        """Bind the term to a frame."""
+        """Binds the term to a frame."""

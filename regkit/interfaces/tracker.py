@@ -1,4 +1,4 @@
-"""Trackers: how one frame's pose leads to the next."""
+"""Trackers: prediction of poses from frame to frame."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from regkit.observation import Observation
 from regkit.skeleton import Pose
 
 WINDOW = 1000
-"""How many frames' inlier shares are remembered: enough to say what is usual in a recording."""
+"""Number of stored inlier shares, enough to determine the usual share in a recording."""
 
 
 @dataclass(frozen=True)
 class Past:
-    """What is known of the frames before; it does not grow with their number.
+    """The results of previous frames, with memory that does not grow with their number.
 
     Attributes:
-        last: The result of the last frame; before the first frame, the start.
-        before: The result of the frame before that, if there is one.
-        frames: How many frames were registered.
-        inlier_shares: Those of the last frames, the latest last, ``WINDOW`` at most.
+        last: Result of the last frame; before the first frame, the start.
+        before: Result of the frame before the last, if there is one.
+        frames: Number of registered frames.
+        inlier_shares: Inlier shares of up to ``WINDOW`` last frames, the latest last.
     """
 
     last: RegistrationResult
@@ -32,11 +32,11 @@ class Past:
 
     @classmethod
     def start(cls, pose: Pose) -> Past:
-        """What is known before the first frame."""
+        """Returns the past before the first frame."""
         return cls(RegistrationResult.given(pose))
 
     def followed_by(self, result: RegistrationResult) -> Past:
-        """What is known one frame later."""
+        """Returns the past after one more frame."""
         return Past(
             last=result,
             before=self.last if self.frames else None,
@@ -46,23 +46,23 @@ class Past:
 
 
 class BoundTracker(ABC):
-    """A tracker bound to one registrar."""
+    """A tracker bound to a registrar."""
 
     @abstractmethod
     def step(self, observation: Observation, past: Past) -> RegistrationResult:
-        """The pose in the next frame.
+        """Returns the registration of the next frame.
 
         Args:
             observation: The frame's data.
-            past: What was found before. It is an argument, not a state.
+            past: Results of previous frames; the tracker itself has no state.
         """
 
 
 class Tracker(Plugin, ABC):
-    """A way from frame to frame."""
+    """A strategy for tracking from frame to frame."""
 
     group = "regkit.trackers"
 
     @abstractmethod
     def bind(self, registrar: Registrar) -> BoundTracker:
-        """Do once what does not depend on the frame."""
+        """Binds the tracker to a registrar, with all work that does not depend on frames."""

@@ -1,7 +1,7 @@
-"""Primitives: the geometric elements into which shape models turn a body, and which kernels see.
+"""Primitives: the geometric elements of shape models, which kernels compare with data.
 
-Primitives belong to segments. They are placed in the world, kernels return a wrench for each, and
-the wrenches are accumulated on the segments.
+Each primitive belongs to a segment and is placed in the world by its pose. Kernels return a wrench
+per primitive, and the primitives accumulate the wrenches on their segments.
 """
 
 from regkit.primitives.gaussians import Gaussians, SurfaceGaussians

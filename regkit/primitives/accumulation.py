@@ -10,7 +10,14 @@ from regkit.system.compiled import compiled
 
 @compiled
 def accumulated_wrenches(wrenches: Array, arms: Array, owners: Indices, segments: int) -> Array:
-    """Wrenches (K, 6) summed on their owners, (S, 6), about points that arms (K, 3) start from."""
+    """Returns wrenches (S, 6) summed on the segments.
+
+    Args:
+        wrenches: Wrenches about the primitives' centres, (K, 6).
+        arms: Vectors from the segments' reference points to the centres, (K, 3) [m].
+        owners: Segment of each primitive, (K,).
+        segments: Number S of segments.
+    """
     accumulated = np.zeros((segments, 6))
     for k in range(len(wrenches)):
         f, g, h = wrenches[k, 0], wrenches[k, 1], wrenches[k, 2]
@@ -27,10 +34,16 @@ def accumulated_wrenches(wrenches: Array, arms: Array, owners: Indices, segments
 
 @compiled
 def accumulated_stiffness(blocks: Array, arms: Array, owners: Indices, segments: int) -> Array:
-    """Blocks (K, 6, 6) summed on their owners, (S, 6, 6), about the same points.
+    """Returns blocks (S, 6, 6) summed on the segments, about the same reference points.
 
-    A centre moves with its segment's translation and by its rotation times the arm: M^T B M with
+    A centre follows its segment's translation and its rotation times the arm: M^T B M with
     M = [[I, -[arm]x], [0, I]].
+
+    Args:
+        blocks: Blocks about the primitives' centres, (K, 6, 6).
+        arms: Vectors from the segments' reference points to the centres, (K, 3) [m].
+        owners: Segment of each primitive, (K,).
+        segments: Number S of segments.
     """
     accumulated = np.zeros((segments, 6, 6))
     half = np.empty((6, 6))
@@ -58,14 +71,14 @@ def accumulated_stiffness(blocks: Array, arms: Array, owners: Indices, segments:
 def accumulated_residuals(
     owners: Indices, values: Array, rows: Array, weights: Array, count: int
 ) -> tuple[Array, Array]:
-    """Sums over the residuals of each primitive: w J^T r (K, 6), and w J^T J (K, 6, 6).
+    """Returns w J^T r (K, 6) and w J^T J (K, 6, 6), summed over the residuals of each primitive.
 
     Args:
-        owners: The primitive of each residual, (R,).
-        values: Residuals r of D parts, (R, D).
-        rows: Their derivatives J to motions of the owners about their centres, (R, D, 6).
+        owners: Primitive of each residual, (R,).
+        values: Residuals r with D components, (R, D).
+        rows: Derivatives J to the owners' motions about their centres, (R, D, 6).
         weights: w, (R,).
-        count: K.
+        count: Number K of primitives.
     """
     wrenches, blocks = np.zeros((count, 6)), np.zeros((count, 6, 6))
     for i in range(len(owners)):

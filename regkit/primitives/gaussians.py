@@ -1,4 +1,4 @@
-"""Gaussians: whole ones, and those of which a camera sees the front."""
+"""Gaussians, whole or seen from the front only."""
 
 from __future__ import annotations
 
@@ -16,16 +16,15 @@ class Gaussians(Volumes):
     """Un-normalised Gaussians, eqs. 1 and 3; the scales are standard deviations.
 
     ``G(x) = weight * exp(-1/2 (x - m)^T C^-1 (x - m))`` with the covariance C = R diag(scales^2)
-    R^T. (The paper writes C for the matrix in the exponent and calls it a covariance; there it is a
-    precision.)
+    R^T. (The paper calls the matrix C in the exponent a covariance although it is a precision.)
     """
 
     @classmethod
     def isotropic(cls, segments: Indices, centres: Array, deviations: Array) -> Self:
-        """Gaussians that are as wide in all directions.
+        """Returns isotropic Gaussians of weight one.
 
         Args:
-            segments: The segment that carries each, (K,).
+            segments: Segment of each Gaussian, (K,).
             centres: Means in the segments' frames, (K, 3) [m].
             deviations: Standard deviations, (K,) [m].
         """
@@ -41,4 +40,4 @@ class Gaussians(Volumes):
 
 @dataclass(frozen=True)
 class SurfaceGaussians(Gaussians):
-    """Gaussians of which a camera, where there is one, sees only the front."""
+    """Gaussians whose visible side alone faces the data if the observation has a camera."""

@@ -1,7 +1,7 @@
 """Primitives: the pieces of a shape model, fixed in the segments of a skeleton.
 
-Three frames meet here. A primitive's own *axes* are where its scales are given; the *segment*
-carries it; the *world* is where a kernel compares it with data.
+Three frames are involved: the primitive's own *axes*, along which its scales are measured, the
+*segment* that carries it, and the *world*, where a kernel compares it with data.
 """
 
 from __future__ import annotations
@@ -17,14 +17,14 @@ from regkit.system.arrays import Array, Indices
 
 @dataclass(frozen=True)
 class Primitives:
-    """K primitives in the frames of their segments; a subclass gives the scales their meaning.
+    """K primitives in the frames of their segments; a subclass defines the meaning of the scales.
 
     Attributes:
-        segments: The segment that carries each primitive, (K,).
+        segments: Segment of each primitive, (K,).
         centres: Positions in the segments' frames, (K, 3) [m].
         axes: R_segment_primitive, (K, 3, 3).
         scales: Sizes along the primitive's own axes, (K, 3) [m].
-        weights: (K,).
+        weights: Weights of the primitives, (K,).
     """
 
     segments: Indices
@@ -38,14 +38,14 @@ class Primitives:
         return len(self.segments)
 
     def place(self, transforms: Array) -> Placed[Self]:
-        """The primitives in the world, for T_world_segment (S, 4, 4)."""
+        """Returns the primitives in the world, for T_world_segment (S, 4, 4)."""
         carriers = transforms[self.segments]
         rotations = carriers[:, :3, :3]
         centres = (rotations @ self.centres[:, :, None])[:, :, 0] + carriers[:, :3, 3]
         return Placed(self, carriers[:, :3, 3], centres, rotations @ self.axes)
 
     def scaled(self, factor: float) -> Self:
-        """The same primitives on a skeleton whose lengths are multiplied by ``factor``."""
+        """Returns the primitives of a skeleton whose lengths are multiplied by ``factor``."""
         return replace(self, centres=factor * self.centres, scales=factor * self.scales)
 
 
@@ -57,7 +57,7 @@ class Placed(Generic[P_co]):
     """Primitives in the world.
 
     Attributes:
-        primitives: What is placed.
+        primitives: The primitives in the frames of their segments.
         carriers: Origins of the segments that carry the primitives, (K, 3) [m].
         centres: Positions in the world, (K, 3) [m].
         axes: R_world_primitive, (K, 3, 3).
@@ -73,19 +73,19 @@ class Placed(Generic[P_co]):
         return len(self.centres)
 
     def covariances(self) -> Array:
-        """``R diag(scales^2) R^T`` in the world, (K, 3, 3) [m^2]."""
+        """Returns ``R diag(scales^2) R^T`` in the world, (K, 3, 3) [m^2]."""
         return (self.axes * self.primitives.scales[:, None, :] ** 2) @ np.swapaxes(self.axes, 1, 2)
 
     def local(self, points: Array) -> Array:
-        """World points (N, 3) [m] in the axes of each primitive about its centre, (N, K, 3)."""
+        """Returns world points (N, 3) in the primitives' axes about their centres, (N, K, 3)."""
         return np.asarray(np.einsum("kji,nkj->nki", self.axes, points[:, None] - self.centres))
 
     def accumulate(self, wrenches: Array, segments: int) -> Array:
-        """Wrenches (K, 6) on the primitives as (S, 6), summed about the segments' origins."""
+        """Returns wrenches (K, 6) of the primitives summed about the segments' origins, (S, 6)."""
         arms = self.centres - self.carriers
         return accumulated_wrenches(wrenches, arms, self.primitives.segments, segments)
 
     def accumulate_stiffness(self, stiffness: Array, segments: int) -> Array:
-        """Blocks (K, 6, 6) on the primitives as (S, 6, 6), summed about the segments' origins."""
+        """Returns blocks (K, 6, 6) of the primitives about the segments' origins, (S, 6, 6)."""
         arms = self.centres - self.carriers
         return accumulated_stiffness(stiffness, arms, self.primitives.segments, segments)

@@ -1,12 +1,12 @@
 """Linear blend skinning of points and normals, and forces on them, in compiled loops.
 
-With c_a and m_a the point and the normal as the segment a carries them in the world, o_a its origin
-and w_a its weight, a point is at v = sum w_a c_a and its normal is n = sum w_a m_a / l, where l is
-the length of that sum. If the segments move by (dt_a, dphi_a), they move by
+Segment a carries a point to c_a and its normal to m_a in the world; o_a is the segment's origin and
+w_a its blend weight. Blending places the point at v = sum w_a c_a and its normal at
+n = sum w_a m_a / l, where l is the length of that sum. Segment motions (dt_a, dphi_a) cause
 
     dv = sum w_a (dt_a - [c_a - o_a]x dphi_a),    dphi = -1/l sum w_a [n]x [m_a]x dphi_a,
 
-the latter without a spin about the normal itself, which a point does not have.
+where dphi contains no rotation about the normal, which a point does not have.
 """
 
 from __future__ import annotations
@@ -29,10 +29,18 @@ def place_blended(
     owners: Indices,
     tangents: Array,
 ) -> tuple[Array, Array, Array, Array, Array]:
-    """V (K, 3), axes (K, 3, 3), the arms c_a - o_a and the m_a, (K, A, 3), and the l, (K,).
+    """Returns v (K, 3), axes (K, 3, 3), arms c_a - o_a and m_a (K, A, 3), and l (K,).
 
-    The third axis is n; the first one is the tangent (K, 3) as its owner turns it, at right angles
-    to that.
+    The third axis is n. The first is the tangent, rotated with the owner and orthogonal to n.
+
+    Args:
+        transforms: T_world_segment, (S, 4, 4).
+        segments: Carriers of each point, (K, A).
+        blend: Blend weights w_a, (K, A).
+        points: Points in the carriers' frames, (K, A, 3) [m].
+        normals: Unit normals in the carriers' frames, (K, A, 3).
+        owners: Segment with the largest weight, (K,).
+        tangents: Unit tangents in the owners' frames, (K, 3).
     """
     count, carriers = segments.shape
     centres, axes = np.zeros((count, 3)), np.empty((count, 3, 3))
@@ -71,7 +79,18 @@ def accumulated_wrenches(
     lengths: Array,
     count: int,
 ) -> Array:
-    """Wrenches (K, 6) on points and normals as (S, 6), summed about the segments' origins."""
+    """Returns wrenches (S, 6) on the segments about their origins.
+
+    Args:
+        wrenches: Wrenches on points and normals, (K, 6).
+        segments: Carriers of each point, (K, A).
+        blend: Blend weights, (K, A).
+        arms: Arms from ``place_blended``, (K, A, 3) [m].
+        turned: Carried normals from ``place_blended``, (K, A, 3).
+        axes: Axes from ``place_blended``, (K, 3, 3).
+        lengths: Norms from ``place_blended``, (K,).
+        count: Number S of segments.
+    """
     accumulated = np.zeros((count, 6))
     for k in range(len(wrenches)):
         f, n = wrenches[k], axes[k, :, 2]
@@ -104,9 +123,19 @@ def accumulated_stiffness(
     lengths: Array,
     count: int,
 ) -> Array:
-    """Blocks (K, 6, 6) on points and normals as (S, 6, 6), about the segments' origins.
+    """Returns blocks (S, 6, 6) of the segments about their origins.
 
-    Each carrier gets M^T B M with its own map M; the blocks between different ones are left out.
+    Each carrier receives M^T B M with its own map M; blocks between carriers are neglected.
+
+    Args:
+        blocks: Blocks B of points and normals, (K, 6, 6).
+        segments: Carriers of each point, (K, A).
+        blend: Blend weights, (K, A).
+        arms: Arms from ``place_blended``, (K, A, 3) [m].
+        turned: Carried normals from ``place_blended``, (K, A, 3).
+        axes: Axes from ``place_blended``, (K, 3, 3).
+        lengths: Norms from ``place_blended``, (K,).
+        count: Number S of segments.
     """
     accumulated = np.zeros((count, 6, 6))
     carried, half = np.zeros((6, 6)), np.empty((6, 6))
@@ -133,7 +162,7 @@ def accumulated_stiffness(
 
 @compiled
 def _set_axes(axes: Array, normal: Array, turn: Array, tangent: Array) -> None:
-    """A frame (3, 3) about a normal, from a tangent that a rotation (3, 3) has turned."""
+    """Writes a frame (3, 3) about a normal, from a tangent and the owner's rotation (3, 3)."""
     along = 0.0
     for i in range(3):
         axes[i, 0] = turn[i, 0] * tangent[0] + turn[i, 1] * tangent[1] + turn[i, 2] * tangent[2]
@@ -150,7 +179,7 @@ def _set_axes(axes: Array, normal: Array, turn: Array, tangent: Array) -> None:
 def _set_map(
     matrix: Array, weight: float, arm: Array, turned: Array, normal: Array, length: float
 ) -> None:
-    """How a point and its normal follow one segment, (6, 6)."""
+    """Writes the map (6, 6) from a segment's motion to those of a point and its normal."""
     x, y, z = weight * arm[0], weight * arm[1], weight * arm[2]
     matrix[0, 4], matrix[0, 5] = z, -y
     matrix[1, 3], matrix[1, 5] = -z, x
@@ -168,5 +197,5 @@ def _set_map(
 def _crossed(
     a: float, b: float, c: float, x: float, y: float, z: float
 ) -> tuple[float, float, float]:
-    """The cross product of two vectors."""
+    """Returns the cross product of two vectors."""
     return b * z - c * y, c * x - a * z, a * y - b * x

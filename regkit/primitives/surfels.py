@@ -1,4 +1,4 @@
-"""Surfels: points of a surface with their normals, which one or several segments carry."""
+"""Surfels: points of a surface with normals, carried by one or several segments."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from regkit.system.arrays import Array
 class Surfels(Primitives):
     """The vertices of a skinned surface, by linear blend skinning.
 
-    Their segment is the one that carries them most, their third axis is the normal, and their
-    scales are half the distance to their neighbours.
+    A surfel's segment is its carrier with the largest weight, its third axis is the normal, and
+    its scales are half the distance to its neighbours.
 
     Attributes:
-        surface: Where the segments carry them, and by how much each of them does.
-        normals: Unit outward normals in the frames of these, (K, A, 3).
+        surface: Positions in the frames of the A carriers, and blend weights.
+        normals: Unit outward normals in the carriers' frames, (K, A, 3).
     """
 
     surface: SkinnedSurface
@@ -30,12 +30,12 @@ class Surfels(Primitives):
 
     @classmethod
     def of(cls, surface: SkinnedSurface, normals: Array, spacings: Array) -> Self:
-        """The vertices of a surface.
+        """Returns the vertices of a surface as surfels.
 
         Args:
-            surface: The surface.
-            normals: Of the vertices, in the frames of their segments, (V, A, 3).
-            spacings: How far they are from one another, (V,) [m].
+            surface: The skinned surface with V vertices.
+            normals: Unit normals of the vertices in their carriers' frames, (V, A, 3).
+            spacings: Distances between neighbouring vertices, (V,) [m].
         """
         count = len(surface)
         main = np.arange(count), surface.blend.argmax(axis=1)
@@ -50,7 +50,7 @@ class Surfels(Primitives):
         )
 
     def place(self, transforms: Array) -> Placed[Self]:
-        """The surfels in the world, for T_world_segment (S, 4, 4)."""
+        """Returns the surfels in the world, for T_world_segment (S, 4, 4)."""
         skin = self.surface
         centres, axes, arms, turned, lengths = place_blended(
             transforms,
@@ -65,7 +65,7 @@ class Surfels(Primitives):
         return PlacedSurfels(self, carriers, centres, axes, arms, turned, lengths)
 
     def scaled(self, factor: float) -> Self:
-        """The same surfels on a skeleton whose lengths are multiplied by ``factor``."""
+        """Returns the surfels of a skeleton whose lengths are multiplied by ``factor``."""
         return replace(super().scaled(factor), surface=self.surface.scaled(factor))
 
 
@@ -76,14 +76,14 @@ S_co = TypeVar("S_co", bound=Surfels, covariant=True)
 class PlacedSurfels(Placed[S_co]):
     """Surfels in the world.
 
-    A force on one is divided among its carriers. So is its stiffness: each carrier gets what it
-    would feel if it moved alone. That the carriers of a point feel one another is left out of the
-    curvature, which costs no rounds; it is a matter of the step, never of the gradient.
+    A force on a surfel is divided among its carriers. Each carrier receives the stiffness that it
+    would feel if it moved alone; neglecting the coupling between carriers changes the step but
+    never the gradient, and costs no iterations.
 
     Attributes:
-        arms: From the origin of each carrier to where it carries the surfel, (K, A, 3) [m].
-        turned: The normals as each carrier turns them, (K, A, 3).
-        lengths: Of the blended normals before they were made unit vectors, (K,).
+        arms: Vectors from the carriers' origins to the carried positions, (K, A, 3) [m].
+        turned: Normals in the world as rotated by each carrier, (K, A, 3).
+        lengths: Norms of the blended normals before normalisation, (K,).
     """
 
     arms: Array
@@ -91,9 +91,9 @@ class PlacedSurfels(Placed[S_co]):
     lengths: Array
 
     def accumulate(self, wrenches: Array, segments: int) -> Array:
-        """Wrenches (K, 6) on the surfels as (S, 6), summed about the segments' origins.
+        """Returns wrenches (K, 6) of the surfels summed about the segments' origins, (S, 6).
 
-        What would only turn a surfel about its own normal does nothing.
+        A torque about a surfel's own normal has no effect.
         """
         skin = self.primitives.surface
         return accumulated_wrenches(
@@ -108,7 +108,7 @@ class PlacedSurfels(Placed[S_co]):
         )
 
     def accumulate_stiffness(self, stiffness: Array, segments: int) -> Array:
-        """Blocks (K, 6, 6) on the surfels as (S, 6, 6), about the segments' origins."""
+        """Returns blocks (K, 6, 6) of the surfels about the segments' origins, (S, 6, 6)."""
         skin = self.primitives.surface
         return accumulated_stiffness(
             stiffness,
@@ -123,7 +123,7 @@ class PlacedSurfels(Placed[S_co]):
 
 
 def _axes(normals: Array) -> Array:
-    """Frames (K, 3, 3) whose third axis is the normal (K, 3)."""
+    """Returns frames (K, 3, 3) whose third axis is the normal (K, 3)."""
     helpers = np.eye(3)[np.abs(normals).argmin(axis=1)]
     tangents = np.cross(helpers, normals)
     tangents /= np.linalg.norm(tangents, axis=1, keepdims=True)

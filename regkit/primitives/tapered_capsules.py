@@ -14,16 +14,16 @@ from regkit.system.arrays import Array
 
 @dataclass(frozen=True)
 class TaperedCapsules(Volumes):
-    """Convex hulls of two spheres on the primitive's second axis; one sphere is a capsule too.
+    """Convex hulls of two spheres on the primitive's second axis; a single sphere is one too.
 
-    Terms take a primitive as the ellipsoid of two scales, here that which reaches as far as the
-    capsule along its axis and, in the middle, across it.
+    Terms approximate a primitive by the ellipsoid of two scales. For a capsule it has the capsule's
+    extent along the axis and, in the middle, across it.
 
     Attributes:
-        halves: Half the distance of the spheres' centres, which are at the primitive's centre plus
-            and minus so much of its second axis, (K,) [m].
-        radii: The radius of the sphere at minus and of that at plus, (K, 2) [m]; they differ by
-            less than the distance, so that neither sphere holds the other.
+        halves: Half distances of the spheres' centres, (K,) [m]; the centres lie at these distances
+            from the primitive's centre along its second axis.
+        radii: Radii of the spheres in the negative and the positive direction, (K, 2) [m]. They
+            differ by less than the distance of the centres, so that no sphere contains the other.
     """
 
     halves: Array
@@ -31,18 +31,18 @@ class TaperedCapsules(Volumes):
 
     @cached_property
     def sines(self) -> Array:
-        """How steeply the radius falls along the axis, (K,): sines of the cones' half angles."""
+        """Sines of the cones' half angles, (K,); positive where the radius falls along the axis."""
         lengths = np.where(self.halves > 0.0, 2.0 * self.halves, 1.0)
         return np.asarray((self.radii[:, 0] - self.radii[:, 1]) / lengths)
 
     def surface_points(self) -> Array:
-        """Points of the two spheres."""
-        ways = self.halves[:, None] * np.array([-1.0, 1.0])
+        """Returns points of the two spheres, (K, P, 3) [m]."""
+        offsets = self.halves[:, None] * np.array([-1.0, 1.0])
         points = self.radii[:, :, None, None] * SPHERE
-        points[..., 1] += ways[:, :, None]
+        points[..., 1] += offsets[:, :, None]
         return points.reshape(len(self), -1, 3)
 
     def scaled(self, factor: float) -> Self:
-        """The same capsules on a skeleton whose lengths are multiplied by ``factor``."""
+        """Returns the capsules of a skeleton whose lengths are multiplied by ``factor``."""
         larger = super().scaled(factor)
         return replace(larger, halves=factor * self.halves, radii=factor * self.radii)

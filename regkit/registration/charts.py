@@ -1,4 +1,4 @@
-"""The coordinates that a method can choose."""
+"""The coordinates available to a method."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The limits of ball joints as constraints on the coordinates of a pose."""
+"""Limits of ball joints as constraints on the coordinates of a pose."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from regkit.system.optional import load_library
 
 @dataclass(frozen=True)
 class _Rows:
-    """Constraints of M consecutive coordinates, derived once for a skeleton.
+    """C constraints on M consecutive coordinates, derived once per skeleton.
 
     Attributes:
-        names: (C).
-        lower: (C,).
-        upper: (C,).
+        names: Name of each constraint, (C,).
+        lower: Lower bounds, (C,).
+        upper: Upper bounds, (C,).
         values: (coordinates (M,), parameters) -> rows (C,).
         jacobian: (coordinates (M,), parameters) -> (C, M).
         curvature: (coordinates (M,), parameters, multipliers (C,)) -> (M, M).
@@ -40,13 +40,13 @@ class _Rows:
 
 
 class ChartConstraints(Constraints):
-    """Constraints of some consecutive coordinates of all m.
+    """Constraints on consecutive coordinates among all m.
 
     Args:
         rows: The constraints.
-        parameters: What they depend on beside the coordinates.
-        own: Where their coordinates stand among all m.
-        count: The number m.
+        parameters: Values other than the coordinates on which the constraints depend.
+        own: Slice of the constrained coordinates among all m.
+        count: Number m of coordinates.
     """
 
     def __init__(self, rows: _Rows, parameters: Array, own: slice, count: int) -> None:
@@ -54,17 +54,17 @@ class ChartConstraints(Constraints):
         self._rows, self._parameters, self._own, self._count = rows, parameters, own, count
 
     def values(self, x: Array) -> Array:
-        """The rows (C,) at x (m,)."""
+        """Returns the values (C,) of the constraints at x (m,)."""
         return self._rows.values(x[self._own], self._parameters)[:, 0]
 
     def jacobian(self, x: Array) -> Array:
-        """Their derivative (C, m)."""
+        """Returns the Jacobian (C, m) of the constraints at x (m,)."""
         jacobian = np.zeros((len(self.names), self._count))
         jacobian[:, self._own] = self._rows.jacobian(x[self._own], self._parameters)
         return jacobian
 
     def curvature(self, x: Array, multipliers: Array) -> Array:
-        """The second derivative (m, m) of the sum of multipliers (C,) times rows."""
+        """Returns the Hessian (m, m) at x (m,) of the sum of multipliers (C,) times constraints."""
         curvature = np.zeros((self._count, self._count))
         own = self._rows.curvature(x[self._own], self._parameters, multipliers)
         curvature[self._own, self._own] = own
@@ -72,9 +72,12 @@ class ChartConstraints(Constraints):
 
 
 def tangent_constraints(skeleton: Skeleton, balls: Array, count: int) -> Constraints | None:
-    """The limits of ball joints on m steps of the tangent space at balls (n_ball, 4).
+    """Returns the ball joint limits on m steps of the tangent space, or None without limits.
 
-    None if no ball joint has a limit.
+    Args:
+        skeleton: The skeleton with its limits.
+        balls: Quaternions of the ball joints in the start pose, (n_ball, 4).
+        count: Number m of coordinates.
     """
     rows = _tangent_rows(skeleton)
     if not rows.names:
@@ -83,9 +86,10 @@ def tangent_constraints(skeleton: Skeleton, balls: Array, count: int) -> Constra
 
 
 def quaternion_constraints(skeleton: Skeleton, count: int) -> Constraints | None:
-    """The limits of ball joints, and unit norms, on m un-normalised quaternions and the rest.
+    """Returns the ball joint limits and unit norms on m coordinates with un-normalised quaternions.
 
-    Without the latter the length of a quaternion would be free. None if nothing turns but hinges.
+    Without the norms the length of a quaternion would be undetermined. None if the skeleton has no
+    quaternions.
     """
     rows = _quaternion_rows(skeleton)
     if not rows.names:
@@ -100,12 +104,12 @@ def _tangent_rows(skeleton: Skeleton) -> _Rows:
     ca = load_library("casadi")
     balls = len(skeleton.ball_links)
     steps, starts = ca.SX.sym("steps", 3 * balls), ca.SX.sym("starts", 4 * balls)
-    turned = [
+    balls_after = [
         product(starts[4 * ball : 4 * ball + 4], exponential(steps[3 * ball : 3 * ball + 3]))
         for ball in range(balls)
     ]
     limits = ball_limits(skeleton)
-    rows = limits.function(_turned_only(skeleton, ca.vertcat(ca.SX(0, 1), *turned)))
+    rows = limits.function(_configuration(skeleton, ca.vertcat(ca.SX(0, 1), *balls_after)))
     return _derived(limits.names, rows, limits.lower, limits.upper, steps, starts)
 
 
@@ -115,7 +119,7 @@ def _quaternion_rows(skeleton: Skeleton) -> _Rows:
     balls, free = len(skeleton.ball_links), int(skeleton.free)
     quaternions = ca.SX.sym("quaternions", 4 * (balls + free))
     limits = ball_limits(skeleton)
-    rows = limits.function(_turned_only(skeleton, quaternions[4 * free :]))
+    rows = limits.function(_configuration(skeleton, quaternions[4 * free :]))
     norms = [
         0.5 * (ca.sumsqr(quaternions[4 * index : 4 * index + 4]) - 1.0)
         for index in range(balls + free)
@@ -132,8 +136,8 @@ def _quaternion_rows(skeleton: Skeleton) -> _Rows:
     )
 
 
-def _turned_only(skeleton: Skeleton, balls: Any) -> Any:
-    """A configuration of these balls (4 n_ball,), and of zeros where no limit of a ball looks."""
+def _configuration(skeleton: Skeleton, balls: Any) -> Any:
+    """Returns a configuration with these balls (4 n_ball,) and zeros for all other joints."""
     ca = load_library("casadi")
     first = 7 if skeleton.free else 0
     rest = length(skeleton) - first - 4 * len(skeleton.ball_links)
@@ -143,7 +147,7 @@ def _turned_only(skeleton: Skeleton, balls: Any) -> Any:
 def _derived(
     names: tuple[str, ...], rows: Any, lower: Array, upper: Array, moved: Any, parameters: Any
 ) -> _Rows:
-    """Rows with their first and second derivatives to what is moved."""
+    """Returns rows with their first and second derivatives to ``moved``."""
     ca = load_library("casadi")
     multipliers = ca.SX.sym("multipliers", len(names))
     curvature = ca.hessian(ca.dot(multipliers, rows), moved)[0]

@@ -1,4 +1,4 @@
-"""Coordinates of poses: the vectors that a solver moves."""
+"""Coordinates of poses: the variables of a solver."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ class Coordinates(ABC):
     """A chart around a start pose: vectors x (m,) <-> poses.
 
     Attributes:
-        skeleton: Whose poses.
-        start: The pose of ``origin()``.
+        skeleton: The skeleton of the poses.
+        start: The pose at ``origin()``.
     """
 
     unique: ClassVar[bool]
-    """Whether each pose has one vector only."""
+    """Whether each pose has exactly one coordinate vector."""
 
     skeleton: Skeleton
     start: Pose
@@ -32,27 +32,27 @@ class Coordinates(ABC):
 
     @abstractmethod
     def origin(self) -> Array:
-        """The coordinates (m,) of the start pose."""
+        """Returns the coordinates (m,) of the start pose."""
 
     @abstractmethod
     def pose(self, x: Array) -> Pose:
-        """The pose at coordinates x (m,)."""
+        """Returns the pose at coordinates x (m,)."""
 
     @abstractmethod
     def vector(self, pose: Pose) -> Array:
-        """The coordinates (m,) of a pose."""
+        """Returns the coordinates (m,) of a pose."""
 
     @abstractmethod
     def jacobian(self, x: Array) -> Array:
-        """D (n, m) at x: a change dx moves the degrees of freedom at ``pose(x)`` by D dx.
+        """Returns D (n, m) at x: a change dx moves the degrees of freedom at ``pose(x)`` by D dx.
 
-        So a generalised force f has the gradient D^T f, and a normal matrix H the form D^T H D.
+        A generalised force f thus has the gradient D^T f, and a normal matrix H becomes D^T H D.
         """
 
     @abstractmethod
     def bounds(self) -> tuple[Array, Array]:
-        """Lower and upper bounds (m,) that keep the hinges within their limits."""
+        """Returns lower and upper bounds (m,) that keep the hinges within their limits."""
 
     @abstractmethod
     def constraints(self) -> Constraints | None:
-        """What keeps the ball joints within their limits, or None if none has any."""
+        """Returns constraints that keep the ball joints within their limits; None without any."""

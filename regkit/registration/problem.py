@@ -1,4 +1,4 @@
-"""The registration problem: a pose's coordinates against the energy of its placed primitives."""
+"""The registration problem: the energy of placed primitives over the coordinates of a pose."""
 
 from __future__ import annotations
 
@@ -23,20 +23,19 @@ from regkit.system.arrays import Array
 
 
 class RegistrationProblem(Problem):
-    """Everything is forces on bones: the one chain rule for all shapes, kernels, terms and solvers.
+    """The one chain rule for all shapes, kernels, terms and solvers: forces on bones.
 
-    coordinates -> pose -> segments -> primitives -> energy and wrenches, and back: the wrenches are
-    accumulated on the segments, pass through the transpose of the segments' Jacobian to the degrees
-    of freedom, and from these to the coordinates. Energies of the joints join at the degrees of
-    freedom.
+    Coordinates -> pose -> segments -> primitives -> energy and wrenches. On the way back the
+    wrenches are accumulated on the segments, and the transposed Jacobians of the segments and of
+    the coordinates map them to a gradient. Joint energies act on the degrees of freedom.
 
     Args:
-        coordinates: Around the start pose.
-        primitives: In the frames of the segments.
-        similarities: The kernel, bound to the data, and the terms that look at the primitives, by
-            the names that messages call them.
-        joints: The terms that look at the joints.
-        multipliers: Those of a similar problem's solution.
+        coordinates: Coordinates around the start pose.
+        primitives: Primitives in the frames of the segments.
+        similarities: The kernel, bound to the data, and the terms on primitives, by the names that
+            messages use.
+        joints: The terms on joints.
+        multipliers: Multipliers of a similar problem's solution, for a warm start.
     """
 
     def __init__(
@@ -57,7 +56,7 @@ class RegistrationProblem(Problem):
         self.lower, self.upper = coordinates.bounds()
 
     def value_and_gradient(self, x: Array) -> tuple[float, Array]:
-        """The energy at coordinates x (m,) and its gradient (m,), eqs. 11 to 13."""
+        """Returns the energy at coordinates x (m,) and its gradient (m,), eqs. 11 to 13."""
         placement, placed = self._placed(x)
         response = self._response(placed, curvature=False)
         joints = self._joint_responses(placement)
@@ -65,7 +64,10 @@ class RegistrationProblem(Problem):
         return value, self._coordinates.jacobian(x).T @ force
 
     def normal_equations(self, x: Array) -> tuple[float, Array, Array] | None:
-        """The energy, its gradient (m,) and Gauss-Newton matrix (m, m), if every part has one."""
+        """Returns the energy, its gradient (m,) and Gauss-Newton matrix (m, m) at x (m,).
+
+        None if the kernel or a term has no Gauss-Newton blocks.
+        """
         placement, placed = self._placed(x)
         response = self._response(placed, curvature=True)
         if response.stiffness is None:
@@ -80,7 +82,7 @@ class RegistrationProblem(Problem):
         return value, jacobian.T @ force, jacobian.T @ matrix @ jacobian
 
     def without_curvature(self) -> tuple[str, ...]:
-        """The kernel or the terms that have no Gauss-Newton blocks."""
+        """Returns the names of the kernel and terms without Gauss-Newton blocks."""
         _, placed = self._placed(self.start)
         return tuple(
             name
@@ -89,11 +91,11 @@ class RegistrationProblem(Problem):
         )
 
     def constraints(self) -> Constraints | None:
-        """The limits of the ball joints."""
+        """Returns the limits of the ball joints as constraints; None without any."""
         return self._coordinates.constraints()
 
     def projected(self, x: Array) -> Array:
-        """The pose's hinges and balls brought back within their limits, by its one vector."""
+        """Returns coordinates (m,) with hinges and ball joints projected onto their limits."""
         pose = self._coordinates.pose(x)
         within = self._coordinates.skeleton.limits.projected(pose)
         same = within is pose and self._coordinates.unique
@@ -102,7 +104,7 @@ class RegistrationProblem(Problem):
         return projected
 
     def _placed(self, x: Array) -> tuple[Placement, Placed[Primitives]]:
-        # A solver looks next at what it projected, whose pose is known already.
+        # A solver evaluates next at the point that it projected, whose pose is already known.
         at, pose = self._projected
         if not np.array_equal(at, x):
             pose = self._coordinates.pose(x)
@@ -110,7 +112,9 @@ class RegistrationProblem(Problem):
         return placement, self._primitives.place(placement.transforms)
 
     def _response(self, placed: Placed[Primitives], *, curvature: bool) -> Response:
-        parts = [one(placed, curvature=curvature) for one in self._similarities.values()]
+        parts = [
+            similarity(placed, curvature=curvature) for similarity in self._similarities.values()
+        ]
         return reduce(Response.__add__, parts)
 
     def _joint_responses(self, placement: Placement) -> list[JointResponse]:

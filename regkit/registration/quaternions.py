@@ -19,18 +19,18 @@ from regkit.system.arrays import Array
 class QuaternionCoordinates(Coordinates):
     """The paper's pose parameters [t, r(1), ..., r(L)]: un-normalised quaternions, ``p = r / |r|``.
 
-    L counts the root's rotation and the ball joints: 4 L + 3 parameters, and one more for each
-    hinge that follows no other. Their lengths mean nothing; ``vector`` gives unit ones.
+    L counts the root's rotation and the ball joints: 4 L + 3 parameters, plus one for each
+    independent hinge. The lengths of the quaternions are arbitrary; ``vector`` returns unit ones.
     """
 
     unique = False
 
     def origin(self) -> Array:
-        """The start's translation, unit quaternions and hinge angles."""
+        """Returns the start's translation, unit quaternions and hinge angles, (m,)."""
         return self.vector(self.start)
 
     def pose(self, x: Array) -> Pose:
-        """The pose whose rotations are the normalised quaternions."""
+        """Returns the pose with the normalised quaternions as rotations."""
         quaternions, hinges = self._split(x)
         unit = normalized(quaternions)
         if not self.skeleton.free:
@@ -38,7 +38,7 @@ class QuaternionCoordinates(Coordinates):
         return Pose(rigid(to_matrix(unit[0]), x[:3]), unit[1:], hinges)
 
     def jacobian(self, x: Array) -> Array:
-        """By the angular rate ``2 vec(p* dr) / |r|``; the part of dr along r turns nothing."""
+        """Returns D from the rates ``2 vec(p* dr) / |r|``; dr along r has no effect."""
         quaternions, _ = self._split(x)
         inverse = conjugate(normalized(quaternions)) * (
             2.0 / np.linalg.norm(quaternions, axis=1, keepdims=True)
@@ -55,7 +55,7 @@ class QuaternionCoordinates(Coordinates):
         return jacobian
 
     def bounds(self) -> tuple[Array, Array]:
-        """The hinges' limits; a quaternion has none."""
+        """Returns the hinges' limits; quaternions are unbounded."""
         lower, upper = np.full_like(self.origin(), -np.inf), np.full_like(self.origin(), np.inf)
         own = self._couplings.independent
         limits, start = self.skeleton.limits.hinge[own], self.start.hinges[own]
@@ -65,17 +65,17 @@ class QuaternionCoordinates(Coordinates):
         return lower, upper
 
     def constraints(self) -> Constraints | None:
-        """The swings and twists that have limits, and the norms of all quaternions."""
+        """Returns the limits on swings and twists, and the norms of all quaternions."""
         return quaternion_constraints(self.skeleton, len(self.origin()))
 
     def vector(self, pose: Pose) -> Array:
-        """A pose's translation, unit quaternions and hinge angles."""
+        """Returns a pose's translation, unit quaternions and hinge angles."""
         root = [pose.root[:3, 3], from_matrix(pose.root[:3, :3])] if self.skeleton.free else []
         own = pose.hinges[self._couplings.independent]
         return np.concatenate([*root, pose.balls.ravel(), own])
 
     def _split(self, x: Array) -> tuple[Array, Array]:
-        """The un-normalised quaternions (L, 4) and all hinge angles (n_hinge,)."""
+        """Returns the un-normalised quaternions (L, 4) and all hinge angles (n_hinge,) [rad]."""
         own = self._couplings.independent
         first = len(x) - len(own)
         hinges = np.zeros(self._couplings.hinges)

@@ -1,4 +1,4 @@
-"""Residuals: what a kernel or term that compares points with surfaces gives; all else follows."""
+"""Residuals of kernels and terms that compare points with surfaces, and their responses."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ from regkit.system.arrays import Array, Indices
 
 @dataclass(frozen=True)
 class Residuals:
-    """R residuals between data and primitives, of D parts each.
+    """R residuals between data and primitives, scalar or with D components.
 
     Attributes:
-        owners: The primitive of each, (R,).
-        values: (R,), or (R, D) for residuals that are vectors.
-        rows: Their derivatives to the motion of the owner, (R, 6) or (R, D, 6): to its translation,
-            then to a rotation vector in the world about its own centre.
-        weights: (R,).
-        constant: An energy that no residual changes.
+        owners: Primitive of each residual, (R,).
+        values: (R,), or (R, D) for vectors.
+        rows: Derivatives to the owner's motion, (R, 6) or (R, D, 6): to its translation, then to a
+            rotation vector in the world about its centre.
+        weights: Weights of the residuals, (R,).
+        constant: Summand of the energy that depends on no residual.
     """
 
     owners: Indices
@@ -38,15 +38,20 @@ class Residuals:
 
     @property
     def sizes(self) -> Array:
-        """The residuals (R,), or the norms of those that are vectors."""
+        """Magnitudes of the residuals, (R,): signed values of scalars, norms of vectors."""
         if self.values.ndim == 1:
             return self.values
         return np.asarray(np.sqrt(np.einsum("rd,rd->r", self.values, self.values)))
 
     def response(self, loss: Loss, count: int, *, curvature: bool) -> Response:
-        """The energy ``sum w rho(|r|)`` of ``count`` primitives, its wrenches and blocks.
+        """Returns the energy ``sum w rho(|r|)``, wrenches (K, 6) and blocks (K, 6, 6).
 
         The wrenches are exact; the blocks are those of Gauss-Newton with the loss's weights.
+
+        Args:
+            loss: The robust loss rho.
+            count: Number K of primitives.
+            curvature: Whether to return blocks.
         """
         if not len(self.owners):
             blocks = np.zeros((count, 6, 6)) if curvature else None
@@ -64,16 +69,16 @@ class Residuals:
 
 
 class ResidualSimilarity(Similarity):
-    """A robust loss of residuals: the author gives the residuals, the rest follows.
+    """A robust loss of residuals: a subclass defines the residuals only.
 
     Args:
-        observation: The data.
-        loss: What a residual costs.
+        observation: Points and weights of the data.
+        loss: Robust loss of a residual.
 
     Attributes:
         points: The data, (N, 3) [m].
-        weights: Of the points, (N,), of sum one.
-        loss: What a residual costs.
+        weights: Weights of the points, (N,), summing to one.
+        loss: Robust loss of a residual.
     """
 
     def __init__(self, observation: Observation, loss: Loss) -> None:
@@ -83,16 +88,16 @@ class ResidualSimilarity(Similarity):
 
     @abstractmethod
     def residuals(self, placed: Placed[Any]) -> Residuals:
-        """The residuals of primitives in the world; a kernel has one for each point, in order."""
+        """Returns the residuals of placed primitives; for a kernel one per point, in order."""
 
     def nearest(
         self, placed: Placed[Any], local: Array, distances: Array, gradients: Array
     ) -> Residuals:
-        """The distance of each point to its nearest primitive.
+        """Returns the distance of each point to its nearest primitive as a residual.
 
         Args:
-            placed: The primitives.
-            local: The points in the primitives' own axes, as ``Placed.local`` gives them.
+            placed: The primitives in the world.
+            local: Points in the primitives' own axes, from ``Placed.local``, (N, K, 3) [m].
             distances: Signed distances of all points to all primitives, (N, K) [m].
             gradients: Their derivatives to the points, in the primitives' own axes, (N, K, 3).
         """
@@ -104,11 +109,11 @@ class ResidualSimilarity(Similarity):
         return Residuals(owners, distances[each, owners], rows, self.weights)
 
     def __call__(self, placed: Placed[Any], *, curvature: bool = False) -> Response:
-        """The energy, its exact wrenches and, if asked for, the Gauss-Newton blocks."""
+        """Returns the energy, its exact wrenches and, on request, the Gauss-Newton blocks."""
         return self.residuals(placed).response(self.loss, len(placed), curvature=curvature)
 
     def inlier_probability(self, placed: Placed[Any]) -> Array | None:
-        """The loss's weight of each point's residual, (N,); None by squares, which cannot tell."""
+        """Returns the loss's weight of each residual, (N,); None for squares, which accept all."""
         if not np.isfinite(self.loss.tuning):
             return None
         return self.loss.inlier_probability(self.residuals(placed).sizes)

@@ -1,4 +1,4 @@
-"""Robust losses: residuals that are too large to be the model's count little, or nothing more."""
+"""Robust losses: large residuals count little or not at all."""
 
 from __future__ import annotations
 
@@ -15,28 +15,28 @@ from regkit.system.errors import ConfigError
 
 
 class Robust(Model):
-    """What residuals cost, and from what size on they are taken for outliers."""
+    """A robust loss and its scale, which separates inliers from outliers."""
 
     loss: Literal["squares", "huber", "tukey", "geman_mcclure"] = "geman_mcclure"
-    """Half the square; or that up to some scales, and from there on a line (huber), a constant
-    (tukey), or towards a constant (geman_mcclure)."""
+    """Half the square near zero; beyond a few scales a line (huber), a constant (tukey) or an
+    approach to a constant (geman_mcclure)."""
     scale: Annotated[float, Field(gt=0.0)] | None = None
-    """Standard deviation of the residuals that are the model's own [m]; without it, that of each
-    frame's residuals where its registration begins."""
+    """Standard deviation of the inliers' residuals [m]; by default estimated from each frame's
+    residuals at the start of its registration."""
 
     def bound(
         self, residuals: Array | None = None, *, least: float = 0.0, smoothing: float = 0.0
     ) -> Loss:
-        """The loss whose scale is that of the data, one function for the whole solution.
+        """Returns the loss with the scale of the data, one function for the whole solution.
 
         Args:
-            residuals: At the start, (N,) [m]; they are needed where no scale is given.
-            least: The least estimated scale [m], such as the standard deviation of the data:
-                residuals that happen to be equal say nothing about noise.
-            smoothing: A standard deviation [m] that widens the scale.
+            residuals: Residuals at the start, (N,) [m]; required without ``scale``.
+            least: Lower bound of the estimated scale [m], such as the standard deviation of the
+                data: residuals that happen to be equal do not reveal the noise.
+            smoothing: Standard deviation that widens the scale [m].
 
         Raises:
-            ConfigError: If the scale is neither given nor follows from residuals.
+            ConfigError: If neither ``scale`` nor residuals are given.
         """
         scale = self.scale
         if scale is None:
@@ -47,50 +47,50 @@ class Robust(Model):
 
 
 def median_scale(residuals: Array) -> float:
-    """The standard deviation of normal residuals (N,) about zero, by their median absolute value.
+    """Returns the standard deviation of zero-mean normal residuals (N,) from the median |r|.
 
-    It is the median absolute deviation (MAD) from zero, which is what the model predicts; half of
-    the residuals may be outliers.
+    This is the median absolute deviation (MAD) from zero, the model's prediction. It tolerates up
+    to half of the residuals as outliers.
     """
     return float(np.median(np.abs(residuals))) / _NORMAL_QUARTILE
 
 
 @dataclass(frozen=True)
 class Loss(ABC):
-    """A function rho of the residual that is near half its square, in units of the scale.
+    """A function rho of a residual that is near half its square, in units of the scale.
 
     Attributes:
         scale: Standard deviation s of the residuals [m].
-        tuning: From where on residuals are taken for outliers, c, in units of the scale; with these
-            a mean of normal residuals has 95 % of the efficiency that squares would give it.
+        tuning: Tuning constant c beyond which residuals are outliers, in units of the scale; its
+            value gives a mean of normal residuals 95 % of the efficiency of squares.
     """
 
     scale: float
     tuning: ClassVar[float]
 
     def values(self, residuals: Array) -> Array:
-        """Rho of residuals r (N,) [m], without a unit: r^2 / (2 s^2) near zero."""
+        """Returns rho of residuals r (N,) [m], dimensionless: r^2 / (2 s^2) near zero."""
         return self._values((residuals / self.scale) ** 2)
 
     def gradient(self, residuals: Array) -> Array:
-        """The derivative of rho, (N,) [1/m]."""
+        """Returns the derivative of rho, (N,) [1/m]."""
         return self.weights(residuals) * residuals
 
     def weights(self, residuals: Array) -> Array:
-        """The derivative over the residual, for Gauss-Newton, (N,) [1/m^2]: 1 / s^2 near zero."""
+        """Returns rho'(r) / r, the Gauss-Newton weights, (N,) [1/m^2]: 1 / s^2 near zero."""
         return self.inlier_probability(residuals) / self.scale**2
 
     def inlier_probability(self, residuals: Array) -> Array:
-        """The weight of residuals (N,) [m] against that of a small one, (N,), from 0 to 1."""
+        """Returns the weights of residuals (N,) [m] relative to a small residual's, from 0 to 1."""
         return self._relative_weights((residuals / self.scale) ** 2)
 
     @abstractmethod
     def _values(self, squares: Array) -> Array:
-        """Rho of u (N,), for u^2."""
+        """Returns rho(u), (N,), from u^2."""
 
     @abstractmethod
     def _relative_weights(self, squares: Array) -> Array:
-        """Psi(u) / u, (N,), for u^2."""
+        """Returns psi(u) / u, (N,), from u^2."""
 
 
 class Squares(Loss):
@@ -133,7 +133,7 @@ class Tukey(Loss):
 
 
 class GemanMcClure(Loss):
-    """``u^2 / 2 / (1 + (u/c)^2)``, which comes to c^2 / 2 far away."""
+    """``u^2 / 2 / (1 + (u/c)^2)``, which approaches c^2 / 2."""
 
     tuning = 3.787
 
@@ -145,7 +145,7 @@ class GemanMcClure(Loss):
 
 
 class PseudoHuber(Loss):
-    """``sqrt(1 + u^2) - 1``: half the square near zero, a line far away."""
+    """``sqrt(1 + u^2) - 1``: half the square near zero, linear far away."""
 
     tuning = 1.0
 
@@ -164,4 +164,4 @@ _LOSSES: dict[str, type[Loss]] = {
 }
 
 _NORMAL_QUARTILE = 0.6744897501960817
-"""Half of normal deviates are within so many standard deviations."""
+"""Half of standard normal deviates have a smaller absolute value."""

@@ -18,28 +18,31 @@ from regkit.system.arrays import Array
 class TangentCoordinates(Coordinates):
     """Steps on the tangent space at the start: 6 for a free root, 3 for a ball, 1 for a hinge.
 
-    A hinge that follows another has none.
+    A coupled hinge has none.
     """
 
     unique = True
 
     def origin(self) -> Array:
-        """Zero."""
+        """Returns zeros (m,)."""
         return np.zeros(self.skeleton.dofs - len(self._couplings))
 
     def pose(self, x: Array) -> Pose:
-        """``retract(start, x)``, followers made to follow."""
+        """Returns ``retract(start, x)`` with coupled hinges set from their leaders."""
         if not len(self._couplings):
             return self.skeleton.retract(self.start, x)
         pose = self.skeleton.retract(self.start, self._step(x))
         return Pose(pose.root, pose.balls, self._couplings.coupled(pose.hinges))
 
     def vector(self, pose: Pose) -> Array:
-        """The step from the start to a pose, its rotations of at most half a turn."""
+        """Returns the step (m,) from the start to a pose, with rotations of at most half a turn."""
         return self._independent(self.skeleton.difference(self.start, pose))
 
     def jacobian(self, x: Array) -> Array:
-        """By the right Jacobian of each rotation vector: exp(w + dw) = exp(w) exp(J dw)."""
+        """Returns D from the right Jacobians of the rotation vectors.
+
+        They satisfy exp(w + dw) = exp(w) exp(J dw) to first order.
+        """
         first = 3 if self.skeleton.free else 0
         hinges = self.skeleton.hinge_dofs
         jacobian = step_jacobian(self._step(x), first, hinges.start)
@@ -50,7 +53,7 @@ class TangentCoordinates(Coordinates):
         ])  # fmt: skip
 
     def bounds(self) -> tuple[Array, Array]:
-        """The hinges' limits, and half a turn for each part of a rotation vector."""
+        """Returns the hinges' limits, and half a turn for each component of a rotation vector."""
         lower, upper = np.full((2, self.skeleton.dofs), np.pi)
         lower = -lower
         if self.skeleton.free:
@@ -62,16 +65,16 @@ class TangentCoordinates(Coordinates):
         return np.minimum(lower, 0.0), np.maximum(upper, 0.0)
 
     def constraints(self) -> Constraints | None:
-        """The swings and twists of the ball joints that have limits."""
+        """Returns the limits of swings and twists as constraints; None without any."""
         return tangent_constraints(self.skeleton, self.start.balls, len(self.origin()))
 
     def _step(self, x: Array) -> Array:
-        """The step (n,) of all degrees of freedom at x (m,)."""
+        """Returns the step (n,) of all degrees of freedom at x (m,)."""
         if not len(self._couplings):
             return x
         hinges = self.skeleton.hinge_dofs.start
         return np.concatenate([x[:hinges], self._couplings.jacobian @ x[hinges:]])
 
     def _independent(self, step: Array) -> Array:
-        """The part (m,) of a step (n,) that followers have no part in."""
+        """Returns the entries (m,) of a step (n,) without those of coupled hinges."""
         return np.delete(step, self.skeleton.hinge_dofs.start + self._couplings.followers)

@@ -1,4 +1,4 @@
-"""Gaps between many configurations of a limb and points, in compiled loops."""
+"""Mean distances of points to many configurations of a limb, in compiled loops."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from regkit.system.compiled import compiled
 
 @compiled
 def mean_gaps(places: Array, radii: Array, points: Array, reach: float) -> Array:
-    """How far points are from the surface of spheres in each of N places, on average, (N,).
+    """Returns the mean distance (N,) of points to the spheres' surface, in units of ``reach``.
 
     Args:
-        places: Centres of the spheres, (N, P, 3) [m].
-        radii: (P,) [m].
-        points: (M, 3) [m].
-        reach: No gap counts more than this [m]; the mean is a part of it.
+        places: Centres of the spheres in N configurations, (N, P, 3) [m].
+        radii: Radii of the spheres, (P,) [m].
+        points: Points, (M, 3) [m].
+        reach: Upper bound of each distance [m].
     """
     means = np.empty(len(places))
     for index in range(len(places)):

@@ -1,4 +1,4 @@
-"""Where else a limb could be: its configurations held against what the rest of a body explains."""
+"""Search for a limb among sampled configurations by the data that the rest does not explain."""
 
 from __future__ import annotations
 
@@ -16,30 +16,30 @@ from regkit.skeleton import Placement, Pose
 from regkit.system.arrays import Array
 
 SPACING = 0.05
-"""Distance of the points on a limb's axis, as a part of the body's size."""
+"""Distance of the points on a limb's axis, as a fraction of the body's size."""
 
 MOST_POINTS, FEWEST_POINTS = 24, 3
-"""So many bare points tell where a limb is; fewer tell nothing."""
+"""Maximum number of unexplained points to compare, and the minimum that shows where a limb is."""
 
 LIKELY = 30
-"""How many configurations that cover the bare points are held against all points."""
+"""Number of configurations, best for the unexplained points, that are compared with all points."""
 
 BETTER = 0.9
-"""What a configuration may have of the present misfit, to be worth a try."""
+"""A configuration is worth a try if its misfit is below this fraction of the current misfit."""
 
 
 @dataclass(frozen=True)
 class LimbSearch:
-    """Configurations of a limb, drawn once.
+    """Sampled configurations of a limb.
 
     Attributes:
-        body: Whose limb it is.
+        body: The body with the limb.
         limb: The limb.
         axes: Points on the limb's axis.
-        rest: The surface of the rest of the body.
-        balls: Joints of each of N configurations, (N, n_ball, 4).
-        hinges: And their hinges, (N, n_hinge) [rad].
-        places: The points in the frame of the segment that the limb hangs on, (N, P, 3) [m].
+        rest: Capsules of the rest of the body.
+        balls: Quaternions of the ball joints in N configurations, (N, n_ball, 4).
+        hinges: Hinge angles in these configurations, (N, n_hinge) [rad].
+        places: The axis points in the frame of the limb's parent segment, (N, P, 3) [m].
     """
 
     body: Body
@@ -52,7 +52,13 @@ class LimbSearch:
 
     @classmethod
     def of_all(cls, body: Body, random: np.random.Generator, samples: int) -> Iterator[LimbSearch]:
-        """A search for each of a body's limbs, with so many configurations."""
+        """Yields a search for each of a body's limbs.
+
+        Args:
+            body: The body.
+            random: Source of the configurations.
+            samples: Number N of configurations within the joint limits.
+        """
         rest = body.skeleton.rest()
         balls, hinges = body.skeleton.limits.sampled(random, samples)
         for limb in limbs_of(body.skeleton):
@@ -67,12 +73,12 @@ class LimbSearch:
             yield cls(body, limb, axes, body.capsules.selected(~own), balls, hinges, places)
 
     def starts(self, cloud: KDTree, pose: Pose, most: int) -> Iterator[Pose]:
-        """The poses, at most so many, whose limb covers best what the rest leaves bare.
+        """Yields up to ``most`` poses whose limb best covers what the rest leaves unexplained.
 
         Args:
             cloud: The frame's points [m].
-            pose: Of the body; that of the limb is in doubt.
-            most: How many are wanted.
+            pose: Pose of the body, in which the limb is in doubt.
+            most: Maximum number of poses.
         """
         placement = self.body.place(pose)
         carrier = placement.transforms[self.limb.parent]
@@ -91,7 +97,7 @@ class LimbSearch:
                 yield self.limb.rotated(pose, self.balls[chosen], self.hinges[chosen])
 
     def _bare(self, points: Array, placement: Placement, root: Array) -> Array:
-        """The points within the limb's reach that the rest of the body does not explain."""
+        """Returns points within the limb's length that the rest of the body does not explain."""
         length = float(np.linalg.norm(self.places - self.places[:, :1], axis=2).max())
         near = points[np.linalg.norm(points - root, axis=1) < 1.2 * length]
         if len(self.rest):
@@ -100,15 +106,15 @@ class LimbSearch:
         return np.asarray(near[:: max(1, len(near) // MOST_POINTS)])
 
     def _data_to_model(self, places: Array, bare: Array) -> Array:
-        """How far the bare points are from the limb's surface, in each of N places, (N,)."""
+        """Returns the misfit (N,) of the unexplained points to the limb's surface."""
         return mean_gaps(places, self.axes.radii, bare, self._cutoff)
 
     def _model_to_data(self, places: Array, cloud: KDTree) -> Array:
-        """How far the limb's surface is from the points, in each of N places, (N,)."""
+        """Returns the misfit (N,) of the limb's surface to the points."""
         gaps = np.maximum(cloud.query(places)[0] - self.axes.radii, 0.0)
         return np.asarray(np.minimum(gaps, self._cutoff).mean(axis=1) / self._cutoff)
 
     @property
     def _cutoff(self) -> float:
-        """No gap counts more than the limb's width [m]."""
+        """Upper bound of a distance, the limb's width [m]."""
         return 2.0 * float(self.axes.radii.max())

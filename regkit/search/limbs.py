@@ -1,4 +1,4 @@
-"""Limbs: the chains of segments that hang on a body's trunk."""
+"""Limbs: chains of segments attached to a body's trunk."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ class Limb:
     """A chain without branches: an arm, a leg, a head, a finger.
 
     Attributes:
-        name: That of its first segment.
-        parent: The segment of the trunk that it hangs on.
-        segments: From the trunk outwards, (L,).
+        name: Name of its first segment.
+        parent: Index of the trunk segment to which it is attached.
+        segments: Indices of its segments from the trunk outwards, (L,).
         balls: Indices of its ball joints among the skeleton's, (B,).
-        hinges: Indices of its hinges, (H,).
+        hinges: Indices of its hinges among the skeleton's, (H,).
     """
 
     name: str
@@ -29,7 +29,13 @@ class Limb:
     hinges: Indices
 
     def rotated(self, pose: Pose, balls: Array, hinges: Array) -> Pose:
-        """A pose with this limb's joints from (..., n_ball, 4) and (..., n_hinge) [rad]."""
+        """Returns poses (...) that take this limb's joints from other configurations.
+
+        Args:
+            pose: A single pose, which provides all other joints.
+            balls: Unit quaternions of all ball joints, (..., n_ball, 4).
+            hinges: Angles of all hinges, (..., n_hinge) [rad].
+        """
         all_balls = np.tile(pose.balls, (*hinges.shape[:-1], 1, 1))
         all_hinges = np.tile(pose.hinges, (*hinges.shape[:-1], 1))
         all_balls[..., self.balls, :] = balls[..., self.balls, :]
@@ -38,7 +44,7 @@ class Limb:
 
 
 def limbs_of(skeleton: Skeleton) -> list[Limb]:
-    """The limbs that move against the trunk, which is what branches, and all that it hangs on."""
+    """Returns the movable limbs; the trunk consists of branching segments and their ancestors."""
     count = len(skeleton.names)
     children = [np.flatnonzero(skeleton.parents == segment) for segment in range(count)]
     limbs = []

@@ -1,4 +1,4 @@
-"""A start in any orientation: many rotations, each registered roughly, the best one kept."""
+"""Rigid alignment from any orientation: the best of many rotations, each registered roughly."""
 
 from __future__ import annotations
 
@@ -16,15 +16,19 @@ from regkit.observation import Observation
 from regkit.system.arrays import Array
 
 SKETCH = 400
-"""So many points are registered from every rotation."""
+"""Number of points that are registered from every rotation."""
 
 
 def by_rotations(source: Array, target: Array, method: Method) -> tuple[Array, str]:
-    """T_target_source (4, 4) that lies best of all that a method finds from many rotations.
+    """Returns the best T_target_source (4, 4) of a method from many rotations, and a comment.
 
-    The centroids are laid on one another, and both clouds are downsampled to a sketch. Each
-    result is judged by its fitness and overlap at the distance of neighbouring points, so that a
-    method need not tell energies.
+    The centroids are aligned and both clouds are downsampled. Fitness and overlap at the spacing
+    of neighbouring points rank the results, so that a method need not report an energy.
+
+    Args:
+        source: Source points, (N, 3) [m].
+        target: Target points, (M, 3) [m].
+        method: Registration method.
 
     Raises:
         RegkitError: If the method cannot register such a cloud.
@@ -48,7 +52,9 @@ def by_rotations(source: Array, target: Array, method: Method) -> tuple[Array, s
 
 
 def icosahedral() -> Array:
-    """The 60 rotations of the icosahedron, (60, 3, 3); none is farther than 45 deg from any other.
+    """Returns the 60 rotations of the icosahedron, (60, 3, 3).
+
+    No rotation is farther than 45 deg from the nearest of them.
 
     Source: Conway and Smith, On Quaternions and Octonions, 2003, section 3.5 (the icosians).
     """
@@ -60,7 +66,7 @@ def icosahedral() -> Array:
     for a, b, c in product((1.0, -1.0), repeat=3):
         values = np.array([0.0, a * 1.0, b * golden, c / golden])
         units += [values[list(order)] for order in even]
-    # A quaternion and its opposite are the same rotation.
+    # A quaternion and its negative are the same rotation.
     unique = {
         tuple(np.round(q * np.sign(q[np.flatnonzero(np.abs(q) > 1e-9)[0]]), 9)): q for q in units
     }

@@ -20,12 +20,12 @@ STIFFNESS = 0.05
 
 @dataclass(frozen=True)
 class Stage:
-    """One fit of several, from far to near and from stiff to loose.
+    """One of several fits, from far to near and from stiff to loose.
 
     Attributes:
-        cutoff: Distances much larger than this [m] count little.
+        cutoff: Distances much larger than this count little [m].
         stiffness: Weight of a joint's rotation [rad] against a distance [cutoff].
-        evaluations: Evaluations of the distances, at most.
+        evaluations: Maximum number of evaluations of the distances.
     """
 
     cutoff: float
@@ -34,13 +34,13 @@ class Stage:
 
 
 def fitted(scan: Scan, body: Body, pose: Pose, stages: Iterable[Stage]) -> Pose:
-    """The pose of least distances near ``pose``, its hinges within their limits.
+    """Returns the pose of least distances near ``pose``, with hinges within their limits.
 
     Args:
         scan: The cloud.
-        body: What is fitted.
-        pose: Where to begin.
-        stages: One fit after the other, each from where the last one ended.
+        body: The body to fit.
+        pose: Initial pose.
+        stages: The fits; each continues from the result of the last.
     """
     for stage in stages:
         pose = _fitted(scan, body, pose, stage)
@@ -50,7 +50,7 @@ def fitted(scan: Scan, body: Body, pose: Pose, stages: Iterable[Stage]) -> Pose:
 def _fitted(scan: Scan, body: Body, pose: Pose, stage: Stage) -> Pose:
     coordinates = TangentCoordinates(body.skeleton, pose)
     lower, upper = coordinates.bounds()
-    # SciPy wants some room between the bounds, even for a hinge that is not to move.
+    # SciPy requires some room between the bounds, even for a hinge that must not move.
     room = np.where(upper - lower < 1e-9, 1e-9, 0.0)
     at = _ResidualsAt(scan, body, coordinates, stage)
     solution = least_squares(
@@ -58,7 +58,7 @@ def _fitted(scan: Scan, body: Body, pose: Pose, stage: Stage) -> Pose:
         coordinates.origin(),
         jac=at.jacobian,
         bounds=(lower - room, upper + room),
-        # The default method leaves a bound on which it starts by tiny steps only.
+        # From a start on a bound, the default method leaves it by tiny steps only.
         method="dogbox",
         loss="soft_l1",
         max_nfev=stage.evaluations,
@@ -67,7 +67,7 @@ def _fitted(scan: Scan, body: Body, pose: Pose, stage: Stage) -> Pose:
 
 
 class _ResidualsAt:
-    """Residuals and their Jacobian, which SciPy asks for one after the other at the same point."""
+    """Residuals and their Jacobian, which SciPy requests one after the other at the same point."""
 
     def __init__(
         self, scan: Scan, body: Body, coordinates: TangentCoordinates, stage: Stage
@@ -79,11 +79,11 @@ class _ResidualsAt:
         self._last: tuple[Array, tuple[Array, Array]] | None = None
 
     def residuals(self, x: Array) -> Array:
-        """Residuals (R,) at x (n,)."""
+        """Returns the residuals (R,) at x (n,)."""
         return self._at(x)[0]
 
     def jacobian(self, x: Array) -> Array:
-        """Their derivative (R, n)."""
+        """Returns their derivative (R, n) at x (n,)."""
         return self._at(x)[1]
 
     def _at(self, x: Array) -> tuple[Array, Array]:
@@ -94,7 +94,7 @@ class _ResidualsAt:
     def _evaluated(self, x: Array) -> tuple[Array, Array]:
         placement = self._body.place(self._coordinates.pose(x))
         sides = self._scan.distances(self._body, placement)
-        # Both sides count alike, however many distances they have.
+        # Both sides have the same total weight, whatever their numbers of distances.
         scales = [np.sqrt(1.0 / len(side.lengths)) / self._cutoff for side in sides]
         residuals = [scale * side.lengths for scale, side in zip(scales, sides, strict=True)]
         rows = [scale * side.rows(placement) for scale, side in zip(scales, sides, strict=True)]

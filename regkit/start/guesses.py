@@ -20,12 +20,12 @@ FACING_CAMERA = np.diag([1.0, -1.0, -1.0])
 
 @dataclass(frozen=True)
 class Candidate:
-    """A body that may be what is seen.
+    """A body and pose that may explain the data.
 
     Attributes:
         body: The body at a size.
         pose: Its pose.
-        misfit: How badly it fits; the less, the better.
+        misfit: Misfit to the data, dimensionless; lower is better.
     """
 
     body: Body
@@ -34,12 +34,12 @@ class Candidate:
 
 
 def guesses(scan: Scan, body: Body, cutoff: float) -> Iterator[Candidate]:
-    """The best place for every stance and turn.
+    """Yields the best position of every stance in every rotation.
 
     Args:
         scan: The cloud.
-        body: What is seen.
-        cutoff: Gaps beyond this count no more [m]; guesses are rough, and want a far one.
+        body: The body.
+        cutoff: Upper bound of each distance [m]; rough guesses require a large one.
     """
     places = scan.centres(body.size)
     for stance in body.stances:
@@ -51,7 +51,7 @@ def guesses(scan: Scan, body: Body, cutoff: float) -> Iterator[Candidate]:
 
 
 def _turns(body: Body) -> list[Array]:
-    """Rotations of the body before it faces the camera, (3, 3)."""
+    """Returns rotations (3, 3) of the body before it faces the camera."""
     if body.upright:
         return [vector_to_matrix(np.array([0.0, turn, 0.0])) for turn in np.radians([-30, 0, 30])]
     rolls = [vector_to_matrix(np.array([0.0, 0.0, turn])) for turn in np.radians(range(0, 360, 30))]
@@ -60,7 +60,7 @@ def _turns(body: Body) -> list[Array]:
 
 
 def _placed(body: Body, stance: Stance, rotation: Array, place: Array) -> Pose:
-    """The stance, turned, with the centre of its visible side at a place (3,)."""
+    """Returns the rotated stance with the centre of its visible side at a place (3,) [m]."""
     root = rotation @ stance.pose.root[:3, :3]
     pose = Pose(rigid(root, np.zeros(3)), stance.pose.balls, stance.pose.hinges)
     placed = body.capsules.place(body.place(pose).transforms)

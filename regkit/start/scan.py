@@ -1,4 +1,4 @@
-"""A cloud to which bodies are fitted."""
+"""A point cloud and its distances to bodies."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from regkit.skeleton import Placement
 from regkit.system.arrays import Array
 
 MOST_POINTS = 400
-"""A pose follows from this many points as well as from all of them, and sooner."""
+"""This many points determine a pose as well as all of them, and faster."""
 
 SPACING = 0.05
-"""Distance of the points on a body's axes, as a part of the body's size."""
+"""Distance of the points on a body's axes, as a fraction of the body's size."""
 
 
 class Scan:
@@ -31,9 +31,10 @@ class Scan:
         self._tree = KDTree(points)
 
     def centres(self, size: float) -> list[Array]:
-        """Where a body of this size [m] may be: at the centre, or at the ends of a long cloud.
+        """Returns possible centres (3,) of a body of this size [m].
 
-        A hand with its forearm is such a cloud, and the forearm is not part of the body.
+        They are the cloud's centre and, for a long cloud, places near its ends: the cloud of a hand
+        may include the forearm, which is not part of the body.
         """
         offsets = self._points - self._centre
         axis = np.linalg.svd(offsets, full_matrices=False)[2][0]
@@ -46,13 +47,19 @@ class Scan:
     def distances(
         self, body: Body, placement: Placement
     ) -> tuple[SurfaceDistances, SurfaceDistances]:
-        """The distances of the data to the body, and of the body to the data."""
+        """Returns the distances of the data to the body, and of the body to the data."""
         capsules = body.capsules.place(placement.transforms)
         axes = capsules.axis_points(SPACING * body.size)
         return data_to_model(capsules, self._points), model_to_data(axes, self._tree)
 
     def misfit(self, body: Body, placement: Placement, cutoff: float) -> float:
-        """The mean distances of both sides, cut off at ``cutoff`` [m], in its units: 0 to 2."""
+        """Returns the sum of both sides' mean distances in units of the cutoff, from 0 to 2.
+
+        Args:
+            body: The body.
+            placement: Its placement.
+            cutoff: Upper bound of each distance [m].
+        """
         return sum(
             float(np.minimum(np.abs(side.lengths), cutoff).mean()) / cutoff
             for side in self.distances(body, placement)

@@ -1,4 +1,4 @@
-"""Searching for the start: many guesses, the best of them fitted, the best fit kept."""
+"""Search for the start: the best of many guesses, fitted to the cloud."""
 
 from __future__ import annotations
 
@@ -18,32 +18,32 @@ from regkit.system.errors import ConfigError
 from regkit.system.optional import one_blas_thread
 
 CUTOFF = 0.06
-"""Gaps beyond this part of the body's size count no more: an arm's width on a person."""
+"""Distances beyond this fraction of the body's size count no more: an arm's width on a person."""
 
 FAR, NEAR = 3.0, 0.4
-"""Parts of the cutoff: the far one shows limbs in the wrong place, the near one a wrong shape,
+"""Factors of the cutoff: the far one reveals limbs in the wrong place, the near one a wrong shape
 unless noise hides it."""
 
 COARSE = ((FAR, 5.0), (1.0, 5.0), (1.0, 1.0), (1.0, 0.2), (1.0, STIFFNESS))
-"""Reach and stiffness of the first fits: as a whole at first, then joint by joint, for parallel
-fingers are taken for one another if they move before the hand lies right."""
+"""Cutoff and stiffness of the first fits. The body first moves as a whole: a hand's parallel
+fingers match the wrong data if they move before the hand is aligned."""
 
 FINE = ((1.0, STIFFNESS), (NEAR, STIFFNESS))
-"""Reach and stiffness of the last fits."""
+"""Cutoff and stiffness of the last fits."""
 
 LIKELY = 12
-"""How many guesses are fitted, in a middle size."""
+"""Number of guesses that are fitted in a middle size."""
 
 FINALISTS = 3
-"""How many of these are fitted in every candidate size."""
+"""Number of these fits that are refined in every candidate size."""
 
 REFINEMENTS = 2
-"""How often the steps between sizes are halved about the best one."""
+"""Number of times that the step between sizes is halved around the best size."""
 
 
 @dataclass(frozen=True)
 class Start:
-    """Where a recording begins.
+    """The pose and size in the first frame of a recording.
 
     Attributes:
         body: The body at its size.
@@ -55,33 +55,33 @@ class Start:
 
 
 def given_start(template: Template, description: PoseDescription) -> Start:
-    """The start that a user wrote down.
+    """Returns the start that a user specified.
 
     Raises:
-        ConfigError: If it turns a joint that the body does not have, or the size is not known.
+        ConfigError: If the pose names a joint that the body does not have, or the size is unknown.
     """
     size = template.given_size()
     if size is None:
-        raise ConfigError("a given start needs the template's size too")
+        raise ConfigError("a given start needs the template's size")
     body = template.body(size)
     return Start(body, body.skeleton.pose(description))
 
 
 def found_start(template: Template, observation: Observation, *later: Observation) -> Start:
-    """The start that fits the first frame best.
+    """Returns the start that fits the first frame best.
 
-    Every likely stance is placed at the cloud's centre, facing the camera, in every turn. The best
-    of these guesses are fitted to the cloud; those that then fit best are fitted in every
-    candidate size, annealed from far to near, and from the best fit on in sizes between these.
-    Shape models, kernels and solvers play no part, so that all methods begin alike.
+    Every likely stance is placed at the cloud's centre, facing the camera, in several rotations.
+    The best guesses are fitted to the cloud, the best fits are refined in every candidate size,
+    annealed from far to near, and the best of these in sizes between the candidates. The search
+    does not depend on shape models, kernels and solvers, so that all methods begin alike.
 
     Args:
-        template: What is seen, perhaps of unknown size.
+        template: The template, possibly of unknown size.
         observation: The first frame.
-        later: More frames; the one that fits best tells the size.
+        later: More frames; the one that fits best determines the size.
 
     Raises:
-        ConfigError: If the template has no capsules, or a root that does not move freely.
+        ConfigError: If the template has no capsules, or no free root.
     """
     smallest = template.body(template.candidate_sizes()[0])
     rigid = smallest.skeleton.free and len(smallest.skeleton.names) == 1
@@ -90,7 +90,7 @@ def found_start(template: Template, observation: Observation, *later: Observatio
     if not smallest.skeleton.free or not len(smallest.capsules):
         lack = "free root" if not smallest.skeleton.free else "capsules"
         raise ConfigError(
-            f"the template '{smallest.name}' has no {lack}, without which no start can be found; "
+            f"the template '{smallest.name}' has no {lack}, which the search for a start needs; "
             "give one (start:), and the template's size"
         )
     with one_blas_thread():
@@ -103,7 +103,7 @@ def _found_start(template: Template, scans: list[Scan]) -> Start:
         (best,) = _fits(scans[0], bodies)
         return Start(best.body, best.pose)
     fits = [_fits(scan, bodies) for scan in scans]
-    # The frame that fits best tells the size: a person who sits, or folds the arms, tells less.
+    # The best fit determines the size: a person who sits or folds the arms reveals it less well.
     bests = [min(of_frame, key=_misfit) for of_frame in fits]
     telling = int(np.argmin([best.misfit for best in bests]))
     sizes = [body.size for body in bodies]
@@ -115,7 +115,7 @@ def _found_start(template: Template, scans: list[Scan]) -> Start:
 
 
 def _fits(scan: Scan, bodies: list[Body]) -> list[Candidate]:
-    """The best fit of each body to a cloud."""
+    """Returns the best fit of each body to a cloud."""
     usual = bodies[len(bodies) // 2]
     rough = sorted(guesses(scan, usual, FAR * CUTOFF * usual.size), key=_misfit)[:LIKELY]
     coarse = [_fit(scan, usual, guess.pose, usual.size, COARSE) for guess in rough]
@@ -127,7 +127,7 @@ def _fits(scan: Scan, bodies: list[Body]) -> list[Candidate]:
 
 
 def _resized(scan: Scan, template: Template, best: Candidate, sizes: list[float]) -> Candidate:
-    """The best fit of sizes between the candidates', halving their distance again and again."""
+    """Returns the best fit in sizes between the candidates, halving their ratio repeatedly."""
     ratio, usual = sizes[1] / sizes[0], sizes[len(sizes) // 2]
     for _ in range(REFINEMENTS):
         ratio = np.sqrt(ratio)
@@ -141,16 +141,16 @@ def _resized(scan: Scan, template: Template, best: Candidate, sizes: list[float]
 def _fit(
     scan: Scan, body: Body, pose: Pose, usual: float, annealing: tuple[tuple[float, float], ...]
 ) -> Candidate:
-    """A body fitted from a pose; it is judged from far to near, by its joints and by its size.
+    """Returns a fit from a pose with its misfit over all cutoffs, joint limits and size.
 
-    All sizes are judged by the cutoff of the usual one, for a longer cutoff forgives more. A cloud
-    that does not tell the size, of a person who sits, say, is taken to be of the usual one.
+    All sizes share the cutoff of the usual size, since a longer cutoff is more lenient. A cloud
+    that does not reveal the size, such as a sitting person's, favours the usual one.
     """
     cutoff = CUTOFF * usual
     found = fitted(scan, body, pose, [Stage(part * cutoff, stiff) for part, stiff in annealing])
     placement = body.place(found)
     misfits = [scan.misfit(body, placement, part * cutoff) for part in (FAR, 1.0, NEAR)]
-    # A body of the wrong size fits as well as the right one if its joints may bend as they cannot.
+    # With violated joint limits a body of the wrong size fits as well as the right one.
     strain = float(body.skeleton.limits.violation(found).max(initial=0.0))
     unusual = float(np.log(body.size / usual) ** 2)
     return Candidate(body, found, float(np.mean(misfits)) + strain + unusual)

@@ -1,4 +1,4 @@
-"""Which frames of a track are doubtful, by the data alone."""
+"""Doubtful frames of a track, judged by the data alone."""
 
 from __future__ import annotations
 
@@ -12,35 +12,35 @@ from regkit.system.arrays import Array
 from regkit.tracking.track import Track
 
 FEW = 0.5
-"""A frame of which a smaller share of the points are inliers is doubtful."""
+"""A frame with a smaller share of inliers is doubtful."""
 
 FAR = 0.05
-"""So is one whose points lie farther from the surface, as a part of the body's size."""
+"""A frame is doubtful if its points are farther from the surface, as a fraction of the size."""
 
 
 NEAR = 0.03
-"""A part of the body has data near it within this part of the body's size."""
+"""A part of the body is seen if data lie within this fraction of the body's size."""
 
 SPACING = 0.05
-"""Distance of the points on a body's axes, as a part of its size."""
+"""Distance of the points on a body's axes, as a fraction of its size."""
 
 
 def doubtful(track: Track, size: float) -> NDArray[np.bool_]:
-    """Whether each of T frames is doubtful, (T,): a figure that is unknown raises no doubt.
+    """Returns whether each of T frames is doubtful, (T,); unknown values raise no doubt.
 
     Args:
-        track: What was found.
-        size: Of the body [m].
+        track: The track.
+        size: Size of the body [m].
     """
     return (track.inlier_shares < FEW) | (track.surface_distances > FAR * size)
 
 
 def unseen(body: Body, pose: Pose, points: Array) -> bool:
-    """Whether most of a body has no data near it, as one in place of something much smaller.
+    """Returns whether most of a body has no data near it, as if it replaced a much smaller thing.
 
     Args:
-        body: Its capsules are held against the data; a body without any raises no doubt.
-        pose: Of the body.
+        body: The body; without capsules it raises no doubt.
+        pose: Pose of the body.
         points: The data, (N, 3) [m].
     """
     if not len(body.capsules):

@@ -1,4 +1,4 @@
-"""Following a body through a recording: the loop that every experiment runs."""
+"""The tracking loop from frame to frame."""
 
 from __future__ import annotations
 
@@ -24,18 +24,18 @@ from regkit.system.compiled import loaded_loops
 from regkit.system.errors import DataError, RegkitError
 
 SUSPICIOUS = 10.0
-"""Data spread over so many times a body's size are more likely to be in another unit."""
+"""Data spread over more than this multiple of a body's size are probably in another unit."""
 
 
 @dataclass(frozen=True)
 class TrackedFrame:
-    """What was found in one frame.
+    """The result of one frame.
 
     Attributes:
-        observation: What was measured, as data.
-        registered: The pose and how it was found.
-        seconds: Time to observe and register; reading the file is not counted, nor is compiling.
-        preprocessing: How much of it was to observe [s].
+        observation: The frame's data.
+        registered: The registration result.
+        seconds: Time to preprocess and register [s], without reading the file and compiling.
+        preprocessing: Time to preprocess [s].
     """
 
     observation: Observation
@@ -51,10 +51,17 @@ def tracked(
     tracker: Tracker,
     start: Pose,
 ) -> Iterator[TrackedFrame]:
-    """Track a recording from a start pose, frame by frame.
+    """Yields the frames of a recording, tracked one by one from a start pose.
+
+    Args:
+        recording: The recording.
+        preprocessor: Preprocessor of the frames.
+        registrar: Method bound to the body.
+        tracker: Tracker that predicts the next pose.
+        start: Pose of the body in the first frame.
 
     Raises:
-        RegkitError: If a frame cannot be read or registered; it says which.
+        RegkitError: If a frame cannot be read or registered; the error names it.
     """
     past = Past.start(start)
     bound = tracker.bind(registrar)
@@ -63,8 +70,8 @@ def tracked(
             loops = loaded_loops()
             found = _step(frame, preprocessor, bound, past)
             if loaded_loops() != loops:
-                # Loops were compiled or loaded meanwhile. The step gives the same result again,
-                # and takes its own time.
+                # Loops were compiled or loaded meanwhile. Repeating the step gives the same result
+                # and its true time.
                 found = _step(frame, preprocessor, bound, past)
             _check_near(registrar.body, found.registered.pose, found.observation)
         except RegkitError as error:
@@ -84,18 +91,18 @@ def _step(
 
 
 def _check_near(body: Body, pose: Pose, observation: Observation) -> None:
-    """Refuse a body far from the data: what follows could only look like a track.
+    """Checks that a body is near the data, as any further track would be meaningless.
 
     Raises:
-        DataError: If it is farther from all data than it is large.
+        DataError: If the body is farther from all data than its size.
     """
     if not len(body.capsules):
         return
-    some = observation.points[:: max(1, len(observation.points) // 50)]
+    sample = observation.points[:: max(1, len(observation.points) // 50)]
     placed = body.capsules.place(body.place(pose).transforms)
-    distance = float(placed.surface_distance(some).min())
+    distance = float(placed.surface_distance(sample).min())
     if distance > body.size:
-        extent = float(np.linalg.norm(np.ptp(some, axis=0)))
+        extent = float(np.linalg.norm(np.ptp(sample, axis=0)))
         hint = f"; the points are spread over {extent:.4g} m: are they in metres (depth_scale)?"
         raise DataError(
             f"the registered body is {distance:.3g} m away from the data; the start or the "

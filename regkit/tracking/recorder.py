@@ -1,4 +1,4 @@
-"""Recording a track frame by frame: what is kept of a frame does not grow with its image."""
+"""Recording of a track frame by frame, with memory that does not grow with the images."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ from regkit.tracking.track import Track
 
 @dataclass(frozen=True)
 class Snapshot:
-    """A frame as pictures show it.
+    """A frame for pictures.
 
     Attributes:
-        frame: Its number in the recording.
-        points: What was measured, as data, (N, 3) [m].
-        pose: The pose found.
+        frame: Index of the frame in the recording.
+        points: The frame's data, (N, 3) [m].
+        pose: The registered pose.
     """
 
     frame: int
@@ -33,15 +33,15 @@ class Snapshot:
 
 
 class TrackRecorder:
-    """Takes the tracked frames of a session one by one.
+    """Records the tracked frames of a session one by one.
 
-    Of each frame it keeps the numbers that make a ``Track``; of the first frame, the last, and the
-    one whose points lie farthest from the surface also the points. Other frames are read again
-    when a picture asks for them.
+    It stores the values of a ``Track`` for every frame, and the points of only three: the first,
+    the last, and the one whose points are farthest from the surface. Other frames are read again
+    on request.
 
     Args:
-        session: What is tracked.
-        registrar: What registers its frames.
+        session: The session.
+        registrar: Method bound to the session's body.
     """
 
     def __init__(self, session: Session, registrar: Registrar) -> None:
@@ -53,11 +53,11 @@ class TrackRecorder:
         self._worst = -np.inf
 
     def __len__(self) -> int:
-        """Number of frames so far."""
+        """Number of recorded frames."""
         return len(self._messages)
 
     def add(self, frame: TrackedFrame) -> None:
-        """Record the next frame."""
+        """Records the next frame."""
         body, found, points = self._registrar.body, frame.registered, frame.observation.points
         placement = body.place(found.pose)
         distance = _surface_distance(body, placement, points)
@@ -87,7 +87,7 @@ class TrackRecorder:
             self._snapshots["worst"] = snapshot
 
     def track(self) -> Track:
-        """All frames so far as arrays."""
+        """Returns all recorded frames as arrays."""
         rest, markers = self._registrar.body.skeleton.rest(), self._registrar.body.markers
         shapes = {
             "root": rest.root.shape,
@@ -103,14 +103,14 @@ class TrackRecorder:
         )
 
     def message(self, index: int) -> str:
-        """Why the registration of a frame ended."""
+        """Returns the reason why the registration of a frame ended."""
         return self._messages[index]
 
     def snapshot(self, index: int) -> Snapshot:
-        """A frame as pictures show it; one that was not kept is read again.
+        """Returns a frame for pictures, read again unless it is stored.
 
         Raises:
-            RegkitError: If it cannot be read any more.
+            RegkitError: If it cannot be read again.
         """
         for kept in self._snapshots.values():
             if kept.frame == index:
@@ -120,7 +120,7 @@ class TrackRecorder:
 
 
 def _surface_distance(body: Body, placement: Placement, points: Array) -> float:
-    """Median distance [m] of points to the body's capsules, or to the points of its surface."""
+    """Returns the median distance [m] of points to the body's capsules or surface points."""
     if len(body.capsules):
         placed = body.capsules.place(placement.transforms)
         return float(np.median(np.abs(placed.surface_distance(points))))

@@ -1,4 +1,4 @@
-"""A session: who is seen in which recording, and where tracking begins."""
+"""A tracking session: recording, template, preprocessor and start."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ from regkit.tracking.loop import TrackedFrame, tracked
 
 @dataclass(frozen=True)
 class Session:
-    """A recording to be tracked, the same for every method.
+    """A recording to track, the same for every method.
 
     Attributes:
-        recording: Where the frames come from.
-        template: What is seen in them.
-        preprocessor: How frames become data.
-        start: The pose in the first frame, which needs the template's size; without it both are
-            found.
-        sized_in: In how many frames, spread over the recording, an unknown size is looked for.
+        recording: Source of the frames.
+        template: Template of the body.
+        preprocessor: Preprocessor of the frames.
+        start: Pose in the first frame, which requires the template's size; without it, pose and
+            size are searched for.
+        sized_in: Number of frames, spread over the recording, that determine an unknown size.
     """
 
     recording: Recording
@@ -35,7 +35,7 @@ class Session:
     sized_in: int = 3
 
     def begin(self) -> Start:
-        """The body at its size, and its pose in the first frame.
+        """Returns the body at its size, and its pose in the first frame.
 
         Raises:
             RegkitError: If the given start does not fit the body, the first frame cannot be read,
@@ -45,40 +45,45 @@ class Session:
             return _posed(self.template, self.start)
         if self.start is not None:
             return given_start(self.template, self.start)
-        observations = list(self._looked_at())
+        observations = list(self._start_observations())
         if not observations:
             raise DataError("the recording has no frame", place=self.recording.name)
         return found_start(self.template, *observations)
 
     def tracked(self, registrar: Registrar, tracker: Tracker, pose: Pose) -> Iterator[TrackedFrame]:
-        """Track the recording from a pose, frame by frame.
+        """Yields the recording's frames, tracked one by one from a pose.
+
+        Args:
+            registrar: Method bound to the body.
+            tracker: Tracker that predicts the next pose.
+            pose: Pose of the body in the first frame.
 
         Raises:
-            RegkitError: If a frame cannot be read or registered; it says which.
+            RegkitError: If a frame cannot be read or registered; the error names it.
         """
         return tracked(self.recording, self.preprocessor, registrar, tracker, pose)
 
     def observation(self, index: int) -> Observation:
-        """The data of a frame.
+        """Returns the data of a frame.
 
         Raises:
-            RegkitError: If it cannot be read.
+            RegkitError: If the frame cannot be read.
         """
         ((_, frame),) = self.recording.some([index])
-        return self._observed(index, frame)
+        return self._preprocessed(index, frame)
 
-    def _looked_at(self) -> Iterator[Observation]:
-        """The first frame, and later ones if the size is unknown and they are usable."""
+    def _start_observations(self) -> Iterator[Observation]:
+        """Yields the first frame and, for an unknown size, later ones that are usable."""
         count = 1 if self.template.given_size() is not None else self.sized_in
         for index, frame in self.recording.some(_spread(self.recording.length, count)):
             try:
-                yield self._observed(index, frame)
+                yield self._preprocessed(index, frame)
             except RegkitError:
-                # What is wrong with a later frame is told when it is tracked.
+                # An error in a later frame is reported when that frame is tracked.
                 if index == 0:
                     raise
 
-    def _observed(self, index: int, frame: Frame) -> Observation:
+    def _preprocessed(self, index: int, frame: Frame) -> Observation:
         try:
             return self.preprocessor.preprocess(frame)
         except RegkitError as error:
@@ -86,19 +91,19 @@ class Session:
 
 
 def _spread(length: int, count: int) -> Iterable[int]:
-    """The first frame, the last, and those that divide what lies between them equally."""
+    """Returns ``count`` frame indices spread evenly from the first to the last."""
     return sorted({(length - 1) * part // max(count - 1, 1) for part in range(count)})
 
 
 def _posed(template: Template, pose: Pose) -> Start:
-    """A start that is a pose already.
+    """Returns the start for a given pose.
 
     Raises:
-        ConfigError: If the size is unknown, or it is a pose of another skeleton.
+        ConfigError: If the size is unknown, or the pose belongs to another skeleton.
     """
     size = template.given_size()
     if size is None:
-        raise ConfigError("a given start needs the template's size too")
+        raise ConfigError("a given start needs the template's size")
     body = template.body(size)
     rest = body.skeleton.rest()
     for name in ("root", "balls", "hinges"):

@@ -1,4 +1,4 @@
-"""Tracks: what was found in all frames of a recording."""
+"""Tracks: the results of all frames of a recording."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ class Track:
 
     Attributes:
         root: T_camera_root, (T, 4, 4) [m].
-        balls: (T, n_ball, 4) unit quaternions.
-        hinges: (T, n_hinge) [rad].
-        markers: (T, M, 3) [m], in the camera's frame.
+        balls: Unit quaternions of the ball joints, (T, n_ball, 4).
+        hinges: Hinge angles, (T, n_hinge) [rad].
+        markers: Markers in the camera's frame, (T, M, 3) [m].
         surface_distances: Median distance of a frame's points to the body's surface, (T,) [m].
-        inlier_shares: Share of a frame's points that are inliers, (T,); NaN where unknown.
-        energies: (T,) in the method's own units.
-        evaluations: (T,).
+        inlier_shares: Fraction of a frame's points that are inliers, (T,); NaN if unknown.
+        energies: Energies in the method's own units, (T,).
+        evaluations: Numbers of energy evaluations, (T,).
         converged: Whether the solver met a tolerance, (T,).
-        seconds: To observe and register, (T,).
-        preprocessing: To observe, (T,) [s].
+        seconds: Time to preprocess and register, (T,) [s].
+        preprocessing: Time to preprocess, (T,) [s].
     """
 
     root: Array
@@ -44,7 +44,7 @@ class Track:
     preprocessing: Array
 
     def pose(self, index: int) -> Pose:
-        """The pose in a frame."""
+        """Returns the pose of a frame."""
         return Pose(self.root[index], self.balls[index], self.hinges[index])
 
     def __len__(self) -> int:
@@ -52,11 +52,11 @@ class Track:
         return len(self.seconds)
 
     def __getitem__(self, part: slice) -> Track:
-        """Some of the frames."""
+        """Returns a range of the frames."""
         return Track(**{field.name: getattr(self, field.name)[part] for field in fields(self)})
 
     def named_arrays(self, body: Body) -> dict[str, NDArray[Any]]:
-        """What a file holds: these arrays, the names of markers and ball joints, and the size."""
+        """Returns these arrays, the names of markers and ball joints, and the size, for a file."""
         skeleton = body.skeleton
         links = list(skeleton.segment_links)
         balls = [skeleton.names[links.index(link)] for link in skeleton.ball_links]

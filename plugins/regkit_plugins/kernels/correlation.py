@@ -1,4 +1,4 @@
-"""The paper's similarity: the overlap of the template's Gaussians with those of the data."""
+"""The correlation kernel: the overlap of model and data Gaussians, the paper's similarity."""
 
 from __future__ import annotations
 
@@ -11,22 +11,22 @@ from regkit.primitives import Gaussians, Placed, Primitives
 
 
 class Correlation(Kernel):
-    """Spatial correlation of a sum of Gaussians, generalized or not, with that of the data.
+    """Spatial correlation of the model's sum of Gaussians, generalized or not, with the data's.
 
     The energy is minus the paper's E (eq. 5) divided by the integral of the data's Gaussians, that
-    is, minus the mean density of the template over the data: a number without a unit, whose size
-    does not depend on how many points there are.
+    is, minus the mean density of the model over the data. It is dimensionless and does not depend
+    on the number of points.
     """
 
     kind: Literal["correlation"] = "correlation"
     accepts: ClassVar[type[Primitives]] = Gaussians
 
     covariance: Literal["exact", "frozen"] = "exact"
-    """Whether covariances turn with their segments, or keep their orientation of the start pose, as
-    the paper has it (after eq. 11)."""
+    """Whether covariances rotate with their segments, or keep their orientation of the start pose,
+    as in the paper (after eq. 11)."""
 
     def bind(
         self, observation: Observation, start: Placed[Gaussians], *, smoothing: float = 0.0
     ) -> Overlap:
-        """Bind the kernel to a frame's data."""
+        """Binds the kernel to the data of a frame."""
         return Overlap(observation, start, smoothing=smoothing, frozen=self.covariance == "frozen")

@@ -1,4 +1,4 @@
-"""The mixture likelihood of the data under the placed Gaussians and outliers."""
+"""The likelihood kernel: a mixture of the placed Gaussians and outliers."""
 
 from __future__ import annotations
 
@@ -19,28 +19,35 @@ from regkit.system.errors import DataError
 class Likelihood(Kernel):
     """Likelihood of the data under a mixture of the placed Gaussians and uniform outliers.
 
-    The energy is minus the mean logarithm of the density at the data points. The Gaussians compete
-    for the points, so that a limb is not drawn to data that another explains already. They are
-    mixed in proportion to the areas that they show to the camera in the start pose.
+    The energy is minus the mean log-density at the data points. The Gaussians compete for the
+    points, so data that one limb explains do not attract another. Their mixture weights are
+    proportional to the areas visible to the camera in the start pose.
     """
 
     kind: Literal["likelihood"] = "likelihood"
     accepts: ClassVar[type[Primitives]] = Gaussians
 
     outliers: Annotated[float, Field(gt=0.0, lt=1.0)] = 0.1
-    """Share of the data that is no part of the body, spread evenly over the data's box."""
+    """Fraction of outliers in the data, distributed uniformly over the data's bounding box."""
     covariance: Literal["exact", "frozen"] = "exact"
-    """Whether covariances turn with their segments, or keep their orientation of the start pose."""
+    """Whether covariances rotate with their segments, or keep their orientation at the start."""
 
     def bind(
         self, observation: Observation, start: Placed[Gaussians], *, smoothing: float = 0.0
     ) -> BoundLikelihood:
-        """Bind the kernel to a frame's data."""
+        """Binds the kernel to the data of a frame."""
         return BoundLikelihood(self, observation, start, smoothing)
 
 
 class BoundLikelihood(GaussianSimilarity):
-    """The likelihood bound to a frame."""
+    """``Likelihood`` bound to a frame.
+
+    Args:
+        kernel: The kernel.
+        observation: The data.
+        start: The Gaussians in the start pose.
+        smoothing: Standard deviation of the Gaussian that smooths the data [m].
+    """
 
     volume_power = 0.0
 
@@ -64,19 +71,21 @@ class BoundLikelihood(GaussianSimilarity):
         self._background = kernel.outliers / box_volume(observation)
 
     def weigh(self, densities: Array, data_weights: Array) -> float:
-        """A pair weighs by the Gaussian's share of the point, as in an E-step."""
+        """Returns the energy; a pair's weight is the Gaussian's posterior probability (E-step)."""
         total = densities.sum(axis=0) + self._background * data_weights
         densities *= data_weights / total
         return -float(data_weights @ np.log(total / data_weights))
 
     def inliers(self, densities: Array, data_weights: Array) -> Array:
-        """The share of each point that is no outlier's."""
+        """Returns the probability that a point is not an outlier, (N,)."""
         total = densities.sum(axis=0)
         return np.asarray(total / (total + self._background * data_weights))
 
 
 def box_volume(observation: Observation) -> float:
-    """Volume [m^3] of the data's box; a flat cloud counts as a tenth as deep as it is long.
+    """Returns the volume [m^3] of the data's bounding box.
+
+    Each side counts as at least a tenth of the longest, so that a flat cloud has a volume.
 
     Raises:
         DataError: If all points coincide.

@@ -1,4 +1,4 @@
-"""Point to point: the distance of data to the nearest vertices."""
+"""The point-to-point kernel: distances of data to the nearest vertices."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from regkit_plugins.kernels.point_to_plane.matching import MatchingKernel
 
 
 class PointToPoint(MatchingKernel):
-    """The distance of each data point to the nearest surfel, which is continuous in the pose.
+    """Distance of each data point to the nearest surfel, which is continuous in the pose.
 
-    Vertices cannot slide along the data: between two frames it is drawn to where it was.
+    Vertices do not slide along the data, so the body tends to lag behind motion between frames.
     """
 
     kind: Literal["point_to_point"] = "point_to_point"
@@ -22,5 +22,5 @@ class PointToPoint(MatchingKernel):
     def bind(
         self, observation: Observation, start: Placed[Surfels], *, smoothing: float = 0.0
     ) -> BoundMatching:
-        """Bind the kernel to a frame's data."""
+        """Binds the kernel to the data of a frame."""
         return BoundMatching(self, observation, start, smoothing, point_share=1.0)

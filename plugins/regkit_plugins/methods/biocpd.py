@@ -1,4 +1,4 @@
-"""Coherent point drift, as biocpd has it."""
+"""Coherent point drift by biocpd."""
 
 from __future__ import annotations
 
@@ -15,21 +15,21 @@ from regkit.system.optional import load_library
 
 
 class BioCPD(RigidMethod):
-    """biocpd's rigid coherent point drift, with sparse responsibilities."""
+    """Rigid coherent point drift by biocpd, with sparse responsibilities."""
 
     kind: Literal["biocpd"] = "biocpd"
 
     outliers: Annotated[float, Field(ge=0.0, lt=1.0)] = 0.0
-    """Share of outliers; the library's own default."""
+    """Fraction of outliers; the default is the library's."""
     max_iterations: Annotated[int, Field(ge=1)] = 100
-    """Steps at most; the library's own default."""
+    """Maximum number of iterations; the default is the library's."""
 
     def library(self) -> Any:
-        """The module ``biocpd``."""
+        """Returns the module ``biocpd``."""
         return load_library("biocpd", install="pip install 'regkit[baselines]'")
 
     def aligned(self, source: Array, target: Array, start: Array, size: float) -> Aligned:
-        """Align by ``RigidRegistration``, whose rotations stand to the right of points in rows."""
+        """Aligns with ``RigidRegistration``, whose rotations multiply rows from the right."""
         normalization = Normalization.around(target, size)
         registration = self.library().RigidRegistration(
             X=normalization.normalized(target),

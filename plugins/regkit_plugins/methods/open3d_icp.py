@@ -1,4 +1,4 @@
-"""Iterative closest points, as Open3D has it."""
+"""Iterative closest points by Open3D."""
 
 from __future__ import annotations
 
@@ -13,27 +13,27 @@ from regkit.system.optional import load_library
 
 
 class Open3DICP(RigidMethod):
-    """Open3D's iterative closest points: to points, to planes, or generalized."""
+    """Iterative closest points by Open3D: point to point, point to plane, or generalized."""
 
     kind: Literal["open3d_icp"] = "open3d_icp"
 
     estimation: Literal["point_to_point", "point_to_plane", "generalized"] = "point_to_plane"
-    """What the distance of a pair is."""
+    """Distance measure of a pair."""
     distance: Annotated[float, Field(gt=0.0)] = 0.1
-    """Pairs that are farther apart than this part of the source's size do not count."""
+    """Maximum distance of a pair, as a fraction of the source's size."""
     max_iterations: Annotated[int, Field(ge=1)] = 30
-    """Steps at most; Open3D's own default."""
+    """Maximum number of iterations; the default is Open3D's."""
     neighbours: Annotated[int, Field(ge=3)] = 30
-    """How many neighbours tell a normal; Open3D's own default."""
+    """Number of neighbours for estimating a normal; the default is Open3D's."""
 
     def library(self) -> Any:
-        """The module ``open3d``."""
+        """Returns the module ``open3d``."""
         return load_library("open3d")
 
     def aligned(self, source: Array, target: Array, start: Array, size: float) -> Aligned:
-        """Align by ``open3d.pipelines.registration``."""
+        """Aligns with ``open3d.pipelines.registration``."""
         library = self.library()
-        # Its warnings go to standard output, where results belong.
+        # Open3D prints warnings to standard output, where results belong.
         with library.utility.VerbosityContextManager(library.utility.VerbosityLevel.Error):
             return self._aligned(library, source, target, start, self.distance * size)
 

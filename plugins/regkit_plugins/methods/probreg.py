@@ -1,4 +1,4 @@
-"""Coherent point drift and FilterReg, as probreg has them."""
+"""Coherent point drift and FilterReg by probreg."""
 
 from __future__ import annotations
 
@@ -14,25 +14,25 @@ from regkit.system.arrays import Array
 from regkit.system.optional import load_library
 
 INSTALL = "pip install --no-deps probreg && pip install six transforms3d scikit-learn pyyaml addict"
-"""probreg asks for one old version of Open3D, but works with newer ones."""
+"""probreg requires one old version of Open3D, but works with newer ones."""
 
 
 class ProbregCPD(RigidMethod):
-    """probreg's coherent point drift, of time and memory of all pairs."""
+    """Coherent point drift by probreg, with time and memory for all pairs."""
 
     kind: Literal["probreg_cpd"] = "probreg_cpd"
 
     outliers: Annotated[float, Field(ge=0.0, lt=1.0)] = 0.0
-    """Share of outliers; the library's own default."""
+    """Fraction of outliers; the default is the library's."""
     max_iterations: Annotated[int, Field(ge=1)] = 50
-    """Steps at most; the library's own default."""
+    """Maximum number of iterations; the default is the library's."""
 
     def library(self) -> Any:
-        """The module ``probreg.cpd``."""
+        """Returns the module ``probreg.cpd``."""
         return load_library("probreg.cpd", install=INSTALL)
 
     def aligned(self, source: Array, target: Array, start: Array, size: float) -> Aligned:
-        """Align by ``registration_cpd``."""
+        """Aligns with ``registration_cpd``."""
         normalization = Normalization.around(target, size)
         result = self.library().registration_cpd(
             normalization.normalized(transformed(start, source)),
@@ -46,23 +46,23 @@ class ProbregCPD(RigidMethod):
 
 
 class ProbregFilterReg(RigidMethod):
-    """probreg's FilterReg, point to point."""
+    """FilterReg by probreg, point to point."""
 
     kind: Literal["probreg_filterreg"] = "probreg_filterreg"
 
     outliers: Annotated[float, Field(ge=0.0, lt=1.0)] = 0.0
-    """Share of outliers; the library's own default."""
+    """Fraction of outliers; the default is the library's."""
     shrinking: bool = False
-    """Whether the Gaussians get narrower from step to step; the library's own default."""
+    """Whether the Gaussians become narrower at each iteration; the default is the library's."""
     max_iterations: Annotated[int, Field(ge=1)] = 50
-    """Steps at most; the library's own default."""
+    """Maximum number of iterations; the default is the library's."""
 
     def library(self) -> Any:
-        """The module ``probreg.filterreg``."""
+        """Returns the module ``probreg.filterreg``."""
         return load_library("probreg.filterreg", install=INSTALL)
 
     def aligned(self, source: Array, target: Array, start: Array, size: float) -> Aligned:
-        """Align by ``registration_filterreg``."""
+        """Aligns with ``registration_filterreg``."""
         normalization = Normalization.around(target, size)
         result = self.library().registration_filterreg(
             normalization.normalized(transformed(start, source)),
@@ -76,4 +76,4 @@ class ProbregFilterReg(RigidMethod):
 
 def _aligned(transformation: Any, normalization: Normalization, start: Array) -> Aligned:
     step = normalization.transform(np.asarray(transformation.rot), np.asarray(transformation.t))
-    return Aligned(step @ start, True, 0, "the library does not say how it ended")
+    return Aligned(step @ start, True, 0, "the library does not report convergence")

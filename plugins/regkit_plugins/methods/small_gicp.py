@@ -1,4 +1,4 @@
-"""Generalized iterative closest points, as small_gicp has it."""
+"""Generalized iterative closest points by small_gicp."""
 
 from __future__ import annotations
 
@@ -13,28 +13,28 @@ from regkit.system.optional import load_library
 
 
 class SmallGICP(RigidMethod):
-    """small_gicp's registration on one thread; the clouds are not downsampled any further."""
+    """Registration by small_gicp on one thread, without further downsampling of the clouds."""
 
     kind: Literal["small_gicp"] = "small_gicp"
 
     registration_type: Literal["ICP", "PLANE_ICP", "GICP"] = "GICP"
-    """What the distance of a pair is."""
+    """Distance measure of a pair."""
     distance: Annotated[float, Field(gt=0.0)] = 0.1
-    """Pairs that are farther apart than this part of the source's size do not count."""
+    """Maximum distance of a pair, as a fraction of the source's size."""
     neighbours: Annotated[int, Field(ge=3)] = 20
-    """How many neighbours tell a covariance; the library's own default."""
+    """Number of neighbours for estimating a covariance; the default is the library's."""
     max_iterations: Annotated[int, Field(ge=1)] = 20
-    """Steps at most; the library's own default."""
+    """Maximum number of iterations; the default is the library's."""
     translation_tolerance: Annotated[float, Field(gt=0.0)] = 1e-4
-    """Stop when a step is less than this part of the source's size, and turns by less than 0.1
-    degrees."""
+    """The iteration stops at a step below this fraction of the source's size and a rotation below
+    0.1 degrees."""
 
     def library(self) -> Any:
-        """The module ``small_gicp``."""
+        """Returns the module ``small_gicp``."""
         return load_library("small_gicp", install="pip install 'regkit[baselines]'")
 
     def aligned(self, source: Array, target: Array, start: Array, size: float) -> Aligned:
-        """Align by ``small_gicp.align``."""
+        """Aligns with ``small_gicp.align``."""
         gicp = self.library()
         clouds = [gicp.PointCloud(points) for points in (target, source)]
         trees = [gicp.KdTree(cloud) for cloud in clouds]

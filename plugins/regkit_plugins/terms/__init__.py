@@ -6,5 +6,4 @@
 - ``intersection``: keeps the parts of a body apart.
 - ``limits``: penalises violations of joint limits.
 - ``visibility``: weights of occluded primitives.
-- ``compiled``: not a plug-in; the pair loops in compiled form.
 """

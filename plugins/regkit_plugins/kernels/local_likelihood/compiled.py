@@ -1,6 +1,6 @@
-"""The likelihood of points under their nearest Gaussians, as one compiled loop over the pairs.
+"""Likelihood of points under their nearest Gaussians, in one compiled loop over the pairs.
 
-The formulas stand in ``local_likelihood``, which calls this.
+``BoundLocalLikelihood`` documents the formulas.
 """
 
 from __future__ import annotations
@@ -15,9 +15,14 @@ from regkit.system.compiled import compiled
 
 @compiled
 def flattened(variances: Array, normals: Array, flatness: float) -> Array:
-    """Covariances sigma^2 (I - (1 - flatness^2) n n^T) of N data Gaussians, (N, 6).
+    """Returns covariances sigma^2 (I - (1 - flatness^2) n n^T) of N data Gaussians, (N, 6).
 
-    Symmetric matrices are written as their entries xx, yy, zz, xy, xz, yz.
+    A symmetric matrix is stored as its entries xx, yy, zz, xy, xz, yz.
+
+    Args:
+        variances: sigma^2, (N,) [m^2].
+        normals: Unit normals n, (N, 3).
+        flatness: Standard deviation along the normal as a fraction of sigma.
     """
     count = len(variances)
     covariances = np.empty((count, 6))
@@ -45,25 +50,25 @@ def local_mixture(
     background: float,
     curvature: bool,
 ) -> tuple[float, Array, Array, Array]:
-    """Energy, wrenches (K, 6), blocks (K, 6, 6) if wanted, and what of each point is explained.
+    """Returns energy, wrenches (K, 6), blocks (K, 6, 6) and inlier probabilities (N,).
 
     Args:
-        points: (N, 3).
-        point_weights: (N,), summing to one.
-        point_covariances: (N, 6).
-        neighbours: The Gaussians of each point, (N, k); K stands for none.
-        means: Of K Gaussians, (K, 3).
-        covariances: (K, 3, 3).
-        mixing: Their weights in the mixture over (2 pi)^(3/2), (K,).
-        background: The density of outliers.
-        curvature: Whether blocks are wanted.
+        points: Data points, (N, 3) [m].
+        point_weights: Weights of the points, (N,), summing to one.
+        point_covariances: Covariances of the points, (N, 6) [m^2]; see ``flattened``.
+        neighbours: Indices of each point's Gaussians, (N, k); K stands for none.
+        means: Means of the Gaussians, (K, 3) [m].
+        covariances: Covariances of the Gaussians, (K, 3, 3) [m^2].
+        mixing: Mixture weights divided by (2 pi)^(3/2), (K,).
+        background: Density of outliers [1/m^3].
+        curvature: Whether to compute blocks; otherwise their array is empty.
     """
     count, near = neighbours.shape
     total = len(means)
     energy = 0.0
     wrenches = np.zeros((total, 6))
     blocks = np.zeros((total if curvature else 0, 6, 6))
-    explained = np.empty(count)
+    inliers = np.empty(count)
     densities, inverses, residuals = np.empty(near), np.empty((near, 6)), np.empty((near, 3))
     pulled, turned = np.empty((3, 3)), np.empty((3, 3))
     for j in range(count):
@@ -92,7 +97,7 @@ def local_mixture(
             densities[a] = mixing[i] / sqrt(determinant) * exp(-0.5 * square)
             density += densities[a]
         energy -= point_weights[j] * log(density)
-        explained[j] = 1.0 - background / density
+        inliers[j] = 1.0 - background / density
         for a in range(near):
             share = densities[a] / density
             if share < 1e-6:
@@ -104,11 +109,11 @@ def local_mixture(
             v = own[3] * x + own[1] * y + own[5] * z
             w = own[4] * x + own[5] * y + own[2] * z
             m = covariances[i]
-            # Where the force applies, from the Gaussian's centre: the product's mean.
+            # The force acts at the mean of the product; (lx, ly, lz) is its lever from m_i.
             lx = m[0, 0] * u + m[0, 1] * v + m[0, 2] * w
             ly = m[0, 1] * u + m[1, 1] * v + m[1, 2] * w
             lz = m[0, 2] * u + m[1, 2] * v + m[2, 2] * w
-            # C P, whose antisymmetric part is how log |S| turns.
+            # The antisymmetric part of C P is the derivative of log |S| to the rotation.
             yz_ = m[1, 0] * own[4] + m[1, 1] * own[5] + m[1, 2] * own[2]
             zy_ = m[2, 0] * own[3] + m[2, 1] * own[1] + m[2, 2] * own[5]
             xz_ = m[0, 0] * own[4] + m[0, 1] * own[5] + m[0, 2] * own[2]
@@ -142,4 +147,4 @@ def local_mixture(
                 block[3, 3 + c] += share * (turned[2, c] * ly - turned[1, c] * lz)
                 block[4, 3 + c] += share * (turned[0, c] * lz - turned[2, c] * lx)
                 block[5, 3 + c] += share * (turned[1, c] * lx - turned[0, c] * ly)
-    return energy, wrenches, blocks, explained
+    return energy, wrenches, blocks, inliers

@@ -1,4 +1,4 @@
-"""The likelihood of the data under the Gaussians nearest to each point, for many of both."""
+"""The local-likelihood kernel: each point under its nearest Gaussians, for many of both."""
 
 from __future__ import annotations
 
@@ -19,28 +19,27 @@ from regkit_plugins.kernels.local_likelihood.compiled import flattened, local_mi
 class LocalLikelihood(Kernel):
     """Likelihood of the data under a mixture of each point's nearest Gaussians and outliers.
 
-    As ``likelihood``, for clouds against clouds: a point is compared with the few Gaussians that
-    are nearest to it in the start pose, so that time and memory grow with the number of points and
-    not with that of all pairs. The data are Gaussians too, flattened along the surface that they
-    lie on, as in generalized ICP (Segal, Haehnel, Thrun, Generalized-ICP, 2009, eq. 2); a camera
-    plays no part.
+    A variant of ``likelihood`` for clouds against clouds: each point is compared only with the
+    Gaussians nearest to it in the start pose, so that time and memory grow with the number of
+    points and not of all pairs. The data are Gaussians flattened along their surface, as in
+    generalized ICP (Segal, Haehnel, Thrun, Generalized-ICP, 2009, eq. 2). The camera is ignored.
     """
 
     kind: Literal["local_likelihood"] = "local_likelihood"
     accepts: ClassVar[type[Primitives]] = Gaussians
 
     neighbours: Annotated[int, Field(ge=1)] = 6
-    """With how many Gaussians a point is compared."""
+    """Number of Gaussians that a point is compared with."""
     outliers: Annotated[float, Field(gt=0.0, lt=1.0)] = 0.5
-    """Share of the data that is no part of the body, spread evenly over the data's box."""
+    """Fraction of outliers in the data, distributed uniformly over the data's bounding box."""
     flatness: Annotated[float, Field(gt=0.0, le=1.0)] = 0.2
-    """Standard deviation of a data Gaussian along the surface's normal, as a part of that in the
-    surface; 1 makes it round."""
+    """Standard deviation of a data Gaussian along the normal, as a fraction of that along the
+    surface; 1 makes it isotropic."""
 
     def bind(
         self, observation: Observation, start: Placed[Gaussians], *, smoothing: float = 0.0
     ) -> BoundLocalLikelihood:
-        """Bind the kernel to a frame's data, with the neighbours of the start pose."""
+        """Binds the kernel to the data of a frame, with the neighbours in the start pose."""
         return BoundLocalLikelihood(self, observation, start, smoothing)
 
 
@@ -48,12 +47,19 @@ class BoundLocalLikelihood(Similarity):
     """The energy -sum_j w_j log(sum_i c_i |S|^(-1/2) exp(-1/2 q^T S^-1 q) + c_0).
 
     Here q = y_j - m_i and S = C_i + D_j; j runs over the data, i over the neighbours of j. With
-    u = S^-1 q and a pair's share a of its point, the derivative to the Gaussian's translation is
-    -a u. That to its rotation is of the same force at the product's mean m + C u, and of log |S|:
+    u = S^-1 q and the posterior probability a of a pair, the derivative to the translation of the
+    Gaussian is -a u. The derivative to its rotation, with the same force at the mean of the product
+    m + C u and the derivative of log |S|, is
 
         a (u x C u - vee(C S^-1 - S^-1 C)), where vee [v]x = v.
 
-    The Gauss-Newton block is that of the material at the product's mean, which feels S^-1 there.
+    The Gauss-Newton block is that of the material at the mean of the product, with stiffness S^-1.
+
+    Args:
+        kernel: The kernel.
+        observation: The data.
+        start: The Gaussians in the start pose.
+        smoothing: Standard deviation of the Gaussian that smooths the data [m].
     """
 
     def __init__(
@@ -80,12 +86,12 @@ class BoundLocalLikelihood(Similarity):
         self._background = kernel.outliers / box_volume(observation)
 
     def __call__(self, placed: Placed[Gaussians], *, curvature: bool = False) -> Response:
-        """The energy, the wrenches about the Gaussians' centres, and the Gauss-Newton blocks."""
+        """Returns the energy, wrenches about the Gaussians' centres, and Gauss-Newton blocks."""
         energy, wrenches, blocks, _ = self._mixture(placed, curvature)
         return Response(energy, wrenches, blocks if curvature else None)
 
     def inlier_probability(self, placed: Placed[Gaussians]) -> Array:
-        """The share of each point that is no outlier's, (N,)."""
+        """Returns the probability that each point is not an outlier, (N,)."""
         return self._mixture(placed, curvature=False)[3]
 
     def _mixture(

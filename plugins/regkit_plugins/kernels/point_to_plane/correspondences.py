@@ -1,4 +1,4 @@
-"""Data matched with surfels: the partners, and the forces between them."""
+"""Correspondences of data and surfels, and their residuals."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ class Matches:
     """M pairs of data and surfels.
 
     Attributes:
-        points: Index of the point, (M,).
-        surfels: Index of the surfel, (M,).
-        weights: (M,).
-        lost: Weight of the data without a partner.
+        points: Indices of the points, (M,).
+        surfels: Indices of the surfels, (M,).
+        weights: Weights of the pairs, (M,).
+        lost: Total weight of the data without a correspondence.
     """
 
     points: Indices
@@ -38,16 +38,16 @@ class Matches:
 class BoundMatching(ResidualSimilarity):
     """A matching kernel bound to a frame.
 
-    The residual r of a pair, with the normal n and the way q from the surfel to the point, is
+    The residual r of a pair, with the normal n and the offset q from the surfel to the point, is
     ``r^2 = (1 - t) (n.q)^2 + t |q|^2``.
 
     Args:
-        kernel: Its options.
+        kernel: The kernel.
         observation: The data.
-        start: The surfels in the start pose; what is hidden there takes no part.
-        smoothing: Standard deviation [m] that widens the loss.
-        point_share: t; with one there is no need of normals.
-        normals: Those of the data, (N, 3), to be taken instead of the surfels'.
+        start: The surfels in the start pose; surfels hidden there have no correspondences.
+        smoothing: Standard deviation that widens the loss [m].
+        point_share: t; normals are unused if it is one.
+        normals: Normals of the data, (N, 3), which replace those of the surfels.
     """
 
     def __init__(
@@ -60,7 +60,7 @@ class BoundMatching(ResidualSimilarity):
         point_share: float,
         normals: Array | None = None,
     ) -> None:
-        # The scale of the loss may follow from the pairs at the start.
+        # The scale of the loss may depend on the pairs at the start.
         super().__init__(observation, Squares(1.0))
         self._kernel = kernel
         self._oriented = observation.camera is not None
@@ -71,14 +71,14 @@ class BoundMatching(ResidualSimilarity):
                 away = np.einsum("ni,ni->n", self._facing, self.points) > 0.0
                 self._facing = np.where(away[:, None], -self._facing, self._facing)
         self._point_share, self._normals = point_share, normals
-        self._shown = visible(start) if self._oriented else np.arange(len(start))
+        self._visible = visible(start) if self._oriented else np.arange(len(start))
         self._cloud = cKDTree(observation.points) if kernel.reverse_weight > 0.0 else None
         self.loss = self._bound_loss(float(np.sqrt(observation.variances.mean())), start, smoothing)
         self._max_distance = kernel.max_correspondence_distance * self.loss.scale
         self._fixed = self._matched(start) if kernel.matches == "fixed" else None
 
     def residuals(self, placed: Placed[Surfels]) -> Residuals:
-        """``(sqrt(1 - t) n.q, sqrt(t) q)`` of each pair, with what a point without one costs."""
+        """Returns ``(sqrt(1 - t) n.q, sqrt(t) q)`` of each pair, and unmatched points' cost."""
         matches = self._matched(placed) if self._fixed is None else self._fixed
         offsets, normals = self._offsets(placed, matches.points, matches.surfels)
         values, rows = self._parts(offsets, normals)
@@ -88,7 +88,7 @@ class BoundMatching(ResidualSimilarity):
         )
 
     def inlier_probability(self, placed: Placed[Surfels]) -> Array:
-        """By how much each point counts for its partner's, (N,); nothing where it has none."""
+        """Returns the loss's weight of each point's residual, (N,); zero without correspondence."""
         found = self._partners(placed)
         offsets, normals = self._offsets(placed, found.points, found.surfels)
         probability = np.zeros(len(self.points))
@@ -96,65 +96,67 @@ class BoundMatching(ResidualSimilarity):
         return probability
 
     def _bound_loss(self, deviation: float, start: Placed[Surfels], smoothing: float) -> Loss:
-        """The loss, for data of a standard deviation [m]."""
+        """Returns the loss for data with a standard deviation [m]."""
         robust, noise = self._kernel.robust, self._kernel.noise
         if robust.scale is None and noise is not None:
             robust = robust.model_copy(update={"scale": noise * deviation})
         residuals = np.zeros(0)
         if robust.scale is None:
             _, nearest = self._nearest(start, np.inf)
-            ways = self._offsets(start, np.arange(len(nearest)), self._shown[nearest])
-            residuals = self._sizes(*ways)
+            offsets_and_normals = self._offsets(
+                start, np.arange(len(nearest)), self._visible[nearest]
+            )
+            residuals = self._sizes(*offsets_and_normals)
         return robust.bound(residuals, least=deviation, smoothing=smoothing)
 
     def _matched(self, placed: Placed[Surfels]) -> Matches:
-        """The pairs, from the data and, where it is asked for, from the surfels."""
+        """Returns pairs from data to surfels and, with ``reverse_weight``, from surfels to data."""
         found = self._partners(placed)
         if self._cloud is None:
             return found
-        weights = placed.primitives.weights[self._shown]
+        weights = placed.primitives.weights[self._visible]
         weights = self._kernel.reverse_weight * weights / weights.sum()
         distances, points = self._cloud.query(
-            placed.centres[self._shown], distance_upper_bound=self._max_distance
+            placed.centres[self._visible], distance_upper_bound=self._max_distance
         )
         near = np.asarray(distances) < self._max_distance
         return Matches(
             np.concatenate([found.points, np.asarray(points)[near]]),
-            np.concatenate([found.surfels, self._shown[near]]),
+            np.concatenate([found.surfels, self._visible[near]]),
             np.concatenate([found.weights, weights[near]]),
             found.lost + float(weights[~near].sum()),
         )
 
     def _partners(self, placed: Placed[Surfels]) -> Matches:
-        """The nearest visible surfel of each point, if it is near and faces alike."""
+        """Returns the nearest visible surfel of each point within the distance and angle limits."""
         distances, nearest = self._nearest(placed, self._max_distance)
         points = np.flatnonzero(distances < self._max_distance)
-        surfels = self._shown[nearest[points]]
+        surfels = self._visible[nearest[points]]
         if self._facing is not None and self._kernel.angle_deg is not None:
-            alike = (self._facing[points] * placed.axes[surfels, :, 2]).sum(axis=1)
-            # Without a camera it is not known to which side the data's normals point.
-            alike = alike if self._oriented else np.abs(alike)
-            kept = alike > np.cos(np.radians(self._kernel.angle_deg))
+            cosines = (self._facing[points] * placed.axes[surfels, :, 2]).sum(axis=1)
+            # Without a camera the orientation of the data's normals is unknown.
+            cosines = cosines if self._oriented else np.abs(cosines)
+            kept = cosines > np.cos(np.radians(self._kernel.angle_deg))
             points, surfels = points[kept], surfels[kept]
         weights = self.weights[points]
         return Matches(points, surfels, weights, 1.0 - float(weights.sum()))
 
     def _nearest(self, placed: Placed[Surfels], reach: float) -> tuple[Array, Indices]:
-        """Distance (N,) [m] and number (N,) among the visible ones of the nearest surfel."""
-        tree = cKDTree(placed.centres[self._shown])
+        """Returns distances (N,) [m] and indices (N,) of the nearest among the visible surfels."""
+        tree = cKDTree(placed.centres[self._visible])
         distances, nearest = tree.query(self.points, distance_upper_bound=reach)
         return np.asarray(distances), np.asarray(nearest)
 
     def _offsets(
         self, placed: Placed[Surfels], points: Indices, surfels: Indices
     ) -> tuple[Array, Array]:
-        """The ways from surfels to points, (M, 3) [m], and the normals there, (M, 3)."""
+        """Returns the offsets from surfels to points, (M, 3) [m], and their normals, (M, 3)."""
         offsets = self.points[points] - placed.centres[surfels]
         normals = placed.axes[surfels, :, 2] if self._normals is None else self._normals[points]
         return offsets, normals
 
     def _sizes(self, offsets: Array, normals: Array) -> Array:
-        """The residuals r, (M,) [m]."""
+        """Returns the residuals r, (M,) [m]."""
         along = np.einsum("mi,mi->m", offsets, normals)
         squares = np.einsum("mi,mi->m", offsets, offsets)
         return np.asarray(
@@ -162,9 +164,9 @@ class BoundMatching(ResidualSimilarity):
         )
 
     def _parts(self, offsets: Array, normals: Array) -> tuple[Array, Array]:
-        """The residuals' parts (M, D) and their derivatives to the surfels' motions, (M, D, 6).
+        """Returns residuals (M, D) and their derivatives to the surfels' motions, (M, D, 6).
 
-        The derivative of n.q is (-n, n x q), or (-n, 0) where the normal is the data's own.
+        The derivative of n.q is (-n, n x q), or (-n, 0) for normals of the data.
         """
         plane, point = np.sqrt(1.0 - self._point_share), np.sqrt(self._point_share)
         first = 1 if plane > 0.0 else 0

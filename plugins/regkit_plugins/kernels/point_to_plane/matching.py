@@ -1,4 +1,4 @@
-"""What the kernels that match data with surfels have in common: how partners are chosen."""
+"""The base class of kernels that match data with surfels."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from regkit.system.errors import ConfigError
 
 
 class MatchingKernel(Kernel):
-    """Each data point belongs to the nearest surfel that the camera sees, as in ICP.
+    """Matches each data point with the nearest visible surfel, as in ICP.
 
     The energy is the mean over the data of a robust loss of the residuals. A point without a
-    partner costs as much as one at ``max_correspondence_distance``.
+    correspondence costs as much as one at ``max_correspondence_distance``.
 
     Source: Besl, McKay, A method for registration of 3-D shapes, PAMI 14, 1992; the selection,
-    rejection and weighting of pairs after Rusinkiewicz, Levoy, Efficient variants of the ICP
+    rejection and weighting of pairs follow Rusinkiewicz, Levoy, Efficient variants of the ICP
     algorithm, 3DIM 2001.
     """
 
@@ -33,33 +33,32 @@ class MatchingKernel(Kernel):
     accepts: ClassVar[type[Primitives]] = Surfels
 
     robust: Robust = Robust(loss="tukey")
-    """What residuals cost."""
+    """Robust loss of the residuals."""
     noise: Annotated[float, Field(gt=0.0)] | None = 1.5
-    """Scale of the loss in standard deviations of the data, where ``robust`` has none; null for
-    that of each frame's residuals. What is estimated anew in every pose makes light of a lost limb,
-    and a tracker that compares energies is misled."""
+    """Scale of the loss in standard deviations of the data, if ``robust`` has none; null estimates
+    it from each frame's residuals. An estimate in every pose would hide a lost limb from a tracker
+    that compares energies."""
     max_correspondence_distance: Annotated[float, Field(gt=0.0)] = 10.0
-    """No point has a partner that is farther away, in scales of the loss."""
+    """Maximum distance of a pair, in scales of the loss."""
     angle_deg: Annotated[float, Field(gt=0.0, le=180.0)] | None = None
-    """Nor one whose normal differs by more [deg]; the preprocessor has to give the data's
-    normals."""
+    """Maximum angle between the normals of a pair [deg]; it needs normals from the preprocessor."""
     matches: Literal["renewed", "fixed"] = "renewed"
-    """Whether partners are sought at every evaluation, or once where a solution begins.
+    """Whether correspondences are updated at every evaluation, or fixed at the start of a solution.
 
-    Renewed, one step of a Gauss-Newton solver is one round of ICP, and the distance to the nearest
-    surfel is a function of the pose like any other: it falls from round to round. Fixed, a solver
-    goes to the end with the same partners, as in the textbook; three rounds of it are the method's
-    ``annealing: [0, 0, 0]``."""
+    If renewed, each step of a Gauss-Newton solver is an iteration of ICP, and the energy, a
+    function of the pose like any other, decreases with each step. If fixed, a solver converges with
+    the same correspondences, as in textbook ICP; the method's ``annealing: [0, 0, 0]`` makes three
+    iterations of it."""
     reverse_weight: Annotated[float, Field(ge=0.0)] = 0.0
-    """Weight of the pairs in the other direction, from each visible surfel to the nearest point;
-    they draw in parts of the body near which there are no data."""
+    """Weight of pairs in the other direction, from each visible surfel to the nearest point; they
+    attract parts of the body without data nearby."""
 
 
 def given_normals(observation: Observation, option: str) -> Array:
-    """The data's normals (N, 3), which an option of a kernel needs.
+    """Returns the data's normals (N, 3), which an option of a kernel needs.
 
     Raises:
-        ConfigError: If the preprocessor gives none.
+        ConfigError: If the preprocessor provides none.
     """
     if observation.normals is None:
         raise ConfigError(

@@ -1,4 +1,4 @@
-"""Point to plane: the distance of data to the tangent planes of the nearest vertices."""
+"""The point-to-plane kernel: distances of data to the tangent planes of the nearest vertices."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from regkit_plugins.kernels.point_to_plane.matching import MatchingKernel, given
 
 
 class PointToPlane(MatchingKernel):
-    """The distance of each data point to the plane through the nearest surfel.
+    """Distance of each data point to the plane through the nearest surfel.
 
-    A surface may slide along itself, so that a few rounds suffice where points to points take many.
-    Where the nearest surfel changes, the energy may jump a little, for its plane is another one.
+    Surfaces may slide along themselves, so that it needs far fewer iterations than point to point.
+    The energy may jump slightly where the nearest surfel, and with it the plane, changes.
 
     Source: Chen, Medioni, Object modelling by registration of multiple range images, Image and
     Vision Computing 10, 1992.
@@ -26,19 +26,19 @@ class PointToPlane(MatchingKernel):
     kind: Literal["point_to_plane"] = "point_to_plane"
 
     normals: Literal["model", "data"] = "model"
-    """Whose planes: those of the surfels, which turn with their segments, or those of the data,
-    which the preprocessor has to give."""
+    """Planes of the surfels, which rotate with their segments, or of the data, with normals from
+    the preprocessor."""
     point_share: Annotated[float, Field(ge=0.0, le=1.0)] = 0.1
-    """Share of the squared distance to the point itself in that to the plane, which keeps ends of
-    limbs where they are; with one it is point_to_point."""
+    """Fraction of the squared point-to-point distance in the residual, which keeps the ends of
+    limbs in place; one is equivalent to point_to_point."""
 
     def bind(
         self, observation: Observation, start: Placed[Surfels], *, smoothing: float = 0.0
     ) -> BoundMatching:
-        """Bind the kernel to a frame's data.
+        """Binds the kernel to the data of a frame.
 
         Raises:
-            ConfigError: If the data's normals are needed, and there are none.
+            ConfigError: If the data's normals are required but missing.
         """
         normals = given_normals(observation, "normals") if self.normals == "data" else None
         return BoundMatching(

@@ -1,4 +1,4 @@
-"""Which surfels a camera sees."""
+"""Visibility of surfels to a camera."""
 
 from __future__ import annotations
 
@@ -9,17 +9,18 @@ from regkit.primitives.surfels import Surfels
 from regkit.system.arrays import Indices
 
 LEAST_FACING = 0.1
-"""Cosine of the angle between normal and line of sight; at the outline there is little to see."""
+"""Minimum cosine of the angle between normal and line of sight; the outline is hardly visible."""
 
 CELL, THICKNESS = 1.5, 4.0
-"""Side of the depth image's cells, and how far behind the nearest surfel in its cell one is hidden,
-both in spacings of the surfels: a surface at a slant must not hide itself."""
+"""Size of the depth image's cells, and minimum distance behind the nearest surfel of the cell for a
+hidden surfel, in spacings of the surfels; a slanted surface must not hide itself."""
 
 
 def visible(placed: Placed[Surfels]) -> Indices:
-    """The surfels that face a camera at the origin and are not behind others, (M,).
+    """Returns the indices (M,) of surfels that face a camera at the origin and are not occluded.
 
-    They are sorted into the cells of a coarse depth image. Where none is seen, all are.
+    Occlusion is tested in the cells of a coarse depth image. If no surfel faces the camera, all are
+    returned.
     """
     centres, depth = placed.centres, placed.centres[:, 2]
     towards = -np.einsum("ki,ki->k", placed.axes[:, :, 2], centres)

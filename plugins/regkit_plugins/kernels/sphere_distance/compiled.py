@@ -1,8 +1,8 @@
 """Signed distances of points to tapered capsules, and their derivatives, in compiled loops.
 
-The formulas stand with the kernel ``sphere_distance``. Capsules are rows of nine numbers: the
-middle of the axis (3), the unit vector along it (3), half its length, the radius in the middle, and
-the sine of the cone's half angle, by which the radius falls along the axis. Lengths are in metres.
+``BoundSphereDistance`` documents the formulas. A capsule is a row of nine numbers: the midpoint of
+the axis (3), the unit vector along it (3), half its length, the radius at the midpoint, and the
+sine of the cone's half angle, positive if the radius falls along the axis. Lengths are in metres.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ from regkit.system.compiled import compiled
 def nearest_capsules(
     points: Array, capsules: Array, handicaps: Array
 ) -> tuple[Indices, Array, Array]:
-    """The capsule of each point, (N,), its signed distance, (N,), and where it is nearest, (N,).
+    """Returns each point's nearest capsule (N,), signed distance (N,) and axis position (N,).
 
-    The last is the place of the nearest sphere's centre on the axis, from the middle [m].
+    The axis position is that of the nearest sphere's centre, from the midpoint [m].
 
     Args:
-        points: (N, 3) [m].
-        capsules: (K, 9).
-        handicaps: What is added to a signed squared distance before it is compared, (K,) [m^2].
+        points: Data points, (N, 3) [m].
+        capsules: Capsules, (K, 9).
+        handicaps: Summands of the signed squared distances in the comparison, (K,) [m^2].
     """
     count = len(points)
     owners = np.zeros(count, dtype=np.intp)
@@ -38,12 +38,12 @@ def nearest_capsules(
     for i in range(count):
         px, py, pz = points[i, 0], points[i, 1], points[i, 2]
         least, reach = inf, inf
-        # The capsule of the point before comes first, for it often is this one's, too.
+        # The previous point's capsule comes first, because it is often the nearest again.
         for candidate in range(-1, len(capsules)):
             k = likely if candidate < 0 else candidate
             x, y, z = px - capsules[k, 0], py - capsules[k, 1], pz - capsules[k, 2]
             square = x * x + y * y + z * z
-            # What is nearer than the least cost allows has the point near its bounding sphere.
+            # The bounding sphere excludes capsules that cannot cost less than the best so far.
             far = reach + bounds[k]
             if far < 0.0 or square > far * far:
                 continue
@@ -69,15 +69,15 @@ def residuals_and_rows(
     places: Array,
     front: bool,
 ) -> tuple[Array, Array]:
-    """Residuals (N,) [m], and their derivatives to motions of the owners, (N, 6).
+    """Returns residuals (N,) [m] and their derivatives to the owners' motions (N, 6).
 
     Args:
-        points: (N, 3) [m].
-        capsules: (K, 9).
-        owners: The capsule of each point, (N,).
+        points: Data points, (N, 3) [m].
+        capsules: Capsules, (K, 9).
+        owners: Nearest capsule of each point, (N,).
         distances: Its signed distance, (N,) [m].
-        places: Where on its axis it is nearest, (N,) [m].
-        front: Whether points are held against the front of their capsule.
+        places: Axis position of the nearest sphere's centre, (N,) [m].
+        front: Whether points behind the outline are compared with the front of their capsule.
     """
     residuals, rows = distances.copy(), np.zeros((len(points), 6))
     arm, gap, ray, slope = np.empty(3), np.empty(3), np.empty(3), np.empty(3)
@@ -95,7 +95,7 @@ def residuals_and_rows(
             along += arm[j] * unit[j]
         norm = sqrt(square)
         if norm == 0.0:
-            # In the very middle of a sphere there is no way that is nearest.
+            # At the centre of a sphere no direction is nearest.
             continue
         turning = 0.0
         for j in range(3):

@@ -1,4 +1,4 @@
-"""The signed distance of data to the surface of capsules and spheres."""
+"""The sphere-distance kernel: signed distances of data to capsules and spheres."""
 
 from __future__ import annotations
 
@@ -21,48 +21,53 @@ from regkit_plugins.kernels.sphere_distance.compiled import (
 class SphereDistance(Kernel):
     """Distance of each point to the nearest surface of the union of all primitives.
 
-    The energy is the mean over the points of a robust loss of the distance in units of its
-    deviation s, which is minus the logarithm of a density, as is that of ``likelihood``: the
-    weights of terms mean the same under both. Where s is estimated, log s is a part of it, so that
-    poses can be compared for which it differs.
+    The energy is the mean over the points of a robust loss of the distance in units of its standard
+    deviation s. Like that of ``likelihood`` it is a negative log-density, so that the weights of
+    terms are comparable. If s is estimated, the energy includes log s, so that poses with different
+    s are comparable.
 
-    A primitive of the weight w takes part as one of the share w in a mixture: a point belongs to
-    where d |d| / (2 s^2) - log w is least, and - log w is a part of its energy, with the greatest w
-    as one. Where all weights are the same, that is the nearest surface.
+    A primitive's weight w acts as a mixture weight: a point belongs to the primitive with the least
+    d |d| / (2 s^2) - log w, and the energy includes - log w, relative to the greatest w. With equal
+    weights this is the nearest surface.
     """
 
     kind: Literal["sphere_distance"] = "sphere_distance"
     accepts: ClassVar[type[Primitives]] = TaperedCapsules
 
     robust: Robust = Robust()
-    """What a distance costs."""
+    """Robust loss of a distance."""
     side: Literal["front", "whole"] = "front"
-    """Whether a point that is nearer to the back of a primitive, which the camera cannot have seen,
-    is held against the outline of its front; where there is no camera the whole surface counts."""
+    """Whether a point near the back of a primitive, which the camera cannot have seen, is compared
+    with the outline of its front; without a camera the whole surface is used."""
 
     def bind(
         self, observation: Observation, start: Placed[TaperedCapsules], *, smoothing: float = 0.0
     ) -> BoundSphereDistance:
-        """Bind the kernel to a frame's data; the loss keeps the scale of the start."""
+        """Binds the kernel to the data of a frame; the loss keeps the scale of the start."""
         return BoundSphereDistance(self, observation, start, smoothing)
 
 
 class BoundSphereDistance(ResidualSimilarity):
-    """The distances of one frame's points.
+    """``SphereDistance`` bound to a frame.
 
     For a point at the height y along a capsule's axis and at the distance x from it, the nearest
-    sphere has its centre c at the height y - x tan(a), kept between the ends, with a the half angle
-    of the cone. With q = y - c and the radius r there, the signed distance is d = |q| - r, and its
-    derivative to the point is q / |q|: that to c vanishes, for the sphere is the nearest.
+    sphere has its centre c at the height y - x tan(a), clipped to the ends, with the half angle a
+    of the cone. With q = y - c and the radius r there, the signed distance is d = |q| - r. Its
+    derivative to the point is q / |q|; the derivative to c vanishes, since the sphere is nearest.
 
-    Where the part h = q.e of q along the point's own ray e is positive, the surface faces away from
-    the camera. The residual then is the distance to the outline of the sphere's front,
+    Where the component h = q.e of q along the point's viewing ray e is positive, the surface faces
+    away from the camera. The residual is then the distance to the outline of the sphere's front,
 
         sqrt(h^2 + (|q - h e| - r)^2),
 
-    which continues |d|. It is no least distance over the spheres of a capsule, so that its
-    derivative has a part through the place of c, and one through e, which turns in the primitive's
-    own frame as this rotates.
+    which continues |d|. It is not minimal over the spheres of a capsule, so that its derivative has
+    a part through c, and a part through e, which rotates in the primitive's own frame.
+
+    Args:
+        kernel: The kernel.
+        observation: The data.
+        start: The capsules in the start pose.
+        smoothing: Standard deviation that widens the loss [m].
     """
 
     def __init__(
@@ -72,7 +77,7 @@ class BoundSphereDistance(ResidualSimilarity):
         start: Placed[TaperedCapsules],
         smoothing: float,
     ) -> None:
-        # The scale of the loss follows from the distances at the start.
+        # The scale of the loss depends on the distances at the start.
         super().__init__(observation, Squares(1.0))
         self._front = kernel.side == "front" and observation.camera is not None
         weights = start.primitives.weights
@@ -86,23 +91,23 @@ class BoundSphereDistance(ResidualSimilarity):
         self._constant = float(np.log(self._scale / self._deviation))
 
     def inlier_probability(self, placed: Placed[TaperedCapsules]) -> Array | None:
-        """The loss's weight of each point's distance, (N,); None by squares, which cannot tell.
+        """Returns the loss's weight of each distance, (N,); None for squares, which accept all.
 
-        An estimated scale is that of the distances in this very pose, for those at the start
-        include the body's motion.
+        An estimated scale is that of the distances in this pose, because those at the start contain
+        the body's motion.
         """
         _, distances, _ = self._nearest(placed)
         loss = self._robust.bound(distances, least=self._deviation)
         return loss.inlier_probability(distances) if np.isfinite(loss.tuning) else None
 
     def residuals(self, placed: Placed[TaperedCapsules]) -> Residuals:
-        """The distance of each point to the nearest capsule."""
+        """Returns the distance of each point to the nearest capsule."""
         owners, distances, rows = self._nearest(placed)
         constant = self._constant + float(self.weights @ self._surprise[owners])
         return Residuals(owners, distances, rows, self.weights, constant)
 
     def _nearest(self, placed: Placed[TaperedCapsules]) -> tuple[Indices, Array, Array]:
-        """Each point's primitive (N,), residual (N,) [m], and its derivative (N, 6) to motions."""
+        """Returns each point's primitive (N,), residual (N,) [m] and derivative (N, 6)."""
         primitives = placed.primitives
         capsules = np.empty((len(placed), 9))
         capsules[:, :3], capsules[:, 3:6] = placed.centres, placed.axes[:, :, 1]

@@ -1,4 +1,4 @@
-"""The method for surfaces of many points: a likelihood of ever narrower Gaussians."""
+"""The coarse-to-fine method for surfaces of many points, with ever narrower Gaussians."""
 
 from __future__ import annotations
 
@@ -31,34 +31,34 @@ Part = Annotated[float, Field(gt=0.0)]
 
 
 class CoarseToFine(Method):
-    """A body's surface points against a cloud, from few wide Gaussians to many narrow ones.
+    """Registers a body's surface points to a cloud, from few wide Gaussians to many narrow ones.
 
-    At each resolution both are downsampled to one point in a voxel, and each point is a Gaussian
-    some voxels wide. The energy is made small there, the neighbours being searched anew after each
-    solution, and the pose found begins the next resolution. The last one takes all points.
+    At each resolution both are downsampled to one point per voxel, and each point is a Gaussian
+    some voxels wide. The solver minimises the energy, and neighbours are updated after each
+    solution. The result is the start of the next resolution; the last one uses all points.
     """
 
     kind: Literal["coarse_to_fine"] = "coarse_to_fine"
 
     shape: ShapeModel
-    """What stands for the body's surface: cloud_gsog or cloud_sog; its width is set here."""
+    """Shape model of the body's surface, cloud_gsog or cloud_sog; the method sets its width."""
     kernel: Kernel
-    """What compares it with the data."""
+    """Kernel that compares the shape model with the data."""
     solver: Solver
-    """What makes the energy small between two searches for neighbours."""
+    """Solver that minimises the energy between two updates of the neighbours."""
     coarsest: Part = 0.1
-    """Side of the first voxels, as a part of the body's size."""
+    """Size of the first voxels, as a fraction of the body's size."""
     finest: Part = 1.0
-    """Side of the last voxels, as a part of the distance of neighbouring points."""
+    """Size of the last voxels, as a fraction of the spacing of neighbouring points."""
     resolutions: Annotated[int, Field(ge=1)] = 6
-    """How many there are, their voxels shrinking evenly."""
+    """Number of resolutions, with voxel sizes in geometric progression."""
     width: Part = 2.0
-    """Standard deviation of a pair of Gaussians in the surface, in voxels."""
+    """Standard deviation of a pair of Gaussians along the surface, in voxels."""
     searches: Annotated[int, Field(ge=1)] = 10
-    """How often neighbours are searched at one resolution, at most."""
+    """Maximum number of neighbour updates at each resolution."""
     motion_tolerance: Annotated[float, Field(ge=0.0)] = 0.1
-    """Go on to the next resolution when the root mean square motion of the body's points, in
-    voxels, is no more than this."""
+    """The next resolution begins when the root mean square motion of the body's points, in voxels,
+    is at most this."""
 
     @model_validator(mode="after")
     def _parts_fit(self) -> CoarseToFine:
@@ -71,7 +71,7 @@ class CoarseToFine(Method):
         return self
 
     def bind(self, body: Body) -> BoundCoarseToFine:
-        """Make Gaussians of the body's surface at every resolution.
+        """Binds the method to a body, with Gaussians of its surface at every resolution.
 
         Raises:
             ConfigError: If the body has no surface.
@@ -89,8 +89,8 @@ class CoarseToFine(Method):
 
 
 @dataclass(frozen=True)
-class _Settled:
-    """Where a resolution ended: the pose, its energy, whether it came to rest, and the effort."""
+class _LevelResult:
+    """The result of one resolution: pose, energy, convergence, and effort."""
 
     pose: Pose
     energy: float
@@ -103,12 +103,12 @@ class _Settled:
 
 @dataclass(frozen=True)
 class BoundCoarseToFine(Registrar):
-    """``CoarseToFine`` for one body.
+    """``CoarseToFine`` bound to a body.
 
     Attributes:
-        method: Its configuration.
+        method: The method.
         body: The body.
-        primitives: Its Gaussians at the finest resolution.
+        primitives: Gaussians of the body at the finest resolution.
         levels: The resolutions, the coarsest first.
     """
 
@@ -125,9 +125,9 @@ class BoundCoarseToFine(Registrar):
         prior: Pose | None = None,
         warm_start: RegistrationResult | None = None,
     ) -> RegistrationResult:
-        """The pose of least energy, from resolution to resolution, from the best candidate.
+        """Minimises the energy from the best candidate, resolution by resolution.
 
-        Neither a prior nor a warm start changes the result, for the data determine every motion.
+        A prior and a warm start have no effect, because the data determine every motion.
         """
         data = observations(observation, self.levels)
         pose = candidates[0]
@@ -135,7 +135,7 @@ class BoundCoarseToFine(Registrar):
             pose = min(candidates, key=lambda one: self._energy(self.levels[0], data[0], one))
         stages = []
         for level, downsampled in zip(self.levels, data, strict=True):
-            stages.append(self._settled(level, downsampled, pose))
+            stages.append(self._minimized(level, downsampled, pose))
             pose = stages[-1].pose
         last = stages[-1]
         return RegistrationResult(
@@ -149,16 +149,16 @@ class BoundCoarseToFine(Registrar):
         )
 
     def evaluate(self, observation: Observation, pose: Pose) -> Evaluation:
-        """The energy at the finest resolution, with the neighbours that a pose has."""
+        """Returns the energy at the finest resolution, with the neighbours in the given pose."""
         data = observations(observation, self.levels[-1:])[-1]
         placed = self._placed(self.levels[-1], pose)
         similarity = self.method.kernel.bind(data, placed)
         return Evaluation(similarity(placed).energy, _known(similarity.inlier_probability(placed)))
 
-    def _settled(self, level: Resolution, data: Observation, pose: Pose) -> _Settled:
-        """The pose at which a resolution comes to rest, neighbours being searched again."""
+    def _minimized(self, level: Resolution, data: Observation, pose: Pose) -> _LevelResult:
+        """Returns the result of a resolution after updates of the neighbours until convergence."""
         iterations = evaluations = 0
-        converged, message = False, f"it still moves after {self.method.searches} searches"
+        converged, message = False, f"no convergence in {self.method.searches} searches"
         placed = self._placed(level, pose)
         for _ in range(self.method.searches):
             similarity = self.method.kernel.bind(data, placed)
@@ -169,12 +169,14 @@ class BoundCoarseToFine(Registrar):
             iterations += solution.iterations
             evaluations += solution.evaluations
             before, placed = placed, self._placed(level, pose)
-            moved = float(np.sqrt(((placed.centres - before.centres) ** 2).sum(axis=1).mean()))
-            if moved <= self.method.motion_tolerance * level.voxel:
-                converged, message = True, "the body came to rest"
+            motion = float(np.sqrt(((placed.centres - before.centres) ** 2).sum(axis=1).mean()))
+            if motion <= self.method.motion_tolerance * level.voxel:
+                converged, message = True, "the motion converged"
                 break
         inliers = _known(similarity.inlier_probability(placed))
-        return _Settled(pose, solution.value, inliers, converged, iterations, evaluations, message)
+        return _LevelResult(
+            pose, solution.value, inliers, converged, iterations, evaluations, message
+        )
 
     def _placed(self, level: Resolution, pose: Pose) -> Placed[Gaussians]:
         return level.primitives.place(self.body.place(pose).transforms)
@@ -185,5 +187,5 @@ class BoundCoarseToFine(Registrar):
 
 
 def _known(inlier_probability: Array | None) -> Array:
-    """The inlier probability of each point; NaN where the kernel cannot tell."""
+    """Returns the inlier probability of each point; NaN if the kernel does not provide it."""
     return np.array([np.nan]) if inlier_probability is None else inlier_probability

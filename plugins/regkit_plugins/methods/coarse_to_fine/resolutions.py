@@ -1,4 +1,4 @@
-"""A body's surface and a cloud at several resolutions, from few points to all of them."""
+"""Resolutions of a body's surface and of a cloud, from few points to all of them."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ class Resolution:
     """One resolution of a body.
 
     Attributes:
-        voxel: Side of the cubes that hold one point each [m].
-        width: Standard deviation of a Gaussian in the surface [m].
+        voxel: Size of the voxels with one point each [m].
+        width: Standard deviation of a Gaussian along the surface [m].
         primitives: The body's Gaussians.
     """
 
@@ -34,14 +34,14 @@ class Resolution:
 def resolutions(
     body: Body, shape: CloudShape, *, coarsest: float, finest: float, count: int, width: float
 ) -> tuple[Resolution, ...]:
-    """The resolutions of a body, the coarsest first; the finest has every point.
+    """Returns the resolutions of a body, the coarsest first; the finest has every point.
 
     Args:
-        body: Whose surface it is.
-        shape: What makes Gaussians of it.
-        coarsest: Side of the largest voxels, as a part of the body's size.
-        finest: Side of the smallest, as a part of the distance of neighbouring points.
-        count: How many resolutions.
+        body: The body.
+        shape: Shape model of its surface.
+        coarsest: Size of the largest voxels, as a fraction of the body's size.
+        finest: Size of the smallest voxels, as a fraction of the spacing of neighbouring points.
+        count: Number of resolutions.
         width: Standard deviation of a pair of Gaussians, in voxels; each has half the variance.
 
     Raises:
@@ -50,26 +50,26 @@ def resolutions(
     surface = body.surface
     if surface is None:
         raise ConfigError(
-            f"the template '{body.name}' has no surface to make Gaussians of; take a template of "
-            "kind cloud, or the method direct"
+            f"the template '{body.name}' has no surface, which this method needs; use a template "
+            "of kind cloud, or the method direct"
         )
-    least = finest * spacing(surface.points[:, 0])
-    # A voxel smaller than the distance of the points thins nothing, but Gaussians get narrower.
-    voxels = np.geomspace(max(coarsest * body.size, least), least, count)
+    smallest = finest * spacing(surface.points[:, 0])
+    # Voxels smaller than the spacing of the points keep all points, but narrow the Gaussians.
+    voxels = np.geomspace(max(coarsest * body.size, smallest), smallest, count)
     found = []
     for index, voxel in reversed(list(enumerate(voxels))):
         if index < count - 1:
             surface = voxel_downsampled_surface(surface, float(voxel))
         deviation = float(width * voxel / np.sqrt(2.0))
-        thin = replace(body, surface=surface)
-        found.append(Resolution(float(voxel), deviation, shape.wide(deviation).bind(thin)))
+        downsampled = replace(body, surface=surface)
+        found.append(Resolution(float(voxel), deviation, shape.wide(deviation).bind(downsampled)))
     return tuple(reversed(found))
 
 
 def observations(
     observation: Observation, levels: tuple[Resolution, ...]
 ) -> tuple[Observation, ...]:
-    """A cloud at the resolutions of a body; at the finest it has every point."""
+    """Returns a cloud at the resolutions of a body; at the finest it has every point."""
     points, found = observation.points, []
     for index, level in reversed(list(enumerate(levels))):
         if index < len(levels) - 1:
@@ -80,7 +80,7 @@ def observations(
 
 
 def voxel_downsampled_surface(surface: SkinnedSurface, voxel: float) -> SkinnedSurface:
-    """One point in each voxel [m] of each segment's own frame, carried by that segment alone."""
+    """Returns a surface with one point per voxel [m] of each segment's frame, without blending."""
     carrier = surface.blend.argmax(axis=1)
     vertices = np.arange(len(surface))
     owners, points = surface.segments[vertices, carrier], surface.points[vertices, carrier]

@@ -1,4 +1,4 @@
-"""``Direct`` bound to one body."""
+"""The direct method bound to a body."""
 
 from __future__ import annotations
 
@@ -29,17 +29,17 @@ if TYPE_CHECKING:
     from regkit_plugins.methods.direct.direct import Direct
 
 HARD = 1e-6
-"""By how much a pose may be beyond a hard limit [rad]: what rounding makes."""
+"""Maximum violation of a hard limit by rounding [rad]."""
 
 
 @dataclass(frozen=True)
 class BoundDirect(Registrar):
-    """``Direct`` for one body.
+    """``Direct`` bound to a body.
 
     Attributes:
-        method: Its configuration.
+        method: The method.
         body: The body.
-        primitives: Its shape model's primitives.
+        primitives: Primitives of its shape model.
     """
 
     method: Direct
@@ -54,7 +54,11 @@ class BoundDirect(Registrar):
         prior: Pose | None = None,
         warm_start: RegistrationResult | None = None,
     ) -> RegistrationResult:
-        """The pose of least energy near the best candidate, from smooth to sharp."""
+        """Minimises the energy near the best candidate, from smooth to sharp.
+
+        Raises:
+            DataError: If the pose violates a limit although ``hard_limits`` is set.
+        """
         annealing = self.method.annealing
         energy, pose = self._best(observation, candidates, prior, annealing[0])
         evaluations = len(candidates) if len(candidates) > 1 else 0
@@ -63,7 +67,7 @@ class BoundDirect(Registrar):
         for index, smoothing in enumerate(annealing):
             if index:
                 energy = self._bound(observation, pose, prior or candidates[0], smoothing)
-            # Bounds are the limits only where the start is within them.
+            # A pose within the bounds is within the limits only if the start is.
             start = self.body.skeleton.limits.hinged(pose)
             coordinates = COORDINATES[self.method.coordinates](self.body.skeleton, start)
             solution = self.method.solver.minimize(energy.problem(coordinates, multipliers))
@@ -91,9 +95,9 @@ class BoundDirect(Registrar):
         prior: Pose | None,
         smoothing: float,
     ) -> tuple[FrameEnergy, Pose]:
-        """The candidate of the least similarity, and the energy bound to it.
+        """Returns the energy bound to the candidate of least kernel energy, and that candidate.
 
-        All candidates are compared under the binding at the first one.
+        All candidates are compared with the kernel bound to the first one.
         """
         first = candidates[0]
         scene, weighted, kernel = self._kernel(observation, first, prior or first, smoothing)
@@ -104,10 +108,10 @@ class BoundDirect(Registrar):
         return self._completed(scene, weighted, kernel), first
 
     def _check_limits(self, pose: Pose) -> None:
-        """Refuse what was promised not to happen.
+        """Checks that the pose satisfies the hard limits.
 
         Raises:
-            DataError: If the pose is beyond a limit.
+            DataError: If the pose violates a limit.
         """
         violation = float(self.body.skeleton.limits.violation(pose).max(initial=0.0))
         if violation > HARD:
@@ -117,20 +121,20 @@ class BoundDirect(Registrar):
             )
 
     def evaluate(self, observation: Observation, pose: Pose) -> Evaluation:
-        """The energy in a pose, with everything bound to the frame there."""
+        """Returns the energy of a pose, with everything bound to the frame at this pose."""
         energy = self._bound(observation, pose, pose, 0.0)
         return Evaluation(energy.total(pose), energy.inlier_probability(pose))
 
     def _bound(
         self, observation: Observation, pose: Pose, prior: Pose, smoothing: float
     ) -> FrameEnergy:
-        """The kernel and all terms bound to a frame at a pose."""
+        """Returns the kernel and all terms bound to a frame at a pose."""
         return self._completed(*self._kernel(observation, pose, prior, smoothing))
 
     def _kernel(
         self, observation: Observation, pose: Pose, prior: Pose, smoothing: float
     ) -> tuple[Scene, Primitives, Similarity]:
-        """The kernel bound to a frame at a pose, with the visible weights of the primitives."""
+        """Returns the scene, the primitives weighted by visibility, and the bound kernel."""
         placed = self._placed(self.primitives, pose)
         scene = Scene(self.body, observation, prior, placed)
         primitives = self.primitives
@@ -144,7 +148,7 @@ class BoundDirect(Registrar):
         return scene, primitives, kernel
 
     def _completed(self, scene: Scene, primitives: Primitives, kernel: Similarity) -> FrameEnergy:
-        """The kernel with all terms that are energies."""
+        """Returns the kernel with all terms that are energies."""
         terms: dict[str, Similarity] = {}
         joints: list[JointEnergy] = []
         for index, term in enumerate(self.method.terms):

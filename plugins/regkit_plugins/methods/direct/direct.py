@@ -1,4 +1,4 @@
-"""The method that minimises a kernel's energy over the pose directly."""
+"""The direct method: minimises the energy of a kernel and terms over the pose."""
 
 from __future__ import annotations
 
@@ -22,28 +22,28 @@ Smoothing = Annotated[float, Field(ge=0.0)]
 
 
 class Direct(Method):
-    """A shape model, a kernel and a solver: the pose of least energy near the start."""
+    """Minimises the energy of a kernel and terms over the pose, near the start."""
 
     renamed: ClassVar[dict[str, str]] = {"blur": "annealing"}
     kind: Literal["direct"] = "direct"
 
     shape: ShapeModel
-    """What stands for the body's surface."""
+    """Shape model of the body's surface."""
     kernel: Kernel
-    """What compares it with the data."""
+    """Kernel that compares the shape model with the data."""
     solver: Solver
-    """What makes the energy small."""
+    """Solver that minimises the energy."""
     terms: tuple[Term, ...] = ()
-    """What is asked of a pose beyond explaining the data."""
+    """Terms: demands on a pose besides explaining the data."""
     coordinates: CoordinatesName = "tangent"
-    """What the solver moves: steps on the tangent space, or the paper's un-normalised
+    """Variables of the solver: steps on the tangent space, or the paper's un-normalised
     quaternions."""
     hard_limits: bool = False
-    """Whether a pose beyond a joint limit is never taken. It changes no result, but a solver that
-    cannot promise it is refused."""
+    """Whether a pose that violates a joint limit is an error. The option does not change results,
+    and requires a solver that satisfies all joint limits."""
     annealing: Annotated[tuple[Smoothing, ...], Field(min_length=1)] = (0.0,)
-    """Annealing: standard deviations [m] that smooth the energy, one solution after the other.
-    Beyond a limb's radius the limbs get lost."""
+    """Standard deviations of the smoothing of the energy [m], for one solution after the other.
+    Smoothing beyond a limb's radius may lose the limbs."""
 
     @model_validator(mode="after")
     def _shape_fits_kernel(self) -> Direct:
@@ -73,10 +73,10 @@ class Direct(Method):
         return self
 
     def bind(self, body: Body) -> BoundDirect:
-        """Make the primitives, and check what the terms ask for.
+        """Binds the method to a body: makes the primitives and checks the terms.
 
         Raises:
-            RegkitError: If the shape model or a term cannot be used with such a body.
+            RegkitError: If the shape model or a term does not support the body.
         """
         for term in self.terms:
             term.check(body)

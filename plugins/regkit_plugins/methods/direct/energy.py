@@ -1,4 +1,4 @@
-"""What a method minimises in one frame: everything bound to the frame's data at one pose."""
+"""The energy of one frame: the kernel and all terms, bound to the data at one pose."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ class FrameEnergy:
     """The kernel and all terms, bound to a frame.
 
     Attributes:
-        body: Whose pose is sought.
-        primitives: With the weights that they have in this frame.
-        kernel: The kernel.
-        terms: The terms that look at primitives, by their places in the YAML.
-        joints: The terms that look at joints.
+        body: The body.
+        primitives: Primitives with their weights in this frame.
+        kernel: The bound kernel.
+        terms: The bound terms on primitives, by their places in the YAML.
+        joints: The bound terms on joints.
     """
 
     body: Body
@@ -34,13 +34,13 @@ class FrameEnergy:
     joints: tuple[JointEnergy, ...]
 
     def total(self, pose: Pose) -> float:
-        """The energy of the kernel and all terms in a pose."""
+        """Returns the energy of the kernel and all terms in a pose."""
         placed = self.primitives.place(self.body.place(pose).transforms)
         energies = [one.energy(placed) for one in (self.kernel, *self.terms.values())]
         return sum(energies) + sum(joint(pose).energy for joint in self.joints)
 
     def inlier_probability(self, pose: Pose) -> Array:
-        """The inlier probability of each point in a pose, (N,); NaN if the kernel cannot tell."""
+        """Returns the inlier probability of each point in a pose, (N,); NaN if it is unknown."""
         placed = self.primitives.place(self.body.place(pose).transforms)
         probability = self.kernel.inlier_probability(placed)
         return np.array([np.nan]) if probability is None else probability
@@ -48,7 +48,7 @@ class FrameEnergy:
     def problem(
         self, coordinates: Coordinates, multipliers: Multipliers | None
     ) -> RegistrationProblem:
-        """The problem in some coordinates of the pose."""
+        """Returns the registration problem in given coordinates of the pose."""
         return RegistrationProblem(
             coordinates,
             self.primitives,

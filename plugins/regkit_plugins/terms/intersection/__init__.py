@@ -1,4 +1,4 @@
-"""No two parts of a body are in the same place."""
+"""The intersection term, which keeps the parts of a body apart."""
 
 from regkit_plugins.terms.intersection.intersection import Intersection
 

@@ -25,7 +25,7 @@ def overlaps(
     """
     energy = 0.0
     wrenches, blocks = np.zeros((len(centres), 6)), np.zeros((len(centres), 6, 6))
-    pulled, way = np.empty(3), np.empty(6)
+    pulled, direction = np.empty(3), np.empty(6)
     for pair in range(len(first)):
         one, two = first[pair], second[pair]
         a, b = covariances[one], covariances[two]
@@ -45,16 +45,16 @@ def overlaps(
             owner = two if side else one
             matrix = b if side else a
             for j in range(3):
-                way[j] = pulled[j] if side else -pulled[j]
+                direction[j] = pulled[j] if side else -pulled[j]
             # The axial vector of C u u^T is (C u) x u.
             s = matrix[0, 0] * pulled[0] + matrix[0, 1] * pulled[1] + matrix[0, 2] * pulled[2]
             t = matrix[1, 0] * pulled[0] + matrix[1, 1] * pulled[1] + matrix[1, 2] * pulled[2]
             u = matrix[2, 0] * pulled[0] + matrix[2, 1] * pulled[1] + matrix[2, 2] * pulled[2]
-            way[3] = t * pulled[2] - u * pulled[1]
-            way[4] = u * pulled[0] - s * pulled[2]
-            way[5] = s * pulled[1] - t * pulled[0]
+            direction[3] = t * pulled[2] - u * pulled[1]
+            direction[4] = u * pulled[0] - s * pulled[2]
+            direction[5] = s * pulled[1] - t * pulled[0]
             for j in range(6):
-                wrenches[owner, j] += overlap * way[j]
+                wrenches[owner, j] += overlap * direction[j]
                 for k in range(6):
-                    blocks[owner, j, k] += overlap * way[j] * way[k]
+                    blocks[owner, j, k] += overlap * direction[j] * direction[k]
     return energy, wrenches, blocks

@@ -34,7 +34,7 @@ class Intersection(Term):
     def bind(self, scene: Scene) -> BoundIntersection:
         """Binds the term to the pairs of primitives that may intersect."""
         primitives = scene.placed.primitives
-        first, second = _strangers(primitives.segments, scene.body.skeleton)
+        first, second = _non_adjacent_pairs(primitives.segments, scene.body.skeleton)
         apart = scene.placed.centres[first] - scene.placed.centres[second]
         reaches = REACH * primitives.scales.max(axis=1)
         near = (apart**2).sum(axis=1) < (reaches[first] + reaches[second]) ** 2
@@ -68,7 +68,7 @@ class BoundIntersection(Similarity):
         return Response(energy, wrenches, blocks if curvature else None)
 
 
-def _strangers(segments: Indices, skeleton: Skeleton) -> tuple[Indices, Indices]:
+def _non_adjacent_pairs(segments: Indices, skeleton: Skeleton) -> tuple[Indices, Indices]:
     """Returns the pairs of primitives on non-adjacent segments, (M,) each."""
     first, second = np.triu_indices(len(segments), k=1)
     apart = ~skeleton.adjacent[segments[first], segments[second]]

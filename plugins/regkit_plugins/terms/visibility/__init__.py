@@ -1,4 +1,4 @@
-"""Occluded primitives get less weight."""
+"""The visibility term, which reduces the weights of occluded primitives."""
 
 from regkit_plugins.terms.visibility.visibility import Visibility
 

@@ -23,7 +23,7 @@ def free_rays(targets: Array, centres: Array, axes: Array, radii: Array) -> Arra
     """
     count, samples = targets.shape[:2]
     shares = np.ones(count)
-    way, eye = np.empty(3), np.empty(3)
+    ray, eye = np.empty(3), np.empty(3)
     for k in range(count):
         own = (centres[k] ** 2).sum()
         for sample in range(samples):
@@ -33,16 +33,16 @@ def free_rays(targets: Array, centres: Array, axes: Array, radii: Array) -> Arra
                 # Scaled by its radii, an ellipsoid is the unit ball, and rays remain rays.
                 along, square = 0.0, 0.0
                 for a in range(3):
-                    way[a], eye[a] = 0.0, 0.0
+                    ray[a], eye[a] = 0.0, 0.0
                     for i in range(3):
-                        way[a] += axes[other, i, a] * targets[k, sample, i] / radii[other, a]
+                        ray[a] += axes[other, i, a] * targets[k, sample, i] / radii[other, a]
                         eye[a] -= axes[other, i, a] * centres[other, i] / radii[other, a]
-                    along -= way[a] * eye[a]
-                    square += way[a] ** 2
+                    along -= ray[a] * eye[a]
+                    square += ray[a] ** 2
                 share = min(max(along / square, 0.0), 1.0)
                 distance = 0.0
                 for a in range(3):
-                    distance += (eye[a] + share * way[a]) ** 2
+                    distance += (eye[a] + share * ray[a]) ** 2
                 if distance < 1.0:
                     shares[k] -= 1.0 / samples
                     break
