@@ -1,4 +1,4 @@
-"""The differences of two configurations."""
+"""Differences between two configurations."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from typing import Any
 
 TOLD = 3
-"""At most this many differences are listed."""
+"""Maximum number of listed differences."""
 
 
 def differences(there: Any, here: Any) -> str:
-    """The first few fields in which two configurations differ, as a person would say it."""
+    """Returns a short text of the fields in which two configurations differ."""
     found = [f"{field} is {old} there and {new} here" for field, old, new in _all("", there, here)]
     more = len(found) - TOLD
     return ", ".join(found[:TOLD]) + (f", and {more} more" if more > 0 else "")
