@@ -57,13 +57,13 @@ def check_metres(points: Array, sizes: tuple[float, ...], *, place: str) -> None
     hint = hint or f"; the template is {sizes[0]:.3g} m"
     if extent > TOO_LARGE * sizes[-1]:
         raise DataError(
-            f"the points are spread over {extent:.4g} m{hint}. If they are in millimetres, divide them "
-            "by 1000.0",
+            f"the points are spread over {extent:.4g} m{hint}. If they are in millimetres, "
+            "divide them by 1000.0",
             place=place,
         )
     if extent < TOO_SMALL * sizes[0]:
         raise DataError(
-            f"the points are spread over only {extent:.4g} m{hint}. Convert them to metres, or give "
-            "the template's size",
+            f"the points are spread over only {extent:.4g} m{hint}. Convert them to metres, or "
+            "give the template's size",
             place=place,
         )

@@ -54,7 +54,7 @@ def refusal(law: Callable[[], None], expected: str) -> None:
          "saw the value"),
         ("            evaluations += 1\n", "",
          lambda laws, made: laws.test_solver_returns_the_best_point_that_it_saw(made),
-         "counts 1 evaluations of"),
+         "reports 1 evaluations of"),
         ("if not (np.isfinite(value) and np.isfinite(gradient).all())", "if False",
          lambda laws, made: laws.test_solver_refuses_a_start_that_is_not_finite(made, np.nan, 1.0),
          "it must raise a DataError"),

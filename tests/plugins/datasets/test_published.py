@@ -185,7 +185,7 @@ def test_records_that_are_wrong_are_told_with_their_place(records):
         "ROOT: no recording here: no file matches 'x*' (dataset.files)"
     )
     assert complaint(Eval(root=records), records).startswith(
-        f"{at}: the file's {len(whole)} bytes are not a multiple of the record's 930704 bytes (320x240 "
+        f"{at}: the file's {len(whole)} bytes are not a multiple of the record's 930704 bytes"
     )
     assert complaint(Eval(root=records, record=RECORD, axes=("x", "-y", "z")), records).startswith(
         f"{at}: frame 0: only 0 points lie in front of the camera"
