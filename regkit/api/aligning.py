@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from regkit.alignment import Alignment
 from regkit.alignment import align as align_clouds
-from regkit.api.choices import Choice, told
+from regkit.api.choices import Choice, name_of
 from regkit.api.numbers import checked_numbers
 from regkit.api.tables import Summary
 from regkit.clouds import check_writable, read_cloud, write_cloud
@@ -120,7 +120,7 @@ def align(
     chosen = Method.parse(method, place="regkit.align", field="method")
     clouds = [_cloud(source, "source"), _cloud(target, "target")]
     found = align_clouds(clouds[0], clouds[1], chosen, voxel=voxel, start=start)
-    return CloudAlignment(clouds[0], clouds[1], told(method), found)
+    return CloudAlignment(clouds[0], clouds[1], name_of(method), found)
 
 
 def _cloud(given: Cloud, place: str) -> Array:

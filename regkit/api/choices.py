@@ -35,7 +35,7 @@ def load_template(source: Choice[Template], **options: object) -> Template:
     return Template.parse(source, place="load_template", field="template")
 
 
-def told(choice: Choice[Any]) -> str:
+def name_of(choice: Choice[Any]) -> str:
     """Returns the name of a choice for tables."""
     if isinstance(choice, Plugin):
         return choice.kind

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from regkit.api.choices import Choice, load_template, told
+from regkit.api.choices import Choice, load_template, name_of
 from regkit.api.frames import Frames, GivenFrames, Intrinsics, Measured, frame_of, recording_of
 from regkit.api.numbers import check_metres
 from regkit.api.results import Registration, Tracking
@@ -133,7 +133,7 @@ def _tracked(
             recorder.add(frame)
     return Tracking(
         name=recording.name,
-        method=told(method),
+        method=name_of(method),
         fps=recording.fps,
         registrar=registrar,
         recorder=recorder,

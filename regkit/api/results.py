@@ -195,13 +195,13 @@ class Tracking(Summary):
         start, stop, step = index.indices(len(self))
         if not len(range(start, stop, step)):
             raise IndexError(f"no frame of {len(self)} is in [{start}:{stop}:{step}]")
-        told = f"{start}:{stop}" + (f":{step}" if step != 1 else "")
-        return self._part(index, told)
+        label = f"{start}:{stop}" + (f":{step}" if step != 1 else "")
+        return self._part(index, label)
 
-    def _part(self, part: slice, told: str) -> Tracking:
+    def _part(self, part: slice, label: str) -> Tracking:
         return replace(
             self,
-            name=f"{self.name}[{told}]" if len(self) > 1 else self.name,
+            name=f"{self.name}[{label}]" if len(self) > 1 else self.name,
             fps=self.fps / abs(part.step or 1),
             indices=self.indices[part],
             track=self.track[part],

@@ -19,8 +19,8 @@ class Summary(ABC):
 
     def __repr__(self) -> str:
         """Returns the table in one line."""
-        told = "; ".join(f"{name}: {value}" for name, value in self.rows().items())
-        return f"<{type(self).__name__} {told}>"
+        cells = "; ".join(f"{name}: {value}" for name, value in self.rows().items())
+        return f"<{type(self).__name__} {cells}>"
 
     def __rich__(self) -> Table:
         """Returns the table for a terminal."""

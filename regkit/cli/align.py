@@ -26,12 +26,16 @@ def align(
     source: Annotated[
         Path,
         typer.Argument(
+            metavar="SOURCE",
             help="Cloud or mesh to move: .ply .pcd .xyz .npz .txt .csv .stl .obj ...",
             show_default=False,
         ),
     ],
     target: Annotated[
-        Path, typer.Argument(help="Cloud or mesh that stays fixed.", show_default=False)
+        Path,
+        typer.Argument(
+            metavar="TARGET", help="Cloud or mesh that stays fixed.", show_default=False
+        ),
     ],
     method: Annotated[
         str | None,
@@ -144,7 +148,7 @@ def _table(found: Alignment, method: str) -> Table:
     downsampled = "not downsampled" if found.voxel is None else f"voxels of {found.voxel:.3g}"
     matrix = "\n".join(" ".join(f"{value:11.6f}" for value in row) for row in found.transform)
     table = Table(show_header=False)
-    for what, told in (
+    for name, value in (
         ("T_target_source", matrix),
         ("fitness", f"{100 * agreement.fitness:.1f} % of the source {within} of the target"),
         ("", f"({100 * found.before.fitness:.1f} % at the start)"),
@@ -156,5 +160,5 @@ def _table(found: Alignment, method: str) -> Table:
         ("seconds", f"{found.seconds:.2f}"),
         ("converged", f"{'yes' if found.converged else 'no'}: {found.message}"),
     ):
-        table.add_row(what, escape(told))
+        table.add_row(name, escape(value))
     return table

@@ -70,11 +70,11 @@ def calibrate(
     opening = OPENING.format(frames=subject.frames, recording=seen.name, file=out.name)
     skin = subject.proportions.skin(found.template.description())
     write_template(out, subject.description, skin, opening)
-    _tell(subject, found.template.description().size.value)
+    _print_summary(subject, found.template.description().size.value)
     output.print(f"written: {out}", highlight=False, soft_wrap=True)
 
 
-def _tell(subject: Subject, template_size: float) -> None:
+def _print_summary(subject: Subject, template_size: float) -> None:
     """Prints the size, proportions and fit of the calibrated template."""
     size = subject.description.size
     scale = size.value / template_size

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from regkit.api.choices import told
+from regkit.api.choices import name_of
 from regkit.config.changes import Location
 from regkit.config.document import Document
 from regkit.config.model import Model
@@ -50,7 +50,7 @@ class Choices(Model):
                 data[name] = slot.default()
         places: dict[Location, str] = {(name,): f"--{name} {text}" for name, text in given.items()}
         document = Document(data, {(): "regkit", **places}).overridden(settings, called="--set")
-        return document.validated(cls), told(document.data["method"])
+        return document.validated(cls), name_of(document.data["method"])
 
 
 def parsed(text: str, option: str) -> Any:

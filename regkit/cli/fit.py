@@ -97,7 +97,7 @@ def fit(
         raise error.at(str(mesh)) from None
     named = _named(fitted.description, mesh.name)
     write_template(out, named, fitted.skin, OPENING.format(mesh=mesh.name, file=out.name))
-    _tell(fitted)
+    _print_summary(fitted)
     output.print(f"written: {out}", highlight=False, soft_wrap=True)
     output.print(f"template: {{kind: file, path: {out}}}", highlight=False, soft_wrap=True)
 
@@ -111,7 +111,7 @@ def _named(description: BodyDescription, mesh: str) -> BodyDescription:
     )
 
 
-def _tell(fitted: FittedTemplate) -> None:
+def _print_summary(fitted: FittedTemplate) -> None:
     """Prints a summary of the fit."""
     description = fitted.description
     kinds = list(description.shapes)

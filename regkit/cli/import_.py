@@ -86,12 +86,12 @@ def import_(
     if any(isinstance(one.joint, BallJoint) for one in imported.description.segments.values()):
         opening += "\n" + UNLIMITED
     write_template(out, imported.description, None, opening, imported.comments)
-    _tell(imported)
+    _print_summary(imported)
     output.print(f"written: {out}", highlight=False, soft_wrap=True)
     output.print(f"template: {{kind: file, path: {out}}}", highlight=False, soft_wrap=True)
 
 
-def _tell(imported: ImportedSkeleton) -> None:
+def _print_summary(imported: ImportedSkeleton) -> None:
     """Prints a summary of the imported skeleton."""
     description = imported.description
     segments = description.segments.values()

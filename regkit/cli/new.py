@@ -13,10 +13,17 @@ from regkit.scaffold import Scaffold
 
 def new(
     what: Annotated[
-        str, typer.Argument(help="Kind of plug-in: shape, kernel, solver, dataset or template.")
+        str,
+        typer.Argument(
+            metavar="WHAT", help="Kind of plug-in: shape, kernel, solver, dataset or template."
+        ),
     ],
-    name: Annotated[str, typer.Argument(help="Name of the plug-in in YAML, such as my_shape.")],
-    out: Annotated[Path, typer.Option(help="Folder that receives the package's folder.")] = Path(),
+    name: Annotated[
+        str, typer.Argument(metavar="NAME", help="Name of the plug-in in YAML, such as my_shape.")
+    ],
+    out: Annotated[
+        Path, typer.Option(metavar="FOLDER", help="Folder that receives the package's folder.")
+    ] = Path(),
 ) -> None:
     """Create a package for a plug-in of your own, which passes conformance from the start."""
     scaffold = Scaffold.checked(what, name)

@@ -90,7 +90,7 @@ def _table(tracking: Tracking, figures: dict[str, Any]) -> Table:
     distance, share = figures["surface_distance_mm"], figures["inlier_share"]
     doubts = f"{figures['doubtful_frames']} of {len(tracking)}"
     table = Table(show_header=False)
-    for what, told in (
+    for name, value in (
         ("frames", f"{tracking.name}, {len(tracking)}"),
         ("method", tracking.method),
         ("body", f"{tracking.body.name}, {tracking.size:.4g} m"),
@@ -102,7 +102,7 @@ def _table(tracking: Tracking, figures: dict[str, Any]) -> Table:
         ("lost", "yes" if tracking.lost else "no"),
         ("speed", f"{figures['frames_per_second']:.3g} frames per second"),
     ):
-        table.add_row(what, escape(told))
+        table.add_row(name, escape(value))
     return table
 
 

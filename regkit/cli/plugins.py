@@ -23,7 +23,9 @@ from regkit.system.errors import PluginError, RegkitError
 def plugins(
     kind: Annotated[
         str | None,
-        typer.Argument(help="Show the fields of this plug-in, or the file of this preset."),
+        typer.Argument(
+            metavar="[NAME]", help="Show the fields of this plug-in, or the file of this preset."
+        ),
     ] = None,
     plugin: PluginFiles = None,
 ) -> None:

@@ -15,7 +15,9 @@ from regkit.system.errors import ConfigError
 
 
 def report(
-    folder: Annotated[Path, typer.Argument(help="Results folder of a run.", show_default=False)],
+    folder: Annotated[
+        Path, typer.Argument(metavar="RESULTS", help="Results folder of a run.", show_default=False)
+    ],
     compare: Annotated[
         list[str] | None,
         typer.Option(metavar="A,B", help="Also compare these two methods by a statistical test."),

@@ -24,10 +24,13 @@ from regkit.report.tables import TERMINAL, rows
 
 
 def run(
-    experiment: Annotated[Path, typer.Argument(help="The experiment's YAML file.")],
+    experiment: Annotated[
+        Path, typer.Argument(metavar="EXPERIMENT", help="The experiment's YAML file.")
+    ],
     out: Annotated[
         Path | None,
         typer.Option(
+            metavar="FOLDER",
             help="Results folder; an unfinished run in it is continued. "
             "(default: results/NAME/DATE-TIME)",
             show_default=False,

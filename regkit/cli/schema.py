@@ -21,7 +21,8 @@ from regkit.system.files import write_text
 
 def schema(
     folder: Annotated[
-        Path, typer.Argument(help="Folder to write the schemas to, or to check.")
+        Path,
+        typer.Argument(metavar="[FOLDER]", help="Folder to write the schemas to, or to check."),
     ] = Path(FOLDER),
     check: Annotated[
         bool,
@@ -42,7 +43,7 @@ def schema(
         with only_from(OWN):
             texts = _texts()
     else:
-        _tell_broken()
+        _report_left_out()
         texts = _texts()
     if check:
         _check(folder, texts)
@@ -79,7 +80,7 @@ def _check(folder: Path, texts: dict[str, str]) -> None:
         raise typer.Exit(1)
 
 
-def _tell_broken() -> None:
+def _report_left_out() -> None:
     """Reports the plug-ins left out of the schemas because they are broken or not describable."""
     for slot in SLOTS:
         for kind, origin in slot.available().items():
@@ -88,14 +89,16 @@ def _tell_broken() -> None:
                 if not (isinstance(origin, Installed) and OWN in origin.distributions):
                     schema_of(plugin)
             except PluginError as error:
-                told = str(error)
+                reason = str(error)
             except PydanticInvalidForJsonSchema as error:
                 by = origin.versions if isinstance(origin, Installed) else origin.__module__
-                told = f"plug-in '{kind}' of {by} has a field without a YAML form: {error.message}"
+                reason = (
+                    f"plug-in '{kind}' of {by} has a field without a YAML form: {error.message}"
+                )
             else:
                 continue
             errors.print(
-                f"left out: {told}", style="red", markup=False, highlight=False, soft_wrap=True
+                f"left out: {reason}", style="red", markup=False, highlight=False, soft_wrap=True
             )
 
 

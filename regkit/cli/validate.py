@@ -17,7 +17,12 @@ from regkit.system.errors import ConfigError, RegkitError
 
 
 def validate(
-    files: Annotated[list[Path], typer.Argument(help="Experiments, templates or skeletons.")],
+    files: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="FILES...", help="YAML files of experiments, templates or skeletons."
+        ),
+    ],
     plugin: PluginFiles = None,
 ) -> None:
     """Check YAML files and report each mistake with its line."""

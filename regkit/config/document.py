@@ -17,7 +17,7 @@ from regkit.system.errors import ConfigError, DataError
 M = TypeVar("M", bound=BaseModel)
 T = TypeVar("T")
 
-_SPEAKING = ("unknown_field", "plugin_", "value_error")
+_SELF_CONTAINED = ("unknown_field", "plugin_", "value_error")
 """Types of errors whose message already shows the value."""
 
 
@@ -140,11 +140,11 @@ class Document:
         location = self._written((*at, *details["loc"]), absent=absent)
         given = details["input"]
         shown = isinstance(given, (str, int, float, bool)) and not details["type"].startswith(
-            _SPEAKING
+            _SELF_CONTAINED
         )
         message = details["msg"].removeprefix("Value error, ").replace("a valid tuple", "a list")
-        told = f"{message[0].lower()}{message[1:]}" + (f"; it is {given!r}" if shown else "")
-        return ": ".join(filter(None, (self.place(location), told)))
+        complaint = f"{message[0].lower()}{message[1:]}" + (f"; it is {given!r}" if shown else "")
+        return ": ".join(filter(None, (self.place(location), complaint)))
 
     def _written(self, location: Location, *, absent: bool) -> Location:
         """Returns the location without the tags that pydantic inserts for unions."""

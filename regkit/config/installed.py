@@ -65,10 +65,10 @@ class Installed:
         # A module that exits the interpreter must not harm users who never name it.
         except (Exception, SystemExit) as error:
             # Some libraries add advice to developers in further paragraphs.
-            told = str(error).partition("\n\n")[0]
+            reason = str(error).partition("\n\n")[0]
             raise PluginError(
                 f"{what} '{first.name}' of {_brought_by(first)} cannot be imported: "
-                f"{type(error).__name__}: {told}"
+                f"{type(error).__name__}: {reason}"
             ) from error
 
 

@@ -65,9 +65,9 @@ class Plugin(Model):
         if found is None:
             check_former(cls, kind)
             presets = list(presets_of(cls.group))
-            told = f"; presets: {', '.join(presets)}" if presets else ""
+            hint = f"; presets: {', '.join(presets)}" if presets else ""
             raise PluginError(
-                f"no plug-in '{kind}' in {cls.group} (installed: {', '.join(available)}{told})"
+                f"no plug-in '{kind}' in {cls.group} (installed: {', '.join(available)}{hint})"
                 + did_you_mean(kind, [*presets, *available])
             )
         if not isinstance(found, Installed):

@@ -35,10 +35,10 @@ def environment(earlier: Path, workers: str) -> dict[str, Any]:
         earlier: The file of the run's first start, if it is continued.
         workers: Description of the current workers, whose frames per second are measured.
     """
-    told, begun = [], f"{datetime.now().astimezone():%Y-%m-%d %H:%M %z}"
+    known, begun = [], f"{datetime.now().astimezone():%Y-%m-%d %H:%M %z}"
     with suppress(OSError, ValueError, KeyError, TypeError):
         before = json.loads(earlier.read_text(encoding="utf-8"))
-        told, begun = list(before["workers"]), str(before["date"])
+        known, begun = list(before["workers"]), str(before["date"])
     return {
         "date": begun,
         "regkit": __version__,
@@ -48,7 +48,7 @@ def environment(earlier: Path, workers: str) -> dict[str, Any]:
         "system": platform.platform(),
         "processor": _processor(),
         "cores": os.cpu_count(),
-        "workers": list(dict.fromkeys([*told, workers])),
+        "workers": list(dict.fromkeys([*known, workers])),
     }
 
 

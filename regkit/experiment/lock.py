@@ -53,12 +53,12 @@ def locked(folder: Path) -> Iterator[FolderLock]:
         DataError: If the folder is not writable.
     """
     lock, new = FolderLock(folder.absolute(), uuid4().hex), not folder.exists()
-    with _told(folder):
+    with _naming(folder):
         folder.mkdir(parents=True, exist_ok=True)
         descriptor = _lock_file(folder)
     try:
         claim = {"run": lock.run, "process": os.getpid(), "machine": platform.node()}
-        with _told(folder):
+        with _naming(folder):
             os.truncate(descriptor, 0)
             os.write(descriptor, json.dumps(claim).encode())
         yield lock
@@ -72,7 +72,7 @@ def locked(folder: Path) -> Iterator[FolderLock]:
 
 
 @contextmanager
-def _told(folder: Path) -> Iterator[None]:
+def _naming(folder: Path) -> Iterator[None]:
     """Context manager that turns errors of the operating system into ones that name the folder."""
     try:
         yield

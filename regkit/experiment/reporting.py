@@ -81,14 +81,16 @@ def found(folder: Path) -> tuple[dict[str, dict[str, Measure]], dict[str, dict[s
         )
     check_format(folder)
     results, metrics = Results(folder), folder / "metrics.json"
-    told = _json(metrics).get("methods", {}) if metrics.exists() else {}
+    written_metrics = _json(metrics).get("methods", {}) if metrics.exists() else {}
     config = Document.read(folder / "config.yaml").data
     named = [] if "sweep" in config else config.get("methods", {})
     written = [path.parent.relative_to(folder) for path in sorted(folder.rglob("measure.json"))]
     measures: dict[str, dict[str, Measure]] = {}
     failures: dict[str, dict[str, str]] = {}
-    for method in dict.fromkeys([*named, *told, *(one.parent.as_posix() for one in written)]):
-        recordings = told.get(method, {}).get("recordings", {})
+    for method in dict.fromkeys(
+        [*named, *written_metrics, *(one.parent.as_posix() for one in written)]
+    ):
+        recordings = written_metrics.get(method, {}).get("recordings", {})
         own = [one.name for one in written if one.parent.as_posix() == method]
         measures[method], failures[method] = {}, {}
         for recording in dict.fromkeys([*recordings, *own]):

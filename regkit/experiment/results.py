@@ -98,14 +98,14 @@ class Results:
     def failures(self) -> dict[str, dict[str, str]]:
         """Returns reasons of earlier failures by method and recording, from ``metrics.json``."""
         with suppress(OSError, ValueError, KeyError, TypeError, AttributeError):
-            told = json.loads((self.folder / "metrics.json").read_text(encoding="utf-8"))
+            metrics = json.loads((self.folder / "metrics.json").read_text(encoding="utf-8"))
             return {
                 method: {
                     recording: str(figures["error"])
                     for recording, figures in one["recordings"].items()
                     if "error" in figures
                 }
-                for method, one in told["methods"].items()
+                for method, one in metrics["methods"].items()
             }
         return {}
 

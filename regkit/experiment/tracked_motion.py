@@ -102,13 +102,13 @@ def _fps(folder: Path, arrays: Mapping[str, NDArray[Any]]) -> float:
         ConfigError: If the results do not contain it.
     """
     record = folder / "record.npz"
-    told = _read(record) if "fps" not in arrays and record.is_file() else arrays
-    if "fps" not in told:
+    source = _read(record) if "fps" not in arrays and record.is_file() else arrays
+    if "fps" not in source:
         raise ConfigError(
             f"the results in {folder} do not contain the frames per second; give them",
             place="fps",
         )
-    return float(told["fps"])
+    return float(source["fps"])
 
 
 def _read(file: Path) -> dict[str, NDArray[Any]]:

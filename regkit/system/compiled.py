@@ -15,7 +15,7 @@ R = TypeVar("R")
 _DISPATCHERS: list[Any] = []
 """Numba's dispatchers of all functions compiled so far."""
 
-_TELLERS: list[Callable[[], None]] = []
+_CALLBACKS: list[Callable[[], None]] = []
 """Callbacks to run once before the first compilation."""
 
 
@@ -66,22 +66,22 @@ def loaded_loops() -> int:
     return sum(len(dispatcher.overloads) for dispatcher in _DISPATCHERS)
 
 
-def when_compiling(tell: Callable[[], None]) -> None:
-    """Calls ``tell`` once, before the first compilation of a loop that is not cached on disk."""
-    _TELLERS.append(tell)
+def when_compiling(callback: Callable[[], None]) -> None:
+    """Calls ``callback`` once, before the first compilation of a loop not cached on disk."""
+    _CALLBACKS.append(callback)
 
 
 def _listen() -> None:
     """Registers the callbacks with Numba before its first compilation."""
-    if not _TELLERS or _DISPATCHERS:
+    if not _CALLBACKS or _DISPATCHERS:
         return
     load_library("numba")
     event = importlib.import_module("numba.core.event")
 
     class Listener(event.Listener):  # type: ignore[misc, name-defined]
         def on_start(self, _: Any) -> None:
-            while _TELLERS:
-                _TELLERS.pop()()
+            while _CALLBACKS:
+                _CALLBACKS.pop()()
 
         def on_end(self, _: Any) -> None:
             """Ignored."""

@@ -51,7 +51,7 @@ class Slopes:
         """Whether both agree apart from rounding."""
         return bool((self.errors < SLOPE_TOLERANCE).all())
 
-    def told(self, body: Body) -> str:
+    def message(self, body: Body) -> str:
         """Returns a message with the worst degree of freedom, and a hint at the cause."""
         names = _dofs(body)
         worst = int(self.errors.argmax())

@@ -42,7 +42,7 @@ class KernelLaws(BlockLaws):
             f"'{bound.pair.shape.kind}'",
             look_at=bound.answer,
         )  # fmt: skip
-        require(slopes.agree(), bound.kernel, slopes.told(bound.body), look_at=bound.answer)
+        require(slopes.agree(), bound.kernel, slopes.message(bound.body), look_at=bound.answer)
 
     def test_kernel_response_has_its_shapes_and_does_not_depend_on_the_curvature(
         self, bound: Bound

@@ -110,8 +110,8 @@ class ParameterLaws(Laws):
             float(np.abs(larger.scales - scaled.scales).max()),
         )
         require(
-            by < 1e-9, shape, f"makes primitives that differ by {by:.2g} m between scaled "
-            "parameters and a scaled body", look_at=type(shape).bind,
+            by < 1e-9, shape, f"makes primitives of scaled parameters that differ by "
+            f"{by:.2g} m from its own scaled primitives", look_at=type(shape).bind,
         )  # fmt: skip
 
 

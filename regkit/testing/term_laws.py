@@ -64,7 +64,7 @@ class TermLaws(Laws):
         slopes = Slopes.of(problem, x)
         require(
             slopes.agree() or slopes.largest < 1e-9, term_pair.plugin,
-            slopes.told(scene[0].body), look_at=type(effect).__call__,
+            slopes.message(scene[0].body), look_at=type(effect).__call__,
         )  # fmt: skip
 
     def test_term_curvature_is_symmetric_and_semidefinite(

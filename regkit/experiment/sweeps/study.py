@@ -13,7 +13,7 @@ from regkit.experiment.resolved import resolved
 from regkit.experiment.sweeps.sweep import combinations
 from regkit.system.errors import ConfigError
 
-TOLD = 5
+SHOWN = 5
 """Maximum number of listed errors; a sweep repeats the same error many times."""
 
 
@@ -77,9 +77,9 @@ class Study:
                 experiments[one.name] = one.document.validated(Experiment)
             except ConfigError as error:
                 lines = str(error).splitlines()
-                more = len(lines) - TOLD
-                told = [*lines[:TOLD], f"and {more} more"] if more > 0 else lines
-                raise ConfigError("\n".join(told)) from None
+                more = len(lines) - SHOWN
+                shown = [*lines[:SHOWN], f"and {more} more"] if more > 0 else lines
+                raise ConfigError("\n".join(shown)) from None
         lists: dict[str, list[Any]] = {".".join(keys): [] for keys in made[0].fields}
         for one in made:
             for keys in one.fields:
