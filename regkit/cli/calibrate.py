@@ -56,7 +56,9 @@ def calibrate(
     ] = 12,
     settings: Annotated[
         list[str] | None,
-        typer.Option("--set", metavar="a.b.c=VALUE", help="Change a value of the experiment."),
+        typer.Option(
+            "--set", metavar="a.b.c=VALUE", help="Change a value of the experiment. Repeatable."
+        ),
     ] = None,
     plugin: PluginFiles = None,
 ) -> None:

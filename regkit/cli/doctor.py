@@ -27,7 +27,7 @@ LIBRARIES = {name: name for name in ("numpy", "scipy", "numba", "pydantic", "mat
 
 def doctor() -> None:
     """Check the installation and name the command that repairs each problem."""
-    table = Table("what", "state", "repair")
+    table = Table("component", "state", "repair")
     findings = [_python(), *(_library(*names) for names in LIBRARIES.items())]
     findings += [_plugins(), _cache()]
     for what, state, cure in findings:

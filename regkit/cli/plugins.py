@@ -24,7 +24,7 @@ def plugins(
     kind: Annotated[
         str | None,
         typer.Argument(
-            metavar="[NAME]", help="Show the fields of this plug-in, or the file of this preset."
+            metavar="NAME", help="Show the fields of this plug-in, or the file of this preset."
         ),
     ] = None,
     plugin: PluginFiles = None,

@@ -20,7 +20,9 @@ def report(
     ],
     compare: Annotated[
         list[str] | None,
-        typer.Option(metavar="A,B", help="Also compare these two methods by a statistical test."),
+        typer.Option(
+            metavar="A,B", help="Also compare these two methods statistically. Repeatable."
+        ),
     ] = None,
 ) -> None:
     """Write the report of a results folder again, also after an interrupted run."""

@@ -22,7 +22,7 @@ from regkit.system.files import write_text
 def schema(
     folder: Annotated[
         Path,
-        typer.Argument(metavar="[FOLDER]", help="Folder to write the schemas to, or to check."),
+        typer.Argument(metavar="FOLDER", help="Folder to write the schemas to, or to check."),
     ] = Path(FOLDER),
     check: Annotated[
         bool,

@@ -19,9 +19,7 @@ from regkit.system.errors import ConfigError, RegkitError
 def validate(
     files: Annotated[
         list[Path],
-        typer.Argument(
-            metavar="FILES...", help="YAML files of experiments, templates or skeletons."
-        ),
+        typer.Argument(metavar="FILE", help="YAML files of experiments, templates or skeletons."),
     ],
     plugin: PluginFiles = None,
 ) -> None:
