@@ -19,7 +19,7 @@ class Interrupt:
     def __init__(self, answer: str = "stopping after this frame") -> None:
         """``answer`` is the message printed on the first Ctrl-C."""
         self._answer = answer
-        self._asked = False
+        self._pressed = False
         self._former = signal.getsignal(signal.SIGINT)
         # Python reports None for a handler that it did not install and cannot restore.
         self._heard = self._former not in (signal.SIG_IGN, None)
@@ -46,10 +46,10 @@ class Interrupt:
         Raises:
             KeyboardInterrupt: If it was pressed.
         """
-        if self._asked:
+        if self._pressed:
             raise KeyboardInterrupt
 
     def _note(self, *_: object) -> None:
-        self._asked = True
+        self._pressed = True
         errors.print(f"{self._answer}; press Ctrl-C again to end at once", highlight=False)
         signal.signal(signal.SIGINT, signal.default_int_handler)

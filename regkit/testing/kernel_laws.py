@@ -76,11 +76,11 @@ class KernelLaws(BlockLaws):
         problem.value_and_gradient(x)
         x += bound.near_start(random)
         stepped = problem.value_and_gradient(x)
-        anew = bound.problem().value_and_gradient(x.copy())
+        fresh = bound.problem().value_and_gradient(x.copy())
         require(
-            same(stepped, anew), bound.kernel, "evaluates the old point after a step in place: the "
-            f"energy is {stepped[0]:.6g} for {anew[0]:.6g}; do not cache by the identity of an "
-            "array", look_at=bound.answer,
+            same(stepped, fresh), bound.kernel, "evaluates the old point after a step in place: "
+            f"the energy is {stepped[0]:.6g} for {fresh[0]:.6g}; do not cache by the identity of "
+            "an array", look_at=bound.answer,
         )  # fmt: skip
 
     def test_kernel_takes_a_point_of_twice_the_weight_for_two(self, bound: Bound) -> None:

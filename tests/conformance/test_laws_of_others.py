@@ -49,7 +49,7 @@ def refusal(law: Callable[[], None], expected: str) -> None:
          lambda laws, made:
             laws.test_solver_stays_in_the_box_and_is_never_worse_than_the_start(made, bowl, 0.01),
          "leaves the box of bowl by"),
-        ("if there < value and", "if there == there or",
+        ("if trial_value < value and", "if trial_value == trial_value or",
          lambda laws, made: laws.test_solver_returns_the_best_point_that_it_saw(made),
          "saw the value"),
         ("            evaluations += 1\n", "",
@@ -78,7 +78,7 @@ def test_faulty_solver_breaks_its_law(faulty, old, new, law, expected):
         ("len(files), files)", "7, files)",
          lambda laws, made, found:
             laws.test_dataset_frames_are_finite_and_as_many_as_it_says(made, found),
-         f"says that 'lump' has 7 frames and gives {FRAMES}"),
+         f"states that 'lump' has 7 frames but yields {FRAMES}"),
         ("np.loadtxt(file, ndmin=2)", "1000.0 * np.loadtxt(file, ndmin=2)",
          lambda laws, made, found:
             laws.test_dataset_frames_are_finite_and_as_many_as_it_says(made, found),
