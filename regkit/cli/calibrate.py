@@ -17,7 +17,7 @@ from regkit.cli.options import PluginFiles, run_plugin_files
 from regkit.cli.template_file import check_replaceable, write_template
 
 OPENING = """\
-Template that `regkit calibrate` made from {frames} frames of {recording}. To use it:
+Made by `regkit calibrate` from {frames} frames of {recording}. To use it:
 template: {{kind: file, path: {file}}}
 
 Lengths are in metres and angles in degrees."""

@@ -20,7 +20,7 @@ from regkit.interchange.meshes import read_mesh
 from regkit.system.errors import RegkitError
 
 OPENING = """\
-Template that `regkit fit` made from the mesh {mesh}. To use it:
+Made by `regkit fit` from the mesh {mesh}. To use it:
 template: {{kind: file, path: {file}}}
 
 Lengths are in metres and angles in degrees."""

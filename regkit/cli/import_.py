@@ -16,7 +16,7 @@ from regkit.skeleton.joints import BallJoint
 from regkit.system.errors import ConfigError
 
 OPENING = """\
-Template that `regkit import {command}` made. To use it:
+Made by `regkit import {command}`. To use it:
 template: {{kind: file, path: {file}}}
 
 Lengths are in metres and angles in degrees. In the rest pose all segments are parallel: y up, z to

@@ -47,7 +47,7 @@ def test_an_imported_skeleton_is_registered(regkit, files, out):
     assert "along their bones: 19" in ended.out
     assert f"template: {{kind: file, path: {out}}}" in ended.out
     assert regkit("validate", out).out.strip() == f"{out}: a valid template"
-    assert out.read_text().startswith("# What `regkit import mocapbank.bvh --scale 0.01` made.")
+    assert out.read_text().startswith("# Made by `regkit import mocapbank.bvh --scale 0.01`.")
     assert read(out).title == "A dancer"
     template = f"template={{kind: file, path: {out}, size: 1.7}}"
     settings = ("--set", template, "--set", "dataset.compared=false", *QUICK)
