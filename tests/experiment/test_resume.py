@@ -119,7 +119,7 @@ def test_interrupted_run_is_completed_later(regkit, files, interrupt):
     ended = regkit(*arguments)
     assert ended.code == 130
     assert ended.err.endswith(
-        f"interrupted; what was finished is kept: repeat with --out {files.out}\n"
+        f"interrupted; finished work is kept: continue with --out {files.out}\n"
     )
     assert {name.rsplit("/", 1)[0] for name in files.written()} == {"gsog/first"}
     begun = len(steps)

@@ -184,8 +184,8 @@ def test_interrupt_ends_the_processes_and_the_run_is_completed_later(
     told = begun.process.communicate(timeout=60)[1]
     assert begun.process.returncode == 130
     assert told.splitlines() == [
-        "stopping; Ctrl-C again ends at once",
-        f"interrupted; what was finished is kept: repeat with --out {files.out}",
+        "stopping; press Ctrl-C again to end at once",
+        f"interrupted; finished work is kept: continue with --out {files.out}",
     ]
     assert regkit("run", files.experiment, "--out", files.out, "--no-figures").code == 0
     assert figures_but_times(files.out) == serial
