@@ -1,4 +1,4 @@
-"""Pairs of rigid clouds whose true motion is known."""
+"""Pairs of rigid clouds with a known relative pose."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Pair:
     size: float
 
     def errors(self, transform: Array) -> tuple[float, float]:
-        """Rotation [deg], and how far the source's centre is off, as a part of the size."""
+        """Returns the errors of rotation [deg] and source's centre, relative to the size."""
         turn = to_vector(from_matrix((inverse(self.truth) @ transform)[:3, :3]))
         centre = self.source.mean(axis=0, keepdims=True)
         off = transformed(transform, centre) - transformed(self.truth, centre)
@@ -37,15 +37,15 @@ def bunny(
     overlap: float = 1.0,
     outliers: float = 0.0,
 ) -> Pair:
-    """A pair made of one cloud, turned by an angle [deg] about a random axis, and spoiled.
+    """Returns a pair from one cloud: rotated about a random axis, and degraded.
 
     Args:
         points: The cloud, (N, 3).
-        angle: By how much it is turned [deg].
-        seed: Of axis, shift and noise.
-        noise: Standard deviation on both clouds, as a part of the size.
-        overlap: Which part of each cloud is in the other one too.
-        outliers: Which part of each cloud is spread over its box.
+        angle: Angle of the rotation [deg].
+        seed: Seed of axis, translation and noise.
+        noise: Standard deviation of the noise on both clouds, relative to the size.
+        overlap: Fraction of each cloud that the other one contains too.
+        outliers: Fraction of each cloud that is replaced by points spread over its box.
     """
     random = np.random.default_rng(seed)
     size = float(np.linalg.norm(np.ptp(points, axis=0)))
@@ -54,7 +54,7 @@ def bunny(
     centre = points.mean(axis=0)
     shift *= 0.1 * size / np.linalg.norm(shift)
     truth = rigid(rotation, centre + shift - rotation @ centre)
-    # Of each cloud the part ``overlap`` is in the other one too.
+    # The fraction ``overlap`` of each cloud is also in the other one.
     order, kept = np.argsort(points @ cut), round(len(points) / (2.0 - overlap))
 
     def spoiled(cloud: Array) -> Array:

@@ -1,4 +1,4 @@
-"""The synthetic recordings that the benchmarks of accuracy run on, and one row of their tables."""
+"""Synthetic recordings of the accuracy benchmarks, and rows of their tables."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from regkit_synthesis.assets import slim_hand
 from regkit_synthesis.templates import right_hand_template
 
 PRESETS = {"human": PEOPLE, "hand": HANDS}
-"""The dataset of each kind of body."""
+"""Dataset of each type of body."""
 
 TEMPLATES = {
     "human_average": "{kind: human, height: 1.6327}",
@@ -27,10 +27,10 @@ TEMPLATES = {
     "hand_average": "{kind: hand, length: 0.1858}",
     "hand_slim": "{kind: file, path: SLIM_HAND, size: 0.1938}",
 }
-"""The template of each subject, with the right lengths."""
+"""Template of each subject, with the true lengths."""
 
 SLIM_HAND = Path("results/slim_hand.yaml")
-"""The template of the slim hand, which is made when it is not there (half a minute)."""
+"""Template of the slim hand, created if missing (half a minute)."""
 
 UTD = Path(__file__).parent.parent / "docs" / "examples" / "utd.yaml"
 """The experiment on real data."""
@@ -49,9 +49,10 @@ methods: {{method: {method}}}
 
 
 def recordings(kind: str) -> list[SyntheticRecording]:
-    """The recordings of a kind, ``human`` or ``hand``, or of one of its subjects, ``human_small``.
+    """Returns the recordings of ``human``, ``hand``, or one of their subjects.
 
-    They are rendered when they are first needed (two minutes for all), and kept in the cache.
+    A subject is, for example, ``human_small``. The recordings are rendered on first use (two
+    minutes for all), and stored in the cache.
     """
     kind, _, subject = kind.partition("_")
     dataset = Document.read(PRESETS[kind]).validated(Synthetic)
@@ -65,9 +66,9 @@ def recordings(kind: str) -> list[SyntheticRecording]:
 def tracked(
     kind: str, method: str, settings: Sequence[str] = (), template: str | None = None
 ) -> dict[str, Measure]:
-    """The figures of a method, written as in YAML, on all recordings of a kind, by name.
+    """Returns the metrics of a method, in YAML, on all recordings of a type, by name.
 
-    Without another template each subject's own is taken, which has the right lengths.
+    By default each subject's own template is used, which has the true lengths.
     """
     body = kind.partition("_")[0]
     jobs = [
@@ -79,7 +80,7 @@ def tracked(
 
 
 def own_template(subject: str) -> str:
-    """The template of a subject, as in YAML."""
+    """Returns the template of a subject, in YAML."""
     if subject == "hand_slim" and not SLIM_HAND.is_file():
         SLIM_HAND.parent.mkdir(parents=True, exist_ok=True)
         right_hand_template(slim_hand(), "A slim right hand", "a slim hand").write(SLIM_HAND)
@@ -104,7 +105,7 @@ def _tracked(job: tuple[str, str, str, str], settings: tuple[str, ...]) -> tuple
 
 
 def tracked_utd(folder: Path, method: str) -> dict[str, Measure]:
-    """The figures of a method on the recordings of UTD-MHAD in a folder, by name."""
+    """Returns the metrics of a method on the recordings of UTD-MHAD in a folder, by name."""
     with TemporaryDirectory() as temporary, one_blas_thread():
         settings = (f"dataset.root={folder.absolute()}", f"methods={{method: {method}}}")
         experiment = Experiment.read(UTD, settings)
@@ -118,12 +119,12 @@ def _measures(outcome: Outcome) -> dict[str, Measure]:
 
 
 def mean(measures: dict[str, Measure], figure: str) -> float:
-    """The mean of a figure over recordings."""
+    """Returns the mean of a metric over recordings."""
     return sum(getattr(measure, figure) for measure in measures.values()) / len(measures)
 
 
 def row(name: str, measures: dict[str, Measure]) -> dict[str, float]:
-    """Prints the mean figures of a method as a row of Markdown, and gives them back."""
+    """Prints the mean metrics of a method as a row of Markdown, and returns them."""
     figures = {
         "raw_cm": round(mean(measures, "joint_error_raw_cm"), 2),
         "adjusted_cm": round(mean(measures, "joint_error_adjusted_cm"), 2),
@@ -142,5 +143,5 @@ HEADER = """\
 
 
 def last_line(figures: Mapping[str, object]) -> None:
-    """Prints the figures as one JSON object, the last line; every process had one thread."""
+    """Prints the figures as one JSON object in the last line; each process had one thread."""
     print(json.dumps({"threads": 1, **figures}))

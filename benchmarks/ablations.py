@@ -1,8 +1,8 @@
-"""What each part of the methods ``best`` and ``paper`` is worth, on synthetic recordings.
+"""Effect of each part of the methods ``best`` and ``paper``, on synthetic recordings.
 
     python benchmarks/ablations.py
 
-The presets ``people`` and ``hands``, one part changed at a time. One thread in each process.
+The presets ``people`` and ``hands``, with one part changed at a time. One thread per process.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ TERMS = ("visibility", "free_space", "intersection", "continuity")
 
 
 def without(term: str) -> str:
-    """The setting that leaves out one term."""
+    """Returns the setting that omits one term."""
     return f"methods.method.terms=[{', '.join(other for other in TERMS if other != term)}]"
 
 
@@ -58,7 +58,7 @@ PAPER = {
 
 
 def main() -> None:
-    """Print the tables, and their figures as one JSON object in the last line."""
+    """Prints the tables, and their figures as one JSON object in the last line."""
     print(HEADER)
     figures = {
         name: row(name, tracked("human", "{preset: best}", settings))

@@ -1,9 +1,9 @@
-"""What ``regkit calibrate`` is worth on a body whose proportions are not the template's.
+"""Effect of ``regkit calibrate`` on a body with other proportions than the template.
 
     python benchmarks/calibration.py
 
-The six recordings of the small body, tracked by ``best`` with the template of the right lengths,
-with the generic one, and with those that are calibrated on one recording each.
+The method ``best`` tracks the six recordings of the small body with a template of the true lengths,
+with the generic template, and with templates calibrated on one recording each.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ CALIBRATED_ON = ("walk_fast", "walk_above", "punch_side")
 
 
 def main() -> None:
-    """Print the table, and its figures as one JSON object in the last line."""
+    """Prints the table, and its figures as one JSON object in the last line."""
     print(HEADER)
     figures = {
         "right lengths": row("right lengths", tracked(BODY, METHOD)),

@@ -1,9 +1,9 @@
-"""What one evaluation of the correlation kernel costs, against the exponentials that it must take.
+"""Time of one evaluation of the correlation kernel, relative to its exponentials.
 
     python benchmarks/kernel.py
 
-13 anisotropic Gaussians (the human G-SoG) against 2,000 isotropic ones (points on its surface):
-value and gradient, as ratios to ``numpy.exp`` over as many numbers in the same run, on one thread.
+13 anisotropic Gaussians (the human G-SoG) and 2,000 isotropic ones (points on its surface): value
+and gradient, relative to ``numpy.exp`` of as many numbers in the same run, on one thread.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ REPEATS, ROUNDS = 200, 25
 
 
 def microseconds(function: Callable[[], object]) -> float:
-    """The least mean time of a call over several rounds: what it costs when nothing interferes."""
+    """Returns the lowest mean time of a call over several rounds, to exclude interference."""
     rounds = []
     for _ in range(ROUNDS):
         begun = time.perf_counter()
@@ -36,7 +36,7 @@ def microseconds(function: Callable[[], object]) -> float:
 
 
 def main() -> None:
-    """Print the table, and its figures as one JSON object in the last line."""
+    """Prints the table, and its figures as one JSON object in the last line."""
     random = np.random.default_rng(0)
     body = Human(height=1.75).body(1.75)
     primitives = GeneralizedSumOfGaussians().bind(body)

@@ -1,12 +1,12 @@
-"""How well each solver keeps joint limits, and whether they agree without.
+"""Violations of joint limits by each solver, and agreement of the solvers without limits.
 
     python benchmarks/limits.py [POSES]
 
-A person and a hand are drawn in random poses, many of them beyond their limits; points drawn from
-their Gaussians there are the data. From that pose, disturbed and brought within limits, every
-solver looks for the pose of least energy (kernel `likelihood`, G-SoG, no other term). One in twenty
-problems is solved to the end without any limits too, where all solvers should find the same energy.
-One thread; some ten minutes.
+The data are points drawn from the Gaussians of a person and a hand in random poses, many of them
+beyond the limits. Starting from a disturbed pose within the limits, every solver minimizes the
+energy (kernel `likelihood`, G-SoG, no other term). One in twenty problems is also solved to
+convergence without limits, where all solvers should reach the same energy. One thread; about ten
+minutes.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ FURTHER = {"solver": {"kind": "gauss_newton", **PRECISE["gauss_newton"]}}
 
 
 def problems(body: Body, count: int) -> Iterator[tuple[Observation, Pose]]:
-    """Data of random poses, and a start within the limits for each."""
+    """Yields data of random poses, with a start within the limits for each."""
     random = np.random.default_rng(0)
     bones = body.skeleton
     gaussians = ShapeModel.load("gsog")().bind(body)
@@ -69,7 +69,7 @@ def problems(body: Body, count: int) -> Iterator[tuple[Observation, Pose]]:
 
 
 def unlimited(body: Body) -> Body:
-    """The same body without any limit."""
+    """Returns the same body without limits."""
     limits = body.skeleton.limits
     free = replace(
         limits,
@@ -83,7 +83,7 @@ def unlimited(body: Body) -> Body:
 def solved(
     body: Body, given: list[tuple[Observation, Pose]], title: str, options: dict[str, Any]
 ) -> tuple[list[RegistrationResult], list[float]]:
-    """The outcome of a method on all problems, and the time that each took [s]."""
+    """Returns the results of a method on all problems, and their times [s]."""
     method = Method.load("direct").model_validate(
         {"kind": "direct", "shape": "gsog", "kernel": "likelihood", **options}
     )
@@ -98,7 +98,7 @@ def solved(
 
 
 def limited_table(body: Body, given: list[tuple[Observation, Pose]]) -> dict[str, Any]:
-    """Every solver within limits: the largest violation, the energy, the time."""
+    """Returns the figures of every solver with limits: largest violation, energy, time."""
     columns = ("worst [rad]", "beyond 1e-6 rad [%]", "energy", "converged [%]", "median [ms]")
     table = Table("solver", *columns, title=f"{body.name}, {len(given)} poses")
     plain = Method.load("direct")(shape="gsog", kernel="likelihood", solver="lbfgs").bind(body)
@@ -106,7 +106,7 @@ def limited_table(body: Body, given: list[tuple[Observation, Pose]]) -> dict[str
     for name, options in LIMITED.items():
         found, seconds = solved(body, given, f"{body.name}: {name}", options)
         worst = np.array([body.skeleton.limits.violation(one.pose).max() for one in found])
-        # A term's energy is no part of it.
+        # The energy excludes the term's.
         energies = [
             plain.evaluate(data, one.pose).energy
             for (data, _), one in zip(given, found, strict=True)
@@ -125,12 +125,12 @@ def limited_table(body: Body, given: list[tuple[Observation, Pose]]) -> dict[str
 
 
 def agreement_table(body: Body, given: list[tuple[Observation, Pose]]) -> dict[str, Any]:
-    """Every solver without limits: how near its energy is to the least that any found.
+    """Returns the distance of every solver's energy without limits to the lowest one found.
 
-    Where it is not, Gauss-Newton goes on from there: what it cannot lower is a minimum too.
+    Gauss-Newton continues from higher energies: those that it cannot reduce are minima too.
     """
     columns = ("within 1e-6 [%]", "median difference", "largest", "other minima [%]", "median [ms]")
-    title = f"{body.name} without limits, {len(given)} poses: energy against the least, relative"
+    title = f"{body.name} without limits, {len(given)} poses: energy relative to the lowest"
     table = Table("solver", *columns, title=title)
     outcomes = {
         kind: solved(body, given, f"{body.name}: {kind}", {"solver": {"kind": kind, **options}})
@@ -142,7 +142,7 @@ def agreement_table(body: Body, given: list[tuple[Observation, Pose]]) -> dict[s
     for (kind, (found, seconds)), own in zip(outcomes.items(), differences, strict=True):
         others = [index for index in range(len(given)) if own[index] >= 1e-6]
         again = [(given[index][0], found[index].pose) for index in others]
-        further, _ = solved(body, again, f"{body.name}: on from {kind}", FURTHER)
+        further, _ = solved(body, again, f"{body.name}: continued from {kind}", FURTHER)
         kept = [
             found[index].energy - one.energy < 1e-6 * abs(one.energy)
             for index, one in zip(others, further, strict=True)
@@ -162,7 +162,7 @@ def agreement_table(body: Body, given: list[tuple[Observation, Pose]]) -> dict[s
 
 
 def main() -> None:
-    """Print the tables, and their figures as one JSON object in the last line."""
+    """Prints the tables, and their figures as one JSON object in the last line."""
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 1000
     figures: dict[str, Any] = {"threads": 1, "poses": count}
     with one_blas_thread():

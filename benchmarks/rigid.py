@@ -1,14 +1,14 @@
-"""How often, how well and how fast rigid clouds are aligned, by regkit and by other libraries.
+"""Success, accuracy and speed of rigid alignment by regkit and by other libraries.
 
     python benchmarks/rigid.py
 
-A bunny of 453 points is turned by 10, 30, 60 and 90 degrees about random axes and shifted by a
-tenth of its size, ten times each: as it is; with noise of 1 % of its size on both clouds; with 60 %
-overlap; with 30 % of each cloud outliers; with all of these. Every method sets out with the
-centroids on one another. An alignment succeeds if it is within 5 degrees and 5 % of the size of the
-truth: less than the spacing of the points across the bunny (so that what remains is the data's
-noise), and from where every local method ends at the same minimum. Then a pair of LiDAR scans with
-a known truth, with 35,000 and 20,000 points of each. One thread throughout.
+A bunny of 453 points is rotated by 10, 30, 60 and 90 degrees about random axes and shifted by a
+tenth of its size, ten times each: unchanged; with noise of 1 % of its size on both clouds; with
+60 % overlap; with 30 % outliers in each cloud; with all of these. Every method starts with equal
+centroids. An alignment succeeds if it ends within 5 degrees and 5 % of the size of the truth. This
+is less than the spacing of the points across the bunny, so that the remaining error comes from the
+data's noise, and every local method continues from there to the same minimum. A pair of LiDAR
+scans with known truth follows, with 35,000 and 20,000 points of each. One thread throughout.
 """
 
 from __future__ import annotations
@@ -55,17 +55,17 @@ METHODS = {
     "probreg, FilterReg": "{{kind: probreg_filterreg, shrinking: true}}",
     "biocpd, CPD": "{{kind: biocpd}}",
 }
-"""By name; ``distance`` is that of the libraries which have one, as a part of the source's size."""
+"""By name; ``distance`` is a library's maximum distance, relative to the source's size."""
 
 
 def methods(distance: float) -> Iterator[tuple[str, Method]]:
-    """The methods that are installed."""
+    """Yields the installed methods."""
     for name, text in METHODS.items():
         yield name, method_named(text.format(distance=distance))
 
 
 def robustness(points: Array) -> dict[str, dict[str, Any]]:
-    """The bunny's table."""
+    """Prints the bunny's table and returns its figures."""
     heads = [*CONDITIONS, *(f"{angle} deg" for angle in ANGLES), "of 200"]
     print(f"\n| bunny | {' | '.join(heads)} | rotation [deg] | shift [%] | time [ms] |")
     print("|---|" + "--:|" * (len(heads) + 3))
@@ -85,7 +85,7 @@ def robustness(points: Array) -> dict[str, dict[str, Any]]:
                             found[condition, angle] += 1
                             errors.append((turn, shift))
         except DependencyError as error:
-            print(f"{name} is left out: {error}", file=sys.stderr)
+            print(f"{name} is skipped: {error}", file=sys.stderr)
             continue
         by_condition = [sum(n for (c, _), n in found.items() if c == one) for one in CONDITIONS]
         by_angle = [sum(n for (_, a), n in found.items() if a == one) for one in ANGLES]
@@ -107,7 +107,7 @@ def robustness(points: Array) -> dict[str, dict[str, Any]]:
 
 
 def with_ratios(figures: dict[str, dict[str, Any]]) -> dict[str, dict[str, Any]]:
-    """The figures, with every time as a ratio to that of small_gicp in the same run."""
+    """Returns the figures, with every time relative to that of small_gicp in the same run."""
     base = figures.get("small_gicp, GICP", {}).get("milliseconds")
     for row in figures.values():
         row["time_to_small_gicp"] = round(row["milliseconds"] / base, 2) if base else None
@@ -115,7 +115,7 @@ def with_ratios(figures: dict[str, dict[str, Any]]) -> dict[str, dict[str, Any]]
 
 
 def any_orientation(points: Array) -> dict[str, object]:
-    """The bunny turned by 150 degrees, with the starts that look for the orientation."""
+    """Prints results for rotations by 150 degrees, with the starts for any orientation."""
     print(f"\n| bunny, 150 deg, of {SEEDS} | {' | '.join(CONDITIONS)} | time [s] |")
     print("|---|" + "--:|" * (len(CONDITIONS) + 1))
     figures: dict[str, object] = {}
@@ -139,7 +139,7 @@ def any_orientation(points: Array) -> dict[str, object]:
 def aligned(
     pair: Pair, method: Method, voxel: float = 0.0, start: str = "centroids"
 ) -> tuple[float, float, float]:
-    """Rotation error [deg], translation error as a part of the size, and seconds."""
+    """Returns rotation error [deg], translation error relative to the size, and seconds."""
     try:
         found = align(pair.source, pair.target, method, voxel=voxel, start=start)
     except DependencyError:
@@ -150,7 +150,7 @@ def aligned(
 
 
 def lidar(count: int, voxel: float) -> dict[str, dict[str, Any]]:
-    """The table of the LiDAR pair with so many points of each, downsampled to voxels [m] or not."""
+    """Prints the table of the LiDAR pair with ``count`` points of each, in voxels [m] or all."""
     folder = DATA / "rigid_lidar_mit"
     random = np.random.default_rng(0)
     clouds = [read_cloud(folder / f"{name}.ply") for name in ("source", "target")]
@@ -183,12 +183,12 @@ def lidar(count: int, voxel: float) -> dict[str, dict[str, Any]]:
 
 
 def peak_memory() -> int:
-    """The most memory that the process had so far, MB."""
+    """Returns the peak memory of the process so far [MB]."""
     return round(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
 
 
 def ours_on_all_points() -> dict[str, object]:
-    """Memory of regkit's method on 35,000 against 35,000 points, before anything else has run."""
+    """Returns memory of regkit's method on 35,000 points each, before anything else runs."""
     folder = DATA / "rigid_lidar_mit"
     clouds = [read_cloud(folder / f"{name}.ply")[::2][:35_000] for name in ("source", "target")]
     before = peak_memory()
@@ -202,7 +202,7 @@ def ours_on_all_points() -> dict[str, object]:
 
 
 def main() -> None:
-    """Print the tables, and their figures as one JSON object in the last line."""
+    """Prints the tables, and their figures as one JSON object in the last line."""
     if not DATA.is_dir():
         sys.exit(f"the reference data are not at {DATA}")
     with threadpool_limits(1):

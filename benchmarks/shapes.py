@@ -1,11 +1,11 @@
-"""What stands best for a body: Gaussians, spheres or a mesh; on equal data, starts and trackers.
+"""Comparison of Gaussians, spheres and meshes on equal data, starts and trackers.
 
     python benchmarks/shapes.py [UTD_MHAD]
 
-Errors are means over the suite's 13 recordings of people and 6 of hands, with templates of right
-lengths; then over the six of the small body with the template of the average one, whose shape is
-another's; and, where its folder is given, over 14 real Kinect recordings of UTD-MHAD. Frames per
-second are those of the shipped walk and hand, in turns on one thread.
+Errors are means over the suite's 13 recordings of people and 6 of hands, with templates of the true
+lengths; over the six recordings of the small body with the average template, whose shape differs;
+and, if its folder is given, over 14 real Kinect recordings of UTD-MHAD. Frames per second are
+measured on the sample walk and hand, in alternation on one thread.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ METHODS = {
 
 
 def installed() -> dict[str, str]:
-    """The methods whose presets there are."""
+    """Returns the methods whose presets are installed."""
     presets = entry_points(group="regkit.methods.presets").names
     return {name: text for name, text in METHODS.items() if _preset(text) in presets}
 
@@ -45,13 +45,13 @@ def _preset(text: str) -> str:
 
 
 def speeds(methods: dict[str, str]) -> dict[str, dict[str, float]]:
-    """Frames per second on the shipped recordings, and their ratio to those of G-SoG."""
+    """Returns frames per second on the sample recordings, and their ratio to G-SoG."""
     figures: dict[str, dict[str, float]] = {}
     print("\n| method | walk [fps] | of G-SoG | hand [fps] | of G-SoG |\n|---|--:|--:|--:|--:|")
     with one_blas_thread():
         for body, example in (("walk", "demo.yaml"), ("hand", "hand.yaml")):
             benches = {name: Bench(example, text) for name, text in methods.items()}
-            # In turns, so that whatever else the machine does slows all of them alike.
+            # Methods alternate, so that other load on the machine affects all of them equally.
             rounds = [
                 {name: bench.round() for name, bench in benches.items()} for _ in range(ROUNDS)
             ]
@@ -65,7 +65,7 @@ def speeds(methods: dict[str, str]) -> dict[str, dict[str, float]]:
 
 
 def print_each(measures: dict[str, dict[str, Measure]]) -> None:
-    """Print the errors of every method on every recording."""
+    """Prints the errors of every method on every recording."""
     print("\n| raw / adjusted [cm] | " + " | ".join(measures) + " |")
     print("|---|" + "--:|" * len(measures))
     for name in next(iter(measures.values())):
@@ -77,7 +77,7 @@ def print_each(measures: dict[str, dict[str, Measure]]) -> None:
 
 
 def main() -> None:
-    """Print the tables, and their figures as one JSON object in the last line."""
+    """Prints the tables, and their figures as one JSON object in the last line."""
     methods = installed()
     figures: dict[str, object] = {"speed": speeds(methods)}
     parts: dict[str, str | None] = {"human": None, "hand": None, "human_small": "human"}

@@ -1,9 +1,9 @@
-"""What a frame costs with each solver, and how much of that is evaluation.
+"""Time per frame with each solver, and the fraction spent on evaluations.
 
     python benchmarks/solvers.py
 
-The shipped walk (176x144 pixels, G-SoG of 13 Gaussians) is tracked by `best` with each solver, each
-three times; the fastest counts. Observing and finding the start are not counted. One thread.
+The method `best` tracks the sample walk (176x144 pixels, G-SoG of 13 Gaussians) with each solver,
+three times; the fastest run counts. Preprocessing and the start are excluded. One thread.
 """
 
 from __future__ import annotations
@@ -38,9 +38,9 @@ TRACKED: dict[str, dict[str, Any]] = {
 
 
 def tracking_table() -> dict[str, Any]:
-    """The shipped walk by `best` with each solver: time per frame, and where it goes."""
+    """Prints time and evaluations per frame of `best` on the sample walk with each solver."""
     columns = ("ms per frame", "of that evaluation", "ratio", "evaluations", "energy")
-    table = Table("solver", *columns, title="shipped walk, best, G-SoG")
+    table = Table("solver", *columns, title="sample walk, best, G-SoG")
     experiment = Experiment.read(DEMO)
     (recording,) = experiment.dataset.chosen()
     data = [experiment.preprocessor.preprocess(frame) for frame in recording.frames()]
@@ -69,7 +69,7 @@ def tracking_table() -> dict[str, Any]:
 def tracked(
     method: Method, body: Body, start: Pose, data: list[Observation]
 ) -> tuple[list[RegistrationResult], float, float]:
-    """A track, the time that it took, and how much of that was in evaluations [s]."""
+    """Returns a track, its time, and the time of its evaluations [s]."""
     assert method.tracker is not None
     follower = method.tracker.bind(method.bind(body))
     evaluating = 0.0
@@ -98,7 +98,7 @@ def tracked(
 
 
 def main() -> None:
-    """Print the table, and its figures as one JSON object in the last line."""
+    """Prints the table, and its figures as one JSON object in the last line."""
     with one_blas_thread():
         figures = tracking_table()
     print(json.dumps({"threads": 1, **figures}))

@@ -1,10 +1,10 @@
-"""Sphere-meshes against sums of Gaussians: accuracy on the synthetic suite, and speed.
+"""Comparison of sphere-meshes with sums of Gaussians: accuracy on the suite, and speed.
 
     python benchmarks/spheres.py
 
-The preset ``spheres`` with one thing changed at a time, beside ``best``; every method gets the same
-start, tracker and solver. Frames per second are those of the shipped walk and hand, in one process,
-the fastest of several rounds, as ratios to ``best``.
+The preset ``spheres`` with one change at a time, and ``best``; every method has the same start,
+tracker and solver. Frames per second are measured on the sample walk and hand, in one process, as
+the fastest of several rounds, and given relative to ``best``.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ SPEED = ("best, G-SoG", "best, SoG", "**spheres**", "spheres alone, 1 radius apa
 
 
 def main() -> None:
-    """Print the tables, and their figures as one JSON object in the last line."""
+    """Prints the tables, and their figures as one JSON object in the last line."""
     figures: dict[str, object] = {"threads": 1}
     for kind, example in (("human", "demo.yaml"), ("hand", "hand.yaml")):
         print(f"\n{HEADER.replace('method', kind)}")
@@ -63,7 +63,7 @@ def _scaled(method: str, kind: str) -> str:
 
 
 def _frames_per_second(example: str) -> dict[str, float]:
-    """Of each method, in turns, so that what else the machine does slows all of them alike."""
+    """Returns frames per second of each method, in alternation to share other load equally."""
     with one_blas_thread():
         benches = {name: Bench(example, METHODS[name]) for name in SPEED}
         seconds = dict.fromkeys(SPEED, float("inf"))

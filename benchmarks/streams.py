@@ -1,8 +1,8 @@
 """Long recordings: memory and processor time per frame.
 
-The sample walk is repeated to ``FRAMES`` frames and tracked by the ``best`` method; then a
-registrar that finds at once what it is given is tracked through ``MANY`` frames, so that nothing
-but the loop and the recorder is left.
+The method ``best`` tracks the sample walk repeated to ``FRAMES`` frames; then a registrar that
+immediately returns its start runs through ``MANY`` frames, to measure the loop and the recorder
+alone.
 """
 
 from __future__ import annotations
@@ -42,12 +42,12 @@ START = {"root": {"position": [-0.05, -0.05, 3.25], "rotation_deg": [180, 0, 0]}
 
 @dataclass(frozen=True)
 class Repeated(Recording):
-    """A recording again and again, read anew each time."""
+    """A recording that repeats another one, read again each time."""
 
     recording: Recording
 
     def frames(self) -> Iterator[Frame]:
-        """The frames, from the first one again after the last one."""
+        """Yields the frames, starting over after the last one."""
         left = self.length
         while left:
             for frame in self.recording.frames():
@@ -57,26 +57,26 @@ class Repeated(Recording):
                 yield frame
 
     def truth(self) -> None:
-        """Not needed."""
+        """Returns None."""
 
 
 @dataclass(frozen=True)
 class OneFrame(Recording):
-    """One frame again and again, read once."""
+    """A recording that repeats one frame, read once."""
 
     frame: Frame
 
     def frames(self) -> Iterator[Frame]:
-        """The frame."""
+        """Yields the frame."""
         for _ in range(self.length):
             yield self.frame
 
     def truth(self) -> None:
-        """Not needed."""
+        """Returns None."""
 
 
 class Stub(Registrar):
-    """Finds what it is given."""
+    """A registrar that returns its start."""
 
     def __init__(self, registrar: Registrar) -> None:
         self.body, self.primitives = registrar.body, registrar.primitives
@@ -89,21 +89,21 @@ class Stub(Registrar):
         prior: Pose | None = None,
         warm_start: RegistrationResult | None = None,
     ) -> RegistrationResult:
-        """The first candidate."""
+        """Returns the first candidate."""
         return RegistrationResult(candidates[0], 0.0, 1.0, True, 0, 0, "stub")
 
     def evaluate(self, observation: Observation, pose: Pose) -> Evaluation:
-        """All points are inliers."""
+        """Returns an inlier probability of 1 for all points."""
         return Evaluation(0.0, np.ones(len(observation.points)))
 
 
 def megabytes() -> float:
-    """The most memory that this process had [MB]."""
+    """Returns the peak memory of this process [MB]."""
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
 
 
 def undisturbed(seconds: np.ndarray) -> float:
-    """A frame's time [ms] where other processes, which share caches, disturb least."""
+    """Returns a low percentile of the times per frame [ms], to exclude other processes' load."""
     return 1000.0 * float(np.percentile(seconds, 10.0))
 
 
@@ -153,7 +153,7 @@ def _session(recording: Recording, template: Template, preprocessor: Preprocesso
 
 
 def main() -> None:
-    """Print the figures of both, each measured in a process of its own."""
+    """Prints the figures of both, each measured in a process of its own."""
     figures = {}
     print("| | frames | peak [MB] | before tracking [MB] | first tenth [ms/frame] | last tenth |")
     print("|---|--:|--:|--:|--:|--:|")

@@ -1,10 +1,10 @@
-"""How well people and hands are tracked on synthetic recordings with exact truth.
+"""Accuracy of tracking people and hands on synthetic recordings with exact truth.
 
     python benchmarks/synthetic.py
 
 13 recordings of two bodies and 6 of two hands (the presets ``people`` and ``hands``: other motions,
-views, noise and speeds than the shipped samples), templates with the right lengths, the start found
-in each first frame. One thread in each process.
+views, noise and speeds than the samples), templates with the true lengths, starts found in each
+first frame. One thread per process.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ METHODS = {
 
 
 def main() -> None:
-    """Print the tables, and their figures as one JSON object in the last line."""
+    """Prints the tables, and their figures as one JSON object in the last line."""
     figures: dict[str, object] = {}
     for kind in ("human", "hand"):
         print(f"\n{kind}\n\n{HEADER}")

@@ -1,10 +1,10 @@
-"""How many frames a second the method ``best`` tracks, depth image to pose, and where time goes.
+"""Frames per second of the method ``best`` from depth image to pose, and its time by parts.
 
     python benchmarks/tracking.py
 
-The shipped walk (176x144 pixels, G-SoG of 13 Gaussians) and the shipped hand (18 Gaussians), on one
-thread: back-projection, observation, registration and tracking; finding the start is not counted.
-Every recording is tracked several times, and the fastest counts: its cost when nothing interferes.
+The sample walk (176x144 pixels, G-SoG of 13 Gaussians) and the sample hand (18 Gaussians), on one
+thread: back-projection, preprocessing, registration and tracking; the start is excluded. Every
+recording is tracked several times, and the fastest run counts, to exclude interference.
 """
 
 from __future__ import annotations
@@ -41,11 +41,11 @@ PARTS = {
     "solvers": "solver",
     "problem": "solver",
 }
-"""What of regkit a file belongs to, by a part of its path; NumPy's own time goes to its callers."""
+"""Part of regkit by a part of a file's path; NumPy's time counts for its callers."""
 
 
 class Bench:
-    """One example, ready to be tracked by one method, which may be given as in YAML."""
+    """One example with one method, given as in YAML."""
 
     def __init__(self, example: str, method_text: str = "{preset: best}") -> None:
         experiment = Experiment.read(EXAMPLES / example, [f"methods={{method: {method_text}}}"])
@@ -60,7 +60,7 @@ class Bench:
         )
 
     def track(self) -> Iterator[RegistrationResult]:
-        """Track the recording once, from the depth images on."""
+        """Tracks the recording once, from the depth images on."""
         past = self.start
         for frame in self.frames:
             assert frame.camera is not None
@@ -72,11 +72,11 @@ class Bench:
             yield found
 
     def seconds(self) -> float:
-        """The least time for the recording over several rounds."""
+        """Returns the lowest time for the recording over several rounds."""
         return min(self.round() for _ in range(ROUNDS))
 
     def round(self) -> float:
-        """The time for the recording."""
+        """Returns the time for the recording."""
         begun = time.perf_counter()
         evaluations = [found.evaluations for found in self.track()]
         ended = time.perf_counter()
@@ -84,7 +84,7 @@ class Bench:
         return ended - begun
 
     def shares(self) -> dict[str, float]:
-        """What share of the time each part of regkit takes, in percent, under a profiler."""
+        """Returns the percentage of the time in each part of regkit, under a profiler."""
         profile = cProfile.Profile()
         profile.enable()
         for _ in self.track():
@@ -104,14 +104,14 @@ class Bench:
 
 
 def part_of(file: str) -> str | None:
-    """The part of regkit that a file belongs to."""
+    """Returns the part of regkit of a file."""
     if "regkit" not in file:
         return None
     return next((name for part, name in PARTS.items() if part in file), "other")
 
 
 def main() -> None:
-    """Print the tables, and their figures as one JSON object in the last line."""
+    """Prints the tables, and their figures as one JSON object in the last line."""
     figures: dict[str, object] = {"threads": 1}
     with one_blas_thread():
         for name, example in (("human", "demo.yaml"), ("hand", "hand.yaml")):
@@ -126,7 +126,7 @@ def main() -> None:
                 print(f"  {part:16s} {share:5.1f} %")
             figures[f"{name}_best_fps"] = round(fps, 1)
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-    print(f"memory: {memory:.0f} MB at most")
+    print(f"peak memory: {memory:.0f} MB")
     print(json.dumps(figures | {"memory_mb": round(memory)}))
 
 

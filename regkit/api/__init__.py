@@ -1,4 +1,4 @@
-"""The Python API: the few functions that a script or a notebook needs, with arrays in and out."""
+"""The Python API: functions for scripts and notebooks, with arrays in and out."""
 
 from regkit.api.aligning import CloudAlignment, align
 from regkit.api.choices import load_template

@@ -1,4 +1,4 @@
-"""One rigid cloud laid on another."""
+"""Rigid alignment of two clouds."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from regkit.alignment import Alignment
 from regkit.alignment import align as align_clouds
-from regkit.api.choices import Choice, told
+from regkit.api.choices import Choice, name_of
 from regkit.api.numbers import checked_numbers
 from regkit.api.tables import Summary
 from regkit.clouds import check_writable, read_cloud, write_cloud
@@ -22,18 +22,18 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Cloud = str | Path | ArrayLike
-"""Points (N, 3), or the file of a cloud or a mesh."""
+"""Points (N, 3) [m], or the file of a cloud or a mesh."""
 
 
 @dataclass(frozen=True, repr=False)
 class CloudAlignment(Summary):
-    """A source laid on a target.
+    """A source aligned to a target.
 
     Attributes:
-        source: Points (N, 3) [m] as they were.
+        source: Points (N, 3) [m] before the alignment.
         target: Points (M, 3) [m].
-        method: What the method is called.
-        found: Where it began, how well it fits, and how the method ended.
+        method: Name of the method.
+        found: The transform, the start, the agreement, and why the method ended.
     """
 
     source: Array
@@ -48,31 +48,31 @@ class CloudAlignment(Summary):
 
     @property
     def aligned(self) -> Array:
-        """The source's points on the target, (N, 3) [m]."""
+        """Points of the source in the target's frame, (N, 3) [m]."""
         return transformed(self.transform, self.source)
 
     @property
     def fitness(self) -> float:
-        """The share of the source's points that lie on the target, from 0 to 1."""
+        """Fraction of the source's points that lie on the target, from 0 to 1."""
         return self.found.agreement.fitness
 
     def plot(self) -> Figure:
-        """Both clouds before and after, along two axes."""
+        """Returns a figure of both clouds before and after, along two axes."""
         from regkit.report.alignment_figure import alignment_figure
 
         return alignment_figure(self.source, self.aligned, self.target)
 
     def save(self, path: str | Path) -> None:
-        """Write the aligned source as a cloud, of the kind that the name's end says.
+        """Writes the aligned source as a cloud; the suffix of ``path`` selects the format.
 
         Raises:
-            RegkitError: If there is no such kind, or the file cannot be written.
+            RegkitError: If the format is unknown, or the file cannot be written.
         """
         check_writable(Path(path), place="path")
         write_cloud(Path(path), self.aligned)
 
     def rows(self) -> dict[str, str]:
-        """What a table says of it."""
+        """Returns the rows of a table: method, fitness, inlier RMSE, overlap and convergence."""
         fit, before = self.found.agreement, self.found.before
         rows = {
             "method": self.method,
@@ -84,7 +84,7 @@ class CloudAlignment(Summary):
             "converged": f"{'yes' if self.found.converged else 'no'}: {self.found.message}",
         }
         if self.found.hidden is not None:
-            rows["warning"] = f"{self.found.hidden} hardly shows"
+            rows["warning"] = f"{self.found.hidden} is not determined by the data"
         return rows
 
 
@@ -96,28 +96,31 @@ def align(
     voxel: float | None = None,
     start: str = "nearest",
 ) -> CloudAlignment:
-    """Lay a rigid cloud on another, as ``regkit align`` does.
+    """Aligns a rigid cloud to another, as ``regkit align`` does.
 
     Args:
-        source: Points (N, 3) [m] to be moved, or a file of a cloud or a mesh.
-        target: Points (M, 3) [m] that rest, or a file.
+        source: Points (N, 3) [m] to move, or the file of a cloud or a mesh.
+        target: Points (M, 3) [m] that stay fixed, or a file.
         method: A preset such as ``"rigid"``, a kind such as ``"open3d_icp"`` or ``"small_gicp"``, a
             mapping such as ``{"kind": "open3d_icp", "estimation": "generalized"}``, or a method;
-            without it regkit's own for rigid clouds.
-        voxel: Side of the cubes to which both are downsampled [m]; 0 for not at all. Without it
-            some 5000 points are left.
-        start: Where to set out from: ``"nearest"`` of identity and centroids, ``"identity"``,
-            ``"centroids"``, ``"rotations"`` or ``"features"`` for any orientation, or a file with a
-            4x4 matrix.
+            by default regkit's own for rigid clouds.
+        voxel: Voxel size [m] for downsampling both clouds; 0 turns downsampling off. By default
+            about 5000 points are kept.
+        start: Initial transform: ``"nearest"`` (the better of identity and centroids),
+            ``"identity"``, ``"centroids"``, ``"rotations"`` or ``"features"`` (both for any
+            orientation), or a file with a 4x4 matrix.
+
+    Returns:
+        The alignment, with ``transform``, ``aligned`` and ``fitness``.
 
     Raises:
-        RegkitError: If an argument cannot be, or the clouds cannot be aligned; it says which.
+        RegkitError: If an argument is invalid, or the clouds cannot be aligned.
     """
     method = Method.default("rigid") if method is None else method
     chosen = Method.parse(method, place="regkit.align", field="method")
     clouds = [_cloud(source, "source"), _cloud(target, "target")]
     found = align_clouds(clouds[0], clouds[1], chosen, voxel=voxel, start=start)
-    return CloudAlignment(clouds[0], clouds[1], told(method), found)
+    return CloudAlignment(clouds[0], clouds[1], name_of(method), found)
 
 
 def _cloud(given: Cloud, place: str) -> Array:

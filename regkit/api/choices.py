@@ -1,4 +1,4 @@
-"""Plug-ins by name, as a mapping, or made already: what the functions of the API take."""
+"""Plug-ins as arguments of the API: by name, as a mapping, or as objects."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ from regkit.interfaces import Template
 P = TypeVar("P", bound=Plugin)
 
 Choice: TypeAlias = str | Path | Mapping[str, Any] | P
-"""A plug-in's name or preset, a YAML file, a mapping as in an experiment's YAML, or itself."""
+"""A plug-in: a kind or preset, a YAML file, a mapping as in an experiment's YAML, or an object."""
 
 
 def load_template(source: Choice[Template], **options: object) -> Template:
-    """A template by its name or from its file.
+    """Returns a template by its name or from its file.
 
     Args:
-        source: ``"human"``, ``"hand"`` or another kind of template that is installed; the YAML file
-            of a template; a cloud or mesh, which is rigid; or a mapping with a ``kind``.
+        source: ``"human"``, ``"hand"`` or another installed kind of template; a template's YAML
+            file; a cloud or mesh, which becomes a rigid template; or a mapping with a ``kind``.
         options: Fields of that kind of template, such as ``height=1.75`` [m] or ``side="left"``.
-            A size that is not given is found from the data.
+            A missing size is estimated from the data.
 
     Raises:
-        ConfigError: If there is no such template or option, or the file is wrong.
+        ConfigError: If the template or an option does not exist, or the file is invalid.
     """
     if isinstance(source, (str, Path)):
         source = Template.named(str(source))
@@ -35,8 +35,8 @@ def load_template(source: Choice[Template], **options: object) -> Template:
     return Template.parse(source, place="load_template", field="template")
 
 
-def told(choice: Choice[Any]) -> str:
-    """What a choice is called in a table."""
+def name_of(choice: Choice[Any]) -> str:
+    """Returns the name of a choice for tables."""
     if isinstance(choice, Plugin):
         return choice.kind
     if isinstance(choice, Mapping):

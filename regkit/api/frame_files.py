@@ -12,21 +12,21 @@ from regkit.observation.depth_image import read_depth
 from regkit.system.errors import DataError
 
 MILLIMETRES = 1000.0
-"""Units of a depth image in a metre, where nothing says otherwise."""
+"""Default number of units per metre of a depth image."""
 
 
 def load_frame(path: str | Path, *, index: int = 0, depth_scale: float = MILLIMETRES) -> Frame:
-    """One frame, as ``regkit.register`` takes it.
+    """Returns one frame from a file, for ``regkit.register``.
 
     Args:
         path: The folder of a recording; a 16-bit PNG depth image with its ``camera.json`` beside
-            it, or in the ``depth`` folder of a recording; or a file of a cloud or a mesh, whose
-            points are taken for what a camera sees if a ``camera.json`` lies beside it.
-        index: Which frame of a recording's folder, from 0.
-        depth_scale: Units per metre of a depth image that is in no recording.
+            it, or in the ``depth`` folder of a recording; or the file of a cloud or a mesh. With a
+            ``camera.json`` beside it, a cloud is treated as the surface visible to that camera.
+        index: Number of the frame in a recording's folder, from 0.
+        depth_scale: Units per metre of a depth image outside a recording.
 
     Raises:
-        RegkitError: If there is no such frame, or it is damaged.
+        RegkitError: If the frame does not exist, or is damaged.
     """
     file = Path(path)
     if file.is_dir():

@@ -1,4 +1,4 @@
-"""Frames from arrays: depth images and clouds that a program has already, checked."""
+"""Frames from arrays of a program: depth images and clouds, validated."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ Intrinsics = Camera | str | Path | ArrayLike
 
 @dataclass(frozen=True)
 class GivenFrames(Recording):
-    """A recording of frames that are there already.
+    """A recording of frames in memory.
 
     Attributes:
         given: The frames.
@@ -38,71 +38,76 @@ class GivenFrames(Recording):
     given: tuple[Frame, ...]
 
     def frames(self) -> Iterator[Frame]:
-        """The frames as they are."""
+        """Yields all frames."""
         yield from self.given
 
     def some(self, indices: Iterable[int]) -> Iterator[tuple[int, Frame]]:
-        """Only these frames."""
+        """Yields the frames of ``indices`` with their numbers, in ascending order."""
         for index in sorted(set(indices)):
             yield index, self.given[index]
 
     def truth(self) -> None:
-        """Arrays bring no reference joints."""
+        """Returns None: arrays have no reference joints."""
 
 
 def load_recording(folder: str | Path, *, frames: int | None = None) -> Recording:
-    """A recorded recording: a folder with ``depth/`` or ``clouds/`` and a ``sequence.yaml``.
+    """Returns the recording of a folder: ``depth/`` or ``clouds/`` beside a ``sequence.yaml``.
 
-    ``frames()`` yields its frames, ``truth()`` its reference joints if there are any.
+    ``frames()`` yields its frames, ``truth()`` returns its reference joints or None.
 
     Args:
-        folder: Where it is.
-        frames: Take only so many of its frames.
+        folder: The recording's folder.
+        frames: Maximum number of frames, from the first; all by default.
 
     Raises:
-        RegkitError: If there is no recording, or there are several, or it is damaged.
+        RegkitError: If the folder holds no recording, or several, or is damaged.
     """
     data = Dataset.in_folder(folder, frames=frames)
     return Dataset.parse(data, place="load_recording", field="dataset").only()
 
 
 def recording_of(frames: Frames, camera: Intrinsics | None, fps: float) -> Recording:
-    """The recording that was given, or one of the arrays that were.
+    """Returns the given recording, or a recording of the given arrays.
+
+    Args:
+        frames: A recording, a dataset, a folder, or arrays.
+        camera: Camera of arrays that are depth images.
+        fps: Frames per second of arrays.
 
     Raises:
-        RegkitError: If these are no frames.
+        RegkitError: If ``frames`` are invalid, or have a camera of their own beside ``camera``.
     """
     if isinstance(frames, (Recording, Dataset, str, Path)):
         if camera is not None:
-            raise ConfigError("frames that are read have a camera of their own", place="camera")
+            raise ConfigError("recordings and folders have a camera of their own", place="camera")
         if isinstance(frames, Recording):
             return frames
         return frames.only() if isinstance(frames, Dataset) else load_recording(frames)
     if isinstance(frames, np.ndarray) and frames.ndim < 3:
         raise DataError(
-            f"one array of shape {frames.shape}; these must be many: depth images (T, H, W) or a "
-            "list of clouds (N, 3). regkit.register takes one frame",
+            f"one array of shape {frames.shape}; several frames are needed: depth images (T, H, W) "
+            "or a list of clouds (N, 3). For one frame use regkit.register",
             place="frames",
         )
     if not isinstance(frames, Iterable):
-        raise ConfigError(f"{frames!r} are no frames", place="frames")
+        raise ConfigError(f"{frames!r} is not a sequence of frames", place="frames")
     many = list(frames)
     if not many:
-        raise DataError("there is no frame", place="frames")
+        raise DataError("there are no frames", place="frames")
     given = [frame_of(one, camera, place=f"frames[{n}]") for n, one in enumerate(many)]
     return GivenFrames(name="frames", fps=fps, length=len(given), given=tuple(given))
 
 
 def frame_of(measured: Measured, camera: Intrinsics | None, *, place: str) -> Frame:
-    """A frame of a depth image (H, W) [m], or of a cloud (N, 3) [m].
+    """Returns the frame of a depth image (H, W) [m] or a cloud (N, 3) [m].
 
     Args:
-        measured: The image, the cloud, or a frame already.
-        camera: What an image was taken with; a cloud may have one too.
-        place: What the array is called in messages.
+        measured: The image, the cloud, or a frame, which is returned unchanged.
+        camera: Camera of the image, or the one that saw the cloud.
+        place: Name of the array in messages.
 
     Raises:
-        DataError: If it is neither, or holds what cannot be a measurement.
+        DataError: If the array is neither, or holds invalid measurements.
     """
     if isinstance(measured, Frame):
         return measured
@@ -126,14 +131,14 @@ def frame_of(measured: Measured, camera: Intrinsics | None, *, place: str) -> Fr
     bad = ~np.isfinite(values)
     if bad.any():
         raise DataError(
-            f"{int(bad.sum())} pixels are NaN or infinite; 0 means that nothing was measured: "
+            f"{int(bad.sum())} pixels are NaN or infinite; mark pixels without a measurement by 0: "
             "np.nan_to_num(depth, posinf=0.0, neginf=0.0)",
             place=place,
         )
     if (values < 0.0).any():
         raise DataError(
-            f"{int((values < 0.0).sum())} depths are negative, the least {values.min():.4g}; 0 "
-            "means that nothing was measured",
+            f"{int((values < 0.0).sum())} depths are negative, the lowest {values.min():.4g}; mark "
+            "pixels without a measurement by 0",
             place=place,
         )
     try:
@@ -143,7 +148,7 @@ def frame_of(measured: Measured, camera: Intrinsics | None, *, place: str) -> Fr
 
 
 def _camera(camera: Intrinsics, shape: tuple[int, ...]) -> Camera:
-    """The camera of an image of some shape (H, W)."""
+    """Returns the camera of an image of shape (H, W)."""
     if isinstance(camera, Camera):
         return camera
     if isinstance(camera, (str, Path)):
@@ -152,14 +157,14 @@ def _camera(camera: Intrinsics, shape: tuple[int, ...]) -> Camera:
     lens = [matrix[0, 1], *matrix[1:, 0], matrix[2, 1]] if matrix.shape == (3, 3) else [1.0]
     if any(lens) or matrix[2, 2] != 1.0 or min(matrix[0, 0], matrix[1, 1]) <= 0.0:
         raise DataError(
-            "neither a regkit.Camera, nor a camera.json, nor a matrix K = [[fx, 0, cx], "
+            "a camera must be a regkit.Camera, a camera.json, or a matrix K = [[fx, 0, cx], "
             f"[0, fy, cy], [0, 0, 1]]: {matrix.tolist()}",
             place="camera",
         )
     height, width = shape
     if width == 3:
         raise ConfigError(
-            "a matrix does not tell the image's size; with a cloud give a regkit.Camera",
+            "a matrix does not contain the image's size; for a cloud give a regkit.Camera",
             place="camera",
         )
     fx, fy, cx, cy = matrix[[0, 1, 0, 1], [0, 1, 2, 2]].tolist()

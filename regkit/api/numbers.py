@@ -1,4 +1,4 @@
-"""Whether arrays from a program can be measurements, and in metres."""
+"""Checks that arrays from a program can be measurements in metres."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ from regkit.system.arrays import Array
 from regkit.system.errors import DataError
 
 TOO_LARGE, TOO_SMALL = 200.0, 0.02
-"""Data that are so many times as large as a body are not in metres."""
+"""Ratio of the data's extent to the template's size above which the unit must be wrong."""
 
 
 def checked_numbers(values: ArrayLike, *, place: str, whole: bool = False) -> Array:
-    """Floating-point numbers as they are, or an error.
+    """Returns values as an array of floating-point numbers.
 
     Args:
-        values: What a program gave.
-        place: What they are called in messages.
-        whole: Whether integers will do as well; lengths in metres are none.
+        values: The argument of the program.
+        place: Name of the argument in messages.
+        whole: Whether integers are allowed; for lengths in metres they indicate a wrong unit.
 
     Raises:
-        DataError: If they are no numbers, or integers where lengths in metres are wanted.
+        DataError: If the values are not numbers, or integers in place of lengths in metres.
     """
     try:
         array = np.asarray(values)
@@ -29,25 +29,25 @@ def checked_numbers(values: ArrayLike, *, place: str, whole: bool = False) -> Ar
         raise DataError("not an array: its rows differ in length", place=place) from None
     if array.dtype.kind in "iu" and not whole:
         raise DataError(
-            f"numbers of the type {array.dtype}; lengths are metres, as floating-point numbers: "
-            "divide by the units in a metre, as in depth / 1000.0 where they are millimetres",
+            f"numbers of type {array.dtype}; lengths must be floating-point numbers in metres: "
+            "divide by the units per metre, as in depth / 1000.0 for millimetres",
             place=place,
         )
     if array.dtype.kind not in "iuf":
-        raise DataError(f"numbers are wanted, these are of the type {array.dtype}", place=place)
+        raise DataError(f"values must be numbers; they are of type {array.dtype}", place=place)
     return array.astype(np.float64)
 
 
 def check_metres(points: Array, sizes: tuple[float, ...], *, place: str) -> None:
-    """Refuse data that are in another unit than a template.
+    """Refuses data in another unit than the template.
 
     Args:
-        points: (N, 3) as they were measured, with all that is around the body.
-        sizes: Of the template [m].
-        place: What the points are called in messages.
+        points: (N, 3), the body and its surroundings.
+        sizes: Possible sizes of the template [m].
+        place: Name of the points in messages.
 
     Raises:
-        DataError: If they are much larger or smaller than the template.
+        DataError: If the points' extent is much larger or smaller than the template.
     """
     if not len(points):
         return
@@ -57,13 +57,13 @@ def check_metres(points: Array, sizes: tuple[float, ...], *, place: str) -> None
     hint = hint or f"; the template is {sizes[0]:.3g} m"
     if extent > TOO_LARGE * sizes[-1]:
         raise DataError(
-            f"the points are spread over {extent:.4g} m{hint}. Are they millimetres? Divide them "
-            "by 1000.0",
+            f"the points are spread over {extent:.4g} m{hint}. If they are in millimetres, "
+            "divide them by 1000.0",
             place=place,
         )
     if extent < TOO_SMALL * sizes[0]:
         raise DataError(
-            f"the points are spread over {extent:.4g} m only{hint}. Bring them to metres, or give "
-            "the template's size",
+            f"the points are spread over only {extent:.4g} m{hint}. Convert them to metres, or "
+            "give the template's size",
             place=place,
         )

@@ -1,4 +1,4 @@
-"""Reference joints in the forms in which a program has them."""
+"""Reference joints in the forms that programs use."""
 
 from __future__ import annotations
 
@@ -15,21 +15,21 @@ from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError, DataError
 
 Reference = Truth | Mapping[str, ArrayLike] | ArrayLike
-"""Reference joints: a ``Truth``, arrays (T, 3) [m] by name, or one (T, M, 3) [m] for all markers;
-NaN where one was not seen."""
+"""Reference joints: a ``Truth``, arrays (T, 3) [m] by name, or one array (T, M, 3) [m] for all
+markers; NaN for unseen joints."""
 
 
 def truth_of(reference: Reference, body: Body, indices: range) -> Truth:
-    """Reference joints as one type.
+    """Returns reference joints as a ``Truth``.
 
     Args:
-        reference: As it was given.
-        body: Whose markers are compared with them.
-        indices: The numbers of the T frames in the recording that a ``Truth`` is of.
+        reference: The argument of the program.
+        body: The body whose markers are compared with the joints.
+        indices: Frame numbers (T) in the recording of a ``Truth``.
 
     Raises:
-        ConfigError: If no name is that of a marker.
-        DataError: If an array does not have the shape that it must have, or frames are missing.
+        ConfigError: If no joint has the name of a marker.
+        DataError: If an array has the wrong shape, or frames are missing.
     """
     markers, frames = body.markers.names, len(indices)
     if not isinstance(reference, (Truth, Mapping)):

@@ -1,11 +1,11 @@
-"""A body registered to one frame, or tracked through many."""
+"""Registration of a body to one frame, and tracking through many."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from regkit.api.choices import Choice, load_template, told
+from regkit.api.choices import Choice, load_template, name_of
 from regkit.api.frames import Frames, GivenFrames, Intrinsics, Measured, frame_of, recording_of
 from regkit.api.numbers import check_metres
 from regkit.api.results import Registration, Tracking
@@ -21,13 +21,13 @@ from regkit.system.renamed import renamed_arguments
 from regkit.tracking import Session, TrackedFrame, TrackRecorder
 
 POINTS = 900
-"""Without a preprocessor, a frame is downsampled to about so many points."""
+"""Approximate number of points per frame without a preprocessor."""
 
 WIDTH = 0.5
-"""Their standard deviation, as a part of the voxel's side."""
+"""Standard deviation of these points, relative to the voxel size."""
 
 Beginning = Pose | PoseDescription | Mapping[str, Any]
-"""The pose in the first frame: a pose, or what an experiment's ``start`` says."""
+"""The pose in the first frame: a pose, or a mapping like an experiment's ``start``."""
 
 
 @renamed_arguments(observer="preprocessor")
@@ -40,23 +40,27 @@ def register(
     preprocessor: Choice[Preprocessor] | None = None,
     start: Beginning | None = None,
 ) -> Registration:
-    """Find the pose of a body in one frame.
+    """Estimates the pose of a body in one frame.
 
     Args:
-        cloud: Points (N, 3) [m] in the camera's frame (x right, y down, z forward); or a depth
-            image (H, W) [m], zero where nothing was measured. Nothing but the body is in it, or
-            ``preprocessor`` crops the rest away.
-        template: What is seen: ``"human"``, ``"hand"``, a file, or what ``load_template`` made.
-        method: A preset such as ``"best"``, ``"spheres"``, ``"icp"`` or ``"paper"``, a method's
-            mapping as in an experiment's YAML, or a method; without it regkit's best.
-        camera: Of a depth image: a ``Camera``, a ``camera.json``, or its matrix K (3, 3) [px]. With
-            a ``Camera``, points are taken for what it sees of a body; without one, for all of it.
-        preprocessor: How points become data; without it they are downsampled to some 900.
-        start: Where to set out from: a pose, or a mapping as an experiment's ``start``, which needs
-            the template's size. Without it, it is found, and the size with it.
+        cloud: Points (N, 3) [m] in the camera's frame (x right, y down, z forward), or a depth
+            image (H, W) [m] with 0 for pixels without a measurement. It must show the body alone,
+            unless ``preprocessor`` crops the surroundings.
+        template: The body: ``"human"``, ``"hand"``, a file, or a result of ``load_template``.
+        method: A preset such as ``"best"``, ``"spheres"``, ``"icp"`` or ``"paper"``, a mapping as
+            in an experiment's YAML, or a method; by default regkit's best.
+        camera: Camera of a depth image: a ``Camera``, a ``camera.json``, or its matrix K (3, 3)
+            [px]. With a ``Camera``, points are treated as the surface visible to it; without one,
+            as the whole surface.
+        preprocessor: Preprocessing of points; by default they are downsampled to about 900.
+        start: Initial pose: a pose, or a mapping like an experiment's ``start``, which requires
+            the template's size. By default pose and size are estimated from the frame.
+
+    Returns:
+        The body with its pose, markers and quality of the fit.
 
     Raises:
-        RegkitError: If an argument cannot be, or the body cannot be registered; it says which.
+        RegkitError: If an argument is invalid, or the body cannot be registered.
     """
     frame = frame_of(cloud, camera, place="cloud")
     recording = GivenFrames(name="cloud", fps=1.0, length=1, given=(frame,))
@@ -75,22 +79,25 @@ def track(
     tracker: Choice[Tracker] | None = None,
     start: Beginning | None = None,
 ) -> Tracking:
-    """Track a body through a recording.
+    """Tracks a body through a recording.
 
     Args:
-        frames: Depth images (T, H, W) [m], zero where nothing was measured; a list of clouds (N, 3)
-            [m] in the camera's frame (x right, y down, z forward); the folder of a recording; or a
-            ``Recording`` or ``Dataset``.
+        frames: Depth images (T, H, W) [m] with 0 for pixels without a measurement; a list of clouds
+            (N, 3) [m] in the camera's frame (x right, y down, z forward); the folder of a
+            recording; or a ``Recording`` or ``Dataset``.
         template: As in ``register``.
         method: As in ``register``.
-        camera: Of depth images, as in ``register``.
-        fps: Frames per second of arrays; recordings know their own.
+        camera: Camera of depth images, as in ``register``.
+        fps: Frames per second of arrays; recordings have their own.
         preprocessor: As in ``register``.
-        tracker: How one frame's pose leads to the next, where the method brings no tracker.
+        tracker: Tracker from frame to frame, if the method has none of its own.
         start: As in ``register``, for the first frame.
 
+    Returns:
+        The body with its poses and markers in all frames.
+
     Raises:
-        RegkitError: If an argument cannot be, or a frame cannot be registered; it says which.
+        RegkitError: If an argument is invalid, or a frame cannot be registered.
     """
     recording = recording_of(frames, camera, fps)
     return _tracked(recording, template, method, preprocessor, tracker, start, "regkit.track")
@@ -126,7 +133,7 @@ def _tracked(
             recorder.add(frame)
     return Tracking(
         name=recording.name,
-        method=told(method),
+        method=name_of(method),
         fps=recording.fps,
         registrar=registrar,
         recorder=recorder,
@@ -138,11 +145,11 @@ def _tracked(
 def _first(recording: Recording) -> Frame:
     for _, frame in recording.some([0]):
         return frame
-    raise DataError("the recording has no frame", place=recording.name)
+    raise DataError("the recording has no frames", place=recording.name)
 
 
 def _described(start: Beginning | None, place: str) -> Pose | PoseDescription | None:
-    """A start, whose mapping is that of an experiment's YAML."""
+    """Returns a start, with a mapping validated like an experiment's ``start``."""
     if start is None or isinstance(start, (Pose, PoseDescription)):
         return start
     return Document(dict(start), {(): f"{place}: start"}).validated(PoseDescription)
@@ -156,14 +163,14 @@ def _begin(session: Session) -> Start:
 
 
 def _preprocessor_for(frame: Frame) -> Preprocessor:
-    """The preprocessor that thins a frame to some ``POINTS`` Gaussians, each half a voxel wide."""
+    """Returns a preprocessor that downsamples to about ``POINTS``, each half a voxel wide."""
     voxel = voxel_for(frame.points, POINTS)
     data = Preprocessor.default(voxel=voxel, sigma=WIDTH * (voxel or spacing(frame.points)))
     return Preprocessor.parse(data, place=frame.place or "frame", field="preprocessor")
 
 
 def _shown(steps: Iterator[TrackedFrame], length: int) -> Iterator[TrackedFrame]:
-    """The frames as they come, with a bar on a terminal if there are many."""
+    """Yields the frames, with a progress bar on a terminal if there are many."""
     from rich.console import Console
     from rich.progress import track as shown
 

@@ -1,4 +1,4 @@
-"""What registering and tracking gave, for notebooks: arrays, figures, a table and a picture."""
+"""Results of registration and tracking for notebooks: arrays, figures, tables and images."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 MOST = 0.5
-"""A body is lost if more than this part of the frames is doubtful, or the last frame."""
+"""Fraction of doubtful frames above which the body counts as lost."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -36,12 +36,12 @@ class Tracking(Summary):
     ``len`` is T; an index gives the ``Registration`` of a frame, a slice a ``Tracking``.
 
     Attributes:
-        name: What the recording is called.
-        method: What the method is called.
-        fps: Frames per second at which it was recorded.
-        registrar: What registered the frames.
-        recorder: What was recorded while tracking.
-        indices: The frames' numbers in the recording.
+        name: Name of the recording.
+        method: Name of the method.
+        fps: Frame rate of the recording [1/s].
+        registrar: The registrar of the frames.
+        recorder: Frames recorded during tracking.
+        indices: Frame numbers in the recording.
         track: The frames as arrays: root (T, 4, 4) [m], balls (T, n_ball, 4), hinges (T, n_hinge)
             [rad], markers, seconds and more.
     """
@@ -56,17 +56,17 @@ class Tracking(Summary):
 
     @property
     def body(self) -> Body:
-        """The body at the size that was given or found."""
+        """The body at its given or estimated size."""
         return self.registrar.body
 
     @property
     def size(self) -> float:
-        """The body's height, length, or whatever its template names [m]."""
+        """Size of the body [m]: its height, length, or another size that the template defines."""
         return self.body.size
 
     @property
     def joint_names(self) -> tuple[str, ...]:
-        """The names of the M markers, by which reference joints are matched."""
+        """Names of the M markers, which match reference joints to markers."""
         return self.body.markers.names
 
     @property
@@ -81,31 +81,31 @@ class Tracking(Summary):
 
     @cached_property
     def segments(self) -> Array:
-        """T_camera_segment of each of S segments, (T, S, 4, 4) [m]; their names are ``body``'s."""
+        """T_camera_segment of each of S segments, (T, S, 4, 4) [m], in the order of ``body``."""
         return np.array([self.body.place(pose).transforms for pose in self.poses])
 
     @cached_property
     def doubtful(self) -> NDArray[np.bool_]:
-        """Whether the data raise doubts about each frame, (T,): few inliers, or a far surface."""
+        """Whether each frame is doubtful, (T,): few inliers, or a large surface distance."""
         return doubtful(self.track, self.size)
 
     @property
     def lost(self) -> bool:
-        """Whether the body was lost: in the last frame, or in most frames."""
+        """Whether the body is lost: in the last frame, or in most frames."""
         return bool(self.unseen or self.doubtful[-1] or self.doubtful.mean() > MOST)
 
     @cached_property
     def unseen(self) -> bool:
-        """Whether most of the body has no data near it in the last frame."""
+        """Whether most of the body has no data nearby in the last frame."""
         last = self.snapshot(len(self) - 1)
         return unseen(self.body, last.pose, last.points)
 
     @property
     def doubt(self) -> str | None:
-        """Why the result may not be believed; None if the data raise no doubt."""
+        """Why the result is doubtful; None if it is not."""
         frames = np.flatnonzero(self.doubtful)
         if self.unseen:
-            return "most of the body has no data near it; is it this body, of this size?"
+            return "most of the body has no data nearby; check the template and its size"
         if not len(frames):
             return None
         where = "" if len(self) == 1 else f"{len(frames)} of {len(self)} frames are doubtful: "
@@ -115,35 +115,35 @@ class Tracking(Summary):
         in_frame = "" if len(self) == 1 else f" in frame {self.indices[worst]}"
         return (
             f"{where}half of the points are more than {gap:.0f} mm from the surface{in_frame}, and "
-            f"{share:.0f} % are inliers; is it this body, of this size, and are its surroundings "
-            "cropped?"
+            f"{share:.0f} % are inliers; check the template, its size, and the crop of the "
+            "surroundings"
         )
 
     def measure(self, truth: Reference | None = None) -> Measure:
-        """The figures of an experiment's report.
+        """Returns the metrics of an experiment's report.
 
         Args:
             truth: Reference joints; without them there are no joint errors.
 
         Raises:
-            RegkitError: If they do not fit the frames or the markers.
+            RegkitError: If they do not match the frames or the markers.
         """
         return measured(self.track, self.body, self._errors(truth), self.fps)
 
     def error(self, truth: Reference) -> float:
-        """The mean distance [m] of the markers to reference joints that were seen.
+        """Returns the mean distance [m] of the markers to the visible reference joints.
 
         Raises:
-            RegkitError: If they do not fit the frames or the markers, or none was seen.
+            RegkitError: If they do not match the frames or the markers, or none is visible.
         """
         known = truth_of(truth, self.body, self.indices)
         distances = joint_errors(self.track, self.body, known, {}).raw
         if not np.isfinite(distances).any():
-            raise DataError("no joint was seen in any frame", place="truth")
+            raise DataError("no joint is visible in any frame", place="truth")
         return float(np.nanmean(distances))
 
     def plot(self, truth: Reference | None = None) -> Figure:
-        """The first, the worst and the last frame, from the front and from the side.
+        """Returns a figure of the first, the worst and the last frame, from the front and the side.
 
         Args:
             truth: Reference joints, drawn as crosses.
@@ -158,10 +158,10 @@ class Tracking(Summary):
         return overlay(f"{self.method} on {self.name}", record, PALETTE[0])
 
     def save(self, path: str | Path) -> None:
-        """Write the motion as an ``.npz`` file, with the arrays of a run's ``poses.npz``.
+        """Writes the motion as an ``.npz`` file, with the arrays of a run's ``poses.npz``.
 
         Raises:
-            ConfigError: If the name does not end with ``.npz``.
+            ConfigError: If the suffix is not ``.npz``.
             DataError: If the file cannot be written.
         """
         if Path(path).suffix != ".npz":
@@ -184,10 +184,10 @@ class Tracking(Summary):
     def __getitem__(self, index: slice) -> Tracking: ...
 
     def __getitem__(self, index: int | slice) -> Registration | Tracking:
-        """What was found in a frame, or in some of them.
+        """Returns the result of one frame, or of a slice of frames.
 
         Raises:
-            IndexError: If there is no such frame.
+            IndexError: If the frame does not exist, or the slice is empty.
         """
         if not isinstance(index, slice):
             at = range(len(self))[index]
@@ -195,32 +195,32 @@ class Tracking(Summary):
         start, stop, step = index.indices(len(self))
         if not len(range(start, stop, step)):
             raise IndexError(f"no frame of {len(self)} is in [{start}:{stop}:{step}]")
-        told = f"{start}:{stop}" + (f":{step}" if step != 1 else "")
-        return self._part(index, told)
+        label = f"{start}:{stop}" + (f":{step}" if step != 1 else "")
+        return self._part(index, label)
 
-    def _part(self, part: slice, told: str) -> Tracking:
+    def _part(self, part: slice, label: str) -> Tracking:
         return replace(
             self,
-            name=f"{self.name}[{told}]" if len(self) > 1 else self.name,
+            name=f"{self.name}[{label}]" if len(self) > 1 else self.name,
             fps=self.fps / abs(part.step or 1),
             indices=self.indices[part],
             track=self.track[part],
         )
 
     def snapshot(self, index: int) -> Snapshot:
-        """The points and the pose of a frame; points that were not kept are read again.
+        """Returns points and pose of a frame; points that were not kept are read again.
 
         Raises:
-            RegkitError: If the frame cannot be read any more.
+            RegkitError: If the frame can no longer be read.
         """
         return replace(self.recorder.snapshot(self.indices[index]), frame=index)
 
     def message(self, index: int) -> str:
-        """Why the registration of a frame ended."""
+        """Returns why the registration of a frame ended."""
         return self.recorder.message(self.indices[index])
 
     def rows(self) -> dict[str, str]:
-        """What a table says of it."""
+        """Returns the rows of a table: recording, method, body, surface distance and speed."""
         measure = self.measure()
         return {
             "recording": f"{self.name}, {len(self)} frames",
@@ -236,24 +236,24 @@ class Registration(Summary):
     """A body's pose in one frame.
 
     Attributes:
-        tracking: The same as a recording of one frame.
+        tracking: The same result as a recording of one frame.
     """
 
     tracking: Tracking
 
     @property
     def body(self) -> Body:
-        """The body at the size that was given or found."""
+        """The body at its given or estimated size."""
         return self.tracking.body
 
     @property
     def size(self) -> float:
-        """The body's height, length, or whatever its template names [m]."""
+        """Size of the body [m]: its height, length, or another size that the template defines."""
         return self.body.size
 
     @property
     def pose(self) -> Pose:
-        """The pose."""
+        """The pose of root and joints."""
         return self.tracking.poses[0]
 
     @property
@@ -273,32 +273,32 @@ class Registration(Summary):
 
     @property
     def points(self) -> Array:
-        """The points that the body was registered to, (N, 3) [m]."""
+        """Points of the frame, after preprocessing, (N, 3) [m]."""
         return self.tracking.snapshot(0).points
 
     def error(self, truth: Mapping[str, ArrayLike] | ArrayLike) -> float:
-        """The mean distance [m] of the markers to reference joints.
+        """Returns the mean distance [m] of the markers to reference joints.
 
         Args:
-            truth: Positions (3,) [m] by name, or (M, 3) [m] of all markers; NaN where unseen.
+            truth: Positions (3,) [m] by name, or (M, 3) [m] of all markers; NaN for unseen joints.
 
         Raises:
-            RegkitError: If they do not fit the markers.
+            RegkitError: If they do not match the markers.
         """
         if isinstance(truth, Mapping):
             return self.tracking.error({name: np.asarray(at)[None] for name, at in truth.items()})
         return self.tracking.error(np.asarray(truth)[None])
 
     def plot(self) -> Figure:
-        """The frame from the front and from the side."""
+        """Returns a figure of the frame from the front and from the side."""
         return self.tracking.plot()
 
     def save(self, path: str | Path) -> None:
-        """Write the pose as ``Tracking.save`` does a motion, with T = 1."""
+        """Writes the pose in the format of ``Tracking.save``, with T = 1."""
         self.tracking.save(path)
 
     def rows(self) -> dict[str, str]:
-        """What a table says of it."""
+        """Returns the rows of a table: frame, method, body, surface distance and convergence."""
         converged = "yes" if self.tracking.track.converged[0] else "no"
         return {
             "frame": self.tracking.name,

@@ -1,4 +1,4 @@
-"""How results show themselves: a line in Python, a small table in a notebook or by rich."""
+"""Display of results: a line in Python, a table in a notebook or on a terminal."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ if TYPE_CHECKING:
 
 
 class Summary(ABC):
-    """What can say of itself in a few rows what it is."""
+    """Base of results that can be shown as a small table."""
 
     @abstractmethod
     def rows(self) -> dict[str, str]:
-        """What a table says of it, by the rows' names."""
+        """Returns the cells of the table by the names of their rows."""
 
     def __repr__(self) -> str:
-        """One line."""
-        told = "; ".join(f"{name}: {value}" for name, value in self.rows().items())
-        return f"<{type(self).__name__} {told}>"
+        """Returns the table in one line."""
+        cells = "; ".join(f"{name}: {value}" for name, value in self.rows().items())
+        return f"<{type(self).__name__} {cells}>"
 
     def __rich__(self) -> Table:
-        """A table on a terminal."""
+        """Returns the table for a terminal."""
         from rich.markup import escape as plain
         from rich.table import Table
 
@@ -33,7 +33,7 @@ class Summary(ABC):
         return table
 
     def _repr_html_(self) -> str:
-        """A table in a notebook."""
+        """Returns the table as HTML for a notebook."""
         rows = "".join(
             f"<tr><th style='text-align:left'>{escape(name)}</th>"
             f"<td style='text-align:left'>{escape(value)}</td></tr>"

@@ -26,17 +26,23 @@ def align(
     source: Annotated[
         Path,
         typer.Argument(
-            help="Cloud or mesh to be moved: .ply .pcd .xyz .npz .txt .csv .stl .obj ...",
+            metavar="SOURCE",
+            help="Cloud or mesh to move: .ply .pcd .xyz .npz .txt .csv .stl .obj ...",
             show_default=False,
         ),
     ],
-    target: Annotated[Path, typer.Argument(help="Cloud or mesh that rests.", show_default=False)],
+    target: Annotated[
+        Path,
+        typer.Argument(
+            metavar="TARGET", help="Cloud or mesh that stays fixed.", show_default=False
+        ),
+    ],
     method: Annotated[
         str | None,
         typer.Option(
             metavar="METHOD",
-            help="A preset or kind of method, such as open3d_icp, or a mapping such as "
-            "'{kind: open3d_icp, estimation: generalized}'. (default: regkit's own)",
+            help="Method: a preset or kind, such as open3d_icp, or a mapping such as "
+            "'{kind: open3d_icp, estimation: generalized}'. (default: rigid)",
             show_default=False,
         ),
     ] = None,
@@ -44,8 +50,8 @@ def align(
         float | None,
         typer.Option(
             min=0.0,
-            help="Side [m] of the cubes to which both clouds are downsampled; 0 for not at all. "
-            "(default: about 5000 points are left)",
+            help="Voxel size in metres for downsampling both clouds; 0 turns downsampling off. "
+            "(default: chosen to keep about 5000 points)",
             show_default=False,
         ),
     ] = None,
@@ -53,24 +59,27 @@ def align(
         str,
         typer.Option(
             metavar="START",
-            help="Where to set out from: nearest (of identity and centroids), identity, centroids, "
-            "rotations or features (both for any orientation), or a file with a 4x4 matrix.",
+            help="Initial transform: nearest (the better of identity and centroids), identity, "
+            "centroids, rotations or features (both for any orientation), or a file with a 4x4 "
+            "matrix.",
         ),
     ] = "nearest",
     out: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="Write the source there, laid on the target."),
+        typer.Option(metavar="FILE", help="Write the aligned source to this file."),
     ] = None,
     min_fitness: Annotated[
         float,
         typer.Option(
-            min=0.0, max=1.0, help="It counts as failed if less of the source lies on the target."
+            min=0.0,
+            max=1.0,
+            help="Fail if a smaller fraction of the source lies on the target.",
         ),
     ] = 0.3,
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
     plugin: PluginFiles = None,
 ) -> None:
-    """Lay a rigid cloud or mesh on another: T_target_source, and how well they agree."""
+    """Align a rigid cloud or mesh to another: T_target_source, and how well they match."""
     run_plugin_files(plugin)
     if out is not None:
         check_writable(out, place=f"--out {out}")
@@ -90,7 +99,7 @@ def align(
     if found.hidden is not None:
         errors.print(
             f"warning: {found.hidden} of the source slides its surface along itself: that part of "
-            "the result means little",
+            "the transform is not determined by the data",
             style="yellow",
             highlight=False,
             soft_wrap=True,
@@ -99,8 +108,8 @@ def align(
         errors.print(
             f"error: no alignment was found: {100.0 * found.agreement.fitness:.0f} % of the source "
             f"lies within {found.agreement.distance:.3g} of the target, and --min-fitness is "
-            f"{min_fitness:g}; try --start rotations or --start features, and see whether the "
-            "clouds show the same thing",
+            f"{min_fitness:g}; try --start rotations or --start features, and check that both "
+            "clouds show the same object",
             style="red",
             highlight=False,
             soft_wrap=True,
@@ -136,10 +145,10 @@ def _figures(found: Alignment, method: str, aligned: bool) -> dict[str, Any]:
 def _table(found: Alignment, method: str) -> Table:
     agreement = found.agreement
     within = f"within {agreement.distance:.3g}"
-    downsampled = "as they are" if found.voxel is None else f"in voxels of {found.voxel:.3g}"
+    downsampled = "not downsampled" if found.voxel is None else f"voxels of {found.voxel:.3g}"
     matrix = "\n".join(" ".join(f"{value:11.6f}" for value in row) for row in found.transform)
     table = Table(show_header=False)
-    for what, told in (
+    for name, value in (
         ("T_target_source", matrix),
         ("fitness", f"{100 * agreement.fitness:.1f} % of the source {within} of the target"),
         ("", f"({100 * found.before.fitness:.1f} % at the start)"),
@@ -151,5 +160,5 @@ def _table(found: Alignment, method: str) -> Table:
         ("seconds", f"{found.seconds:.2f}"),
         ("converged", f"{'yes' if found.converged else 'no'}: {found.message}"),
     ):
-        table.add_row(what, escape(told))
+        table.add_row(name, escape(value))
     return table

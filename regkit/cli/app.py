@@ -1,4 +1,4 @@
-"""The commands: each is a function in a module of its own, imported when the command is used."""
+"""The commands: one module and function each, imported when the command is used."""
 
 from __future__ import annotations
 
@@ -16,48 +16,48 @@ from regkit.system.errors import RegkitError
 
 COMMANDS = {
     "run": "Run an experiment: register the template to every recording with every method.",
-    "report": "Write the report of a results folder anew, also of a run that was interrupted.",
-    "export": "Write a tracked motion for other programs: BVH, CSV or glTF.",
-    "register": "Register a template to one frame: the body's size and pose, and how well it fits.",
-    "track": "Track a template through a recording, from a start that is found in its first frame.",
-    "align": "Lay a rigid cloud or mesh on another: T_target_source, and how well they agree.",
-    "calibrate": "Make a template with the proportions of the person or hand that a recording "
-    "shows.",
-    "fit": "Make a template in the shape of a skinned mesh.",
-    "import": "Make a template of another program's skeleton: BVH, or URDF with its limits.",
-    "validate": "Check YAML files and say what is wrong with them, and where.",
-    "plugins": "List what is installed, by group, with the distribution that brings it; or one's "
-    "fields.",
-    "new": "Begin a package with a plug-in of your own, which passes conformance as it is written.",
+    "report": "Write the report of a results folder again, also after an interrupted run.",
+    "export": "Export a tracked motion to other programs: BVH, CSV or glTF.",
+    "register": "Register a template to one frame: body size, pose, and quality of the fit.",
+    "track": "Track a template through a recording; the first frame's pose is found automatically.",
+    "align": "Align a rigid cloud or mesh to another: T_target_source, and how well they match.",
+    "calibrate": "Create a template with the body proportions of the person or hand in a "
+    "recording.",
+    "fit": "Create a template with the shape of a skinned mesh.",
+    "import": "Create a template from another program's skeleton: BVH, or URDF with its limits.",
+    "validate": "Check YAML files and report each mistake with its line.",
+    "plugins": "List the installed plug-ins with their distributions, or the fields of one "
+    "plug-in.",
+    "new": "Create a package for a plug-in of your own, which passes conformance from the start.",
     "schema": "Write the JSON Schemas of experiments and their parts, for editors.",
-    "doctor": "Check the installation, and name the command that repairs each fault.",
+    "doctor": "Check the installation and name the command that repairs each problem.",
 }
-"""What the list of commands says of each: the first paragraph of the command's docstring."""
+"""Summary of each command in the list: the first paragraph of its docstring."""
 
 RENAMED_OPTIONS = {
     "calibrate": {"--sequence": "--recording"},
     "register": {name: f"align {name}" for name in ("--min-fitness", "--start", "--voxel")},
 }
-"""Options that a command had before, and what they are called now."""
+"""Old option names of each command, with their new names."""
 
 
 class Commands(TyperGroup):
-    """The commands by name; the list of them imports none."""
+    """The group of commands; listing them imports none."""
 
     def list_commands(self, ctx: Any) -> list[str]:
-        """The names, in the order of the list."""
+        """Returns the command names in the order of the list."""
         return list(COMMANDS)
 
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
-        """A command with its line in the list, and nothing else yet."""
+        """Returns a command with its summary only; ``resolve_command`` loads the rest."""
         summary = COMMANDS.get(cmd_name)
         return None if summary is None else TyperCommand(cmd_name, help=summary)
 
     def resolve_command(self, ctx: Any, args: list[str]) -> tuple[Any, Any, list[str]]:
-        """The command that is used, whole.
+        """Returns the complete command to run.
 
         Raises:
-            BadParameter: If an option is given by the name that it had before.
+            BadParameter: If an option is given by its old name.
         """
         name, _, rest = super().resolve_command(ctx, args)
         former = RENAMED_OPTIONS.get(str(name), {})
@@ -68,8 +68,8 @@ class Commands(TyperGroup):
 
 
 def loaded(name: str) -> Any:
-    """A command with its parameters."""
-    # A word of Python's own has an underscore behind it.
+    """Returns a command with its parameters."""
+    # A command named like a Python keyword has an underscore behind its function's name.
     own = f"{name}_" if iskeyword(name) else name
     alone = typer.Typer(add_completion=False)
     alone.command(name)(getattr(importlib.import_module(f"regkit.cli.{own}"), own))
@@ -85,7 +85,7 @@ def regkit() -> None:
 
 
 def main() -> None:
-    """Run the command line; an error that a user can correct is printed, with the exit code 1."""
+    """Runs the command line; prints an error that a user can correct and exits with code 1."""
     when_compiling(tell_compiling)
     try:
         app()

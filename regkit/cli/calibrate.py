@@ -17,13 +17,13 @@ from regkit.cli.options import PluginFiles, run_plugin_files
 from regkit.cli.template_file import check_replaceable, write_template
 
 OPENING = """\
-What `regkit calibrate` found in {frames} frames of the recording {recording}. To use it:
+Made by `regkit calibrate` from {frames} frames of {recording}. To use it:
 template: {{kind: file, path: {file}}}
 
 Lengths are in metres and angles in degrees."""
 
 STRANGE = 0.05
-"""If more of the data than this are far from the body, the user is told."""
+"""Share of data far from the body above which a warning is printed."""
 
 
 def calibrate(
@@ -31,7 +31,7 @@ def calibrate(
         Path,
         typer.Argument(
             metavar="RECORDING",
-            help="Folder of a depth recording, or an experiment's YAML file that names its data.",
+            help="Folder of a recording, or an experiment's YAML file.",
             show_default=False,
         ),
     ],
@@ -39,28 +39,30 @@ def calibrate(
         str | None,
         typer.Option(
             metavar="TEMPLATE",
-            help="What is seen: a name such as hand, a template's YAML file, or a mapping such as "
-            "'{kind: hand, side: left}'. (default: the experiment's, or human)",
+            help="Body in the recording: a name such as hand, a template's YAML file, or a mapping "
+            "such as '{kind: hand, side: left}'. (default: the experiment's template, or human)",
             show_default=False,
         ),
     ] = None,
     out: Annotated[
-        Path, typer.Option(metavar="FILE", help="The template to write, or to replace.")
+        Path, typer.Option(metavar="FILE", help="Template to write; an existing one is replaced.")
     ] = Path("subject.yaml"),
     recording: Annotated[
         str | None,
-        typer.Option(metavar="NAME", help="Which recording to look at, if there are several."),
+        typer.Option(metavar="NAME", help="Name of the recording, if there are several."),
     ] = None,
     frames: Annotated[
-        int, typer.Option(min=1, help="In how many frames, spread over the recording, to look.")
+        int, typer.Option(min=1, metavar="N", help="Number of frames, spread over the recording.")
     ] = 12,
     settings: Annotated[
         list[str] | None,
-        typer.Option("--set", metavar="a.b.c=VALUE", help="Change a value of the experiment."),
+        typer.Option(
+            "--set", metavar="a.b.c=VALUE", help="Change a value of the experiment. Repeatable."
+        ),
     ] = None,
     plugin: PluginFiles = None,
 ) -> None:
-    """Make a template with the proportions of the person or hand that a recording shows."""
+    """Create a template with the body proportions of the person or hand in a recording."""
     run_plugin_files(plugin)
     check_replaceable(out)
     found = Source.read(source, template, settings or ())
@@ -70,16 +72,16 @@ def calibrate(
     opening = OPENING.format(frames=subject.frames, recording=seen.name, file=out.name)
     skin = subject.proportions.skin(found.template.description())
     write_template(out, subject.description, skin, opening)
-    _tell(subject, found.template.description().size.value)
+    _print_summary(subject, found.template.description().size.value)
     output.print(f"written: {out}", highlight=False, soft_wrap=True)
 
 
-def _tell(subject: Subject, template_size: float) -> None:
-    """Print what became of the template."""
+def _print_summary(subject: Subject, template_size: float) -> None:
+    """Prints the size, proportions and fit of the calibrated template."""
     size = subject.description.size
     scale = size.value / template_size
     output.print(
-        f"{size.name} {size.value:.4g} m; against a template of that {size.name}:",
+        f"{size.name} {size.value:.4g} m; relative to the template at this {size.name}:",
         highlight=False,
         markup=False,
         soft_wrap=True,
@@ -94,14 +96,14 @@ def _tell(subject: Subject, template_size: float) -> None:
         table.add_row(escape(name), f"{length / scale:.2f}", f"{girth / scale:.2f}")
     output.print(table)
     output.print(
-        f"half of the data lie within {1000.0 * subject.distance:.1f} mm of the surface",
+        f"half of the data lies within {1000.0 * subject.distance:.1f} mm of the surface",
         highlight=False,
         soft_wrap=True,
     )
     if subject.strange > STRANGE:
         errors.print(
-            f"warning: {100.0 * subject.strange:.0f} % of the data are far from the body; if they "
-            "do not show other things, the body was not found: give its size, or take another "
+            f"warning: {100.0 * subject.strange:.0f} % of the data is far from the body. Unless "
+            "the frames show other objects, the body was not found: give its size, or use another "
             "recording",
             style="yellow",
             highlight=False,
@@ -110,7 +112,7 @@ def _tell(subject: Subject, template_size: float) -> None:
 
 
 class _ProgressBars:
-    """Progress on a terminal, silence in a pipe."""
+    """Progress bars on a terminal, nothing in a pipe."""
 
     def __init__(self) -> None:
         self._bars = Progress(
@@ -130,10 +132,10 @@ class _ProgressBars:
         self._bars.stop()
 
     def begin(self, task: str, steps: int) -> None:
-        """Show a bar."""
+        """Shows a bar."""
         self._task = self._bars.add_task(task, total=steps)
 
     def advance(self) -> None:
-        """Move the bar by one step."""
+        """Advances the bar by one step."""
         if self._task is not None:
             self._bars.advance(self._task)

@@ -1,4 +1,4 @@
-"""What ``regkit calibrate`` is given: a folder or an experiment, and a template."""
+"""Input of ``regkit calibrate``: a folder or an experiment, and a template."""
 
 from __future__ import annotations
 
@@ -16,28 +16,29 @@ from regkit.system.errors import ConfigError
 
 
 class Source(Model):
-    """Where a subject is seen, and what it is."""
+    """Frames of a subject, and the template to calibrate."""
 
     dataset: Dataset
-    """Where the frames come from."""
+    """The recordings."""
     template: Template
-    """What is seen in them."""
+    """The template to calibrate."""
     preprocessor: Preprocessor | None = None
-    """How frames become data."""
+    """Preprocessing of the frames."""
     start: PoseDescription | None = None
     """Pose in the first frame."""
 
     @classmethod
     def read(cls, path: Path, template: str | None, settings: Iterable[str]) -> Source:
-        """The source that a folder of depth images is, or that an experiment's YAML describes.
+        """Reads the source from a recording's folder or an experiment's YAML file.
 
         Args:
             path: The folder or the file.
-            template: A name, a file or a YAML mapping; the experiment's or a person without it.
-            settings: ``a.b.c=value``, for an experiment.
+            template: A name, a file or a YAML mapping; None for the experiment's template, or the
+                default one.
+            settings: ``a.b.c=value`` changes of an experiment.
 
         Raises:
-            RegkitError: If something of this cannot be.
+            RegkitError: If an argument is invalid, or a file cannot be read.
         """
         if not path.is_dir():
             experiment = Experiment.read(path, settings, called="--set")
@@ -49,7 +50,7 @@ class Source(Model):
             )
         for setting in settings:
             raise ConfigError(
-                f"only an experiment's values can be changed; {path} is a folder",
+                f"--set changes the values of an experiment; {path} is a folder",
                 place=f"--set {setting}",
             )
         return cls(
@@ -58,16 +59,16 @@ class Source(Model):
         )
 
     def recording(self, name: str | None) -> Recording:
-        """The recording called ``name``, or the only one that there is.
+        """Returns the recording called ``name``, or the only one.
 
         Raises:
-            RegkitError: If there is no such recording, or there are several.
+            RegkitError: If there is no such recording, or there are several and ``name`` is None.
         """
         with options(**{"dataset.recordings": "--recording"}):
             return self.dataset.only(name)
 
     def calibration(self, frames: int) -> Calibration:
-        """How the subject is calibrated, in ``frames`` frames."""
+        """Returns the calibration of the subject in ``frames`` frames."""
         return Calibration(
             template=self.template, preprocessor=self.preprocessor, start=self.start, frames=frames
         )

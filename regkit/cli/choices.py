@@ -1,11 +1,11 @@
-"""What options name: plug-ins, and the arguments of the library that they stand for."""
+"""Plug-ins named by options, parsed into arguments of the library."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from regkit.api.choices import told
+from regkit.api.choices import name_of
 from regkit.config.changes import Location
 from regkit.config.document import Document
 from regkit.config.model import Model
@@ -17,29 +17,29 @@ from regkit.system.errors import ConfigError
 
 
 class Choices(Model):
-    """What ``regkit register`` and ``regkit track`` work with."""
+    """Choices of ``regkit register`` and ``regkit track``."""
 
     template: Template = slot_default(Template)
-    """What is seen."""
+    """The template to register."""
     method: Method = slot_default(Method)
-    """What registers it."""
+    """The registration method."""
     preprocessor: Preprocessor | None = None
-    """How frames become data; without it, they are downsampled to some 900 points."""
+    """Preprocessing of frames; by default they are downsampled to about 900 points."""
     tracker: Tracker = slot_default(Tracker)
-    """How one frame's pose leads to the next, where the method brings no tracker."""
+    """Tracker from frame to frame, if the method has none of its own."""
     start: PoseDescription | None = None
-    """Pose in the first frame, which needs the template's size; it is found without it."""
+    """Pose in the first frame; requires the template's size. By default both are found."""
 
     @classmethod
     def of(cls, options: Mapping[str, str | None], settings: Iterable[str]) -> tuple[Choices, str]:
-        """The choices that options name, after ``a.b.c=value`` settings; what the method is called.
+        """Returns the choices of the options after ``a.b.c=value`` settings, and the method's name.
 
         Args:
-            options: The texts of ``--template``, ``--method``, ...; None where one is not given.
+            options: Values of ``--template``, ``--method``, ...; None for an option that is absent.
             settings: Further changes.
 
         Raises:
-            ConfigError: One line for each thing that is wrong.
+            ConfigError: One line for each mistake.
         """
         given = {name: text for name, text in options.items() if text is not None}
         data = {name: parsed(text, f"--{name}") for name, text in given.items()}
@@ -50,14 +50,14 @@ class Choices(Model):
                 data[name] = slot.default()
         places: dict[Location, str] = {(name,): f"--{name} {text}" for name, text in given.items()}
         document = Document(data, {(): "regkit", **places}).overridden(settings, called="--set")
-        return document.validated(cls), told(document.data["method"])
+        return document.validated(cls), name_of(document.data["method"])
 
 
 def parsed(text: str, option: str) -> Any:
-    """What an option says: a name or a file as it is, or a YAML mapping.
+    """Returns an option's value: a name or file unchanged, or a YAML mapping.
 
     Raises:
-        ConfigError: If it begins as a mapping and is none.
+        ConfigError: If it begins like a mapping but is not one.
     """
     if not text.lstrip().startswith("{"):
         return text
@@ -68,10 +68,10 @@ def parsed(text: str, option: str) -> Any:
 
 
 def template_named(text: str | None) -> Template:
-    """The template that ``--template`` names; the default one without it.
+    """Returns the template of ``--template``, or the default one for None.
 
     Raises:
-        ConfigError: If there is none, or its file is wrong.
+        ConfigError: If there is no such template, or its file is invalid.
     """
     if text is None:
         return Template.parse(Template.default(), place="--template", field="template")
@@ -79,9 +79,9 @@ def template_named(text: str | None) -> Template:
 
 
 def method_named(text: str) -> Method:
-    """The method that ``--method`` names.
+    """Returns the method of ``--method``.
 
     Raises:
-        ConfigError: If there is none, or a field of it is wrong.
+        ConfigError: If there is no such method, or one of its fields is invalid.
     """
     return Method.parse(parsed(text, "--method"), place=f"--method {text}", field="method")

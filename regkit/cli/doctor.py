@@ -22,12 +22,12 @@ LIBRARIES = {name: name for name in ("numpy", "scipy", "numba", "pydantic", "mat
     "open3d": None,
     "casadi": None,
 }
-"""Libraries by their names in Python, with the distribution where it has the name of one."""
+"""Libraries by module name, with the distribution to install where its name differs."""
 
 
 def doctor() -> None:
-    """Check the installation, and name the command that repairs each fault."""
-    table = Table("what", "state", "repair")
+    """Check the installation and name the command that repairs each problem."""
+    table = Table("component", "state", "repair")
     findings = [_python(), *(_library(*names) for names in LIBRARIES.items())]
     findings += [_plugins(), _cache()]
     for what, state, cure in findings:
@@ -53,10 +53,10 @@ def _library(module: str, distribution: str | None) -> tuple[str, str, str]:
 
 
 def _cache() -> tuple[str, str, str]:
-    """Where the cache is and what it takes; it may be deleted at any time."""
+    """Returns the cache folder and its size; it may be deleted at any time."""
     folder = cache_folder()
     size = sum(path.stat().st_size for path in folder.rglob("*") if path.is_file())
-    return "cache", f"{folder} ({size / 1e6:.1f} MB; may be deleted)", ""
+    return "cache", f"{folder} ({size / 1e6:.1f} MB; safe to delete)", ""
 
 
 def _plugins() -> tuple[str, str, str]:
@@ -76,5 +76,5 @@ def _plugins() -> tuple[str, str, str]:
             except RegkitError as error:
                 broken.append(str(error))
     if broken:
-        return "plug-ins", "\n".join(broken), "reinstall or uninstall what brings them"
+        return "plug-ins", "\n".join(broken), "reinstall or uninstall these distributions"
     return "plug-ins", f"{total} in {len(SLOTS)} groups", ""

@@ -16,7 +16,7 @@ from regkit.system.errors import ConfigError
 
 
 class Unit(StrEnum):
-    """What a length of one means in a BVH file."""
+    """Unit of length of a BVH file."""
 
     M = "m"
     CM = "cm"
@@ -27,7 +27,7 @@ def export(
         Path,
         typer.Argument(
             metavar="RESULTS/METHOD/RECORDING",
-            help="The folder of a finished recording.",
+            help="Folder of a tracked recording in the results of a run.",
             show_default=False,
         ),
     ],
@@ -35,30 +35,30 @@ def export(
         Path,
         typer.Option(
             metavar="FILE",
-            help="What to write: a .bvh, .csv or .glb file, or one to replace.",
+            help="File to write: .bvh, .csv or .glb; an existing one is replaced.",
             show_default=False,
         ),
     ],
     unit: Annotated[Unit, typer.Option(help="Unit of length of a .bvh file.")] = Unit.M,
     fps: Annotated[
         float | None,
-        typer.Option(help="Frames per second, if not those of the recording.", show_default=False),
+        typer.Option(help="Frames per second. (default: the recording's)", show_default=False),
     ] = None,
     plugin: PluginFiles = None,
 ) -> None:
-    """Write a tracked motion for other programs: BVH, CSV or glTF."""
+    """Export a tracked motion to other programs: BVH, CSV or glTF."""
     run_plugin_files(plugin)
     if to.suffix.lower() not in FORMATS:
         raise ConfigError(
-            f"'{to.suffix}' is no format that is exported ({', '.join(FORMATS)})", place="--to"
+            f"'{to.suffix}' is not an export format ({', '.join(FORMATS)})", place="--to"
         )
     if fps is not None and not 0.0 < fps < float("inf"):
-        raise ConfigError(f"{fps:g} is no number of frames per second", place="--fps")
+        raise ConfigError(f"{fps:g} frames per second; it must be positive", place="--fps")
     with options(fps="--fps"):
         motion = read_tracked_motion(results, fps)
     write_motion(motion, to, scale=0.01 if unit is Unit.CM else 1.0)
     output.print(
-        f"written: {to} (frames: {len(motion.transforms)}, {motion.fps:g} a second; "
+        f"written: {to} (frames: {len(motion.transforms)}, {motion.fps:g} per second; "
         f"segments: {len(motion.body.skeleton.names)})",
         highlight=False,
         markup=False,

@@ -20,7 +20,7 @@ from regkit.interchange.meshes import read_mesh
 from regkit.system.errors import RegkitError
 
 OPENING = """\
-What `regkit fit` made of the mesh {mesh}. To use it:
+Made by `regkit fit` from the mesh {mesh}. To use it:
 template: {{kind: file, path: {file}}}
 
 Lengths are in metres and angles in degrees."""
@@ -39,8 +39,8 @@ def fit(
         str | None,
         typer.Option(
             metavar="TEMPLATE",
-            help="Whose joints it gets: a name such as hand, a template's YAML file, or a mapping "
-            "such as '{kind: hand, side: left}'. (default: a person)",
+            help="Template that provides the joints: a name such as hand, a YAML file, or a "
+            "mapping such as '{kind: hand, side: left}'. (default: human)",
             show_default=False,
         ),
     ] = None,
@@ -49,8 +49,8 @@ def fit(
         typer.Option(
             "--map",
             metavar="FILE",
-            help="YAML file that names the segment of each bone, or null for that of its parent. "
-            "(default: the segment of the bone's own name)",
+            help="YAML file that maps each bone to a segment, or to null for its parent's segment. "
+            "(default: bones map to segments of the same name)",
             show_default=False,
         ),
     ] = None,
@@ -58,28 +58,28 @@ def fit(
         Path | None,
         typer.Option(
             metavar="FILE",
-            help="YAML file that names the parent of each bone, null for the first, where a glTF "
-            "file's bones are no tree.",
+            help="YAML file that maps each bone to its parent, and the root to null; for a glTF "
+            "file whose bones form no tree.",
             show_default=False,
         ),
     ] = None,
     out: Annotated[
-        Path, typer.Option(metavar="FILE", help="The template to write, or to replace.")
+        Path, typer.Option(metavar="FILE", help="Template to write; an existing one is replaced.")
     ] = Path("fitted.yaml"),
     vertices: Annotated[
-        int, typer.Option(min=50, help="How many of the mesh's vertices are kept.")
+        int, typer.Option(min=50, metavar="N", help="Number of mesh vertices to keep.")
     ] = 1500,
     shape: Annotated[
         list[str] | None,
         typer.Option(
             metavar="KIND",
-            help="Fit this shape model too, with one primitive per segment, where the template "
-            "lists none of its kind.",
+            help="Also fit this shape model, with one primitive per segment, if the template lists "
+            "none of its kind.",
         ),
     ] = None,
     plugin: PluginFiles = None,
 ) -> None:
-    """Make a template in the shape of a skinned mesh."""
+    """Create a template with the shape of a skinned mesh."""
     run_plugin_files(plugin)
     check_replaceable(out)
     for kind in shape or ():
@@ -97,13 +97,13 @@ def fit(
         raise error.at(str(mesh)) from None
     named = _named(fitted.description, mesh.name)
     write_template(out, named, fitted.skin, OPENING.format(mesh=mesh.name, file=out.name))
-    _tell(fitted)
+    _print_summary(fitted)
     output.print(f"written: {out}", highlight=False, soft_wrap=True)
     output.print(f"template: {{kind: file, path: {out}}}", highlight=False, soft_wrap=True)
 
 
 def _named(description: BodyDescription, mesh: str) -> BodyDescription:
-    """The description, which says where its shape comes from."""
+    """Returns the description with a title and source that name the mesh."""
     source = f"Lengths, surface, shapes: fitted to the mesh {mesh}"
     title = f"{description.title}; in the shape of {mesh}"
     return description.model_copy(
@@ -111,8 +111,8 @@ def _named(description: BodyDescription, mesh: str) -> BodyDescription:
     )
 
 
-def _tell(fitted: FittedTemplate) -> None:
-    """Print what was made of the mesh."""
+def _print_summary(fitted: FittedTemplate) -> None:
+    """Prints a summary of the fit."""
     description = fitted.description
     kinds = list(description.shapes)
     table = Table("segment", "bones")

@@ -16,23 +16,23 @@ from regkit.skeleton.joints import BallJoint
 from regkit.system.errors import ConfigError
 
 OPENING = """\
-What `regkit import {command}` made. To use it:
+Made by `regkit import {command}`. To use it:
 template: {{kind: file, path: {file}}}
 
 Lengths are in metres and angles in degrees. In the rest pose all segments are parallel: y up, z to
 the front, x to the body's left."""
 
 LARGE = 10.0
-"""Bodies larger than this [m] are more often centimetres that were taken for metres."""
+"""Size [m] above which a warning suggests that the file is in centimetres."""
 
 UNSHAPED = """\
 
-Where the file has no shape that could be read, a segment has a capsule along each of its bones,
-whose radius is {share:g} of the bone's length: make them what they are."""
+Segments without a readable shape in the file have a capsule along each of their bones, with a
+radius of {share:g} of the bone's length: set the radii to the true ones."""
 
 UNLIMITED = """\
 
-Ball joints have no limits in the file; `swing_deg` and `twist_deg` give them some."""
+Ball joints have no limits in the file; set them with `swing_deg` and `twist_deg`."""
 
 
 def import_(
@@ -40,18 +40,18 @@ def import_(
         Path,
         typer.Argument(metavar="FILE", help="A .bvh or .urdf file.", show_default=False),
     ],
-    out: Annotated[Path, typer.Option(metavar="FILE", help="The template to write.")] = Path(
+    out: Annotated[Path, typer.Option(metavar="FILE", help="Template to write.")] = Path(
         "imported.yaml"
     ),
     scale: Annotated[
-        float, typer.Option(help="Metres per unit of the file: 0.01 for centimetres.")
+        float, typer.Option(help="Metres per unit of the file, such as 0.01 for centimetres.")
     ] = 1.0,
     title: Annotated[
         str | None,
         typer.Option(
             "--name",
             metavar="TEXT",
-            help="What it is, in a line; the file's name without it.",
+            help="Title of the template. (default: the file's name)",
             show_default=False,
         ),
     ] = None,
@@ -59,7 +59,7 @@ def import_(
         str | None,
         typer.Option(
             metavar="AXIS",
-            help="The file's axis that points up, such as y or -z; by custom y of BVH, z of URDF.",
+            help="The file's upward axis, such as y or -z. (default: y for BVH, z for URDF)",
             show_default=False,
         ),
     ] = None,
@@ -67,14 +67,14 @@ def import_(
         str | None,
         typer.Option(
             metavar="AXIS",
-            help="The one that points to the front; by custom z of BVH, x of URDF.",
+            help="The file's forward axis. (default: z for BVH, x for URDF)",
             show_default=False,
         ),
     ] = None,
 ) -> None:
-    """Make a template of another program's skeleton: BVH, or URDF with its limits."""
+    """Create a template from another program's skeleton: BVH, or URDF with its limits."""
     if not 0.0 < scale < float("inf"):
-        raise ConfigError(f"{scale:g} is no scale; it must be positive", place="--scale")
+        raise ConfigError(f"the scale is {scale:g}; it must be positive", place="--scale")
     check_replaceable(out)
     with options(up="--up", front="--front"):
         imported = read_skeleton(file, scale=scale, title=title, up=up, front=front)
@@ -86,13 +86,13 @@ def import_(
     if any(isinstance(one.joint, BallJoint) for one in imported.description.segments.values()):
         opening += "\n" + UNLIMITED
     write_template(out, imported.description, None, opening, imported.comments)
-    _tell(imported)
+    _print_summary(imported)
     output.print(f"written: {out}", highlight=False, soft_wrap=True)
     output.print(f"template: {{kind: file, path: {out}}}", highlight=False, soft_wrap=True)
 
 
-def _tell(imported: ImportedSkeleton) -> None:
-    """Print what was read."""
+def _print_summary(imported: ImportedSkeleton) -> None:
+    """Prints a summary of the imported skeleton."""
     description = imported.description
     segments = description.segments.values()
     kinds = [segment.joint.type for segment in segments if segment.joint is not None]
@@ -111,7 +111,7 @@ def _tell(imported: ImportedSkeleton) -> None:
     )
     if description.size.value > LARGE:
         output.print(
-            "that is large; if the file is not in metres, name its unit: --scale 0.01 for "
+            "this is large; if the file is not in metres, give its unit, such as --scale 0.01 for "
             "centimetres",
             highlight=False,
             markup=False,
@@ -119,8 +119,8 @@ def _tell(imported: ImportedSkeleton) -> None:
         )
     if imported.shaped:
         output.print(
-            f"segments that had no shape and got one along their bones: {imported.shaped}; look at "
-            "them",
+            f"segments without a shape, now with capsules along their bones: {imported.shaped}; "
+            "check their radii",
             highlight=False,
             markup=False,
             soft_wrap=True,

@@ -1,4 +1,4 @@
-"""Ctrl-C in a long run: it is answered between two frames, where nothing is half done."""
+"""Ctrl-C in a long run, handled between two frames, where no work is half done."""
 
 from __future__ import annotations
 
@@ -9,23 +9,23 @@ from regkit.cli.console import errors
 
 
 class Interrupt:
-    """A context that notes Ctrl-C; ``check`` answers it, and a second Ctrl-C ends at once.
+    """Context manager that records Ctrl-C for ``check``; a second Ctrl-C ends the run at once.
 
-    An exception in the middle of compiled code would reach the program as another error, and look
-    like a fault of the recording. A process that was started with Ctrl-C ignored, as shells start
-    what runs in the background, goes on ignoring it.
+    An exception inside compiled code would reach the program as another error and look like a
+    fault of the recording. A process that started with Ctrl-C ignored, as shells start background
+    jobs, keeps ignoring it.
     """
 
     def __init__(self, answer: str = "stopping after this frame") -> None:
-        """``answer`` is what is said at once."""
+        """``answer`` is the message printed on the first Ctrl-C."""
         self._answer = answer
-        self._asked = False
+        self._pressed = False
         self._former = signal.getsignal(signal.SIGINT)
-        # None is a handler that Python did not set, and cannot set again.
+        # Python reports None for a handler that it did not install and cannot restore.
         self._heard = self._former not in (signal.SIG_IGN, None)
 
     def __enter__(self) -> Interrupt:
-        """Note Ctrl-C from now on."""
+        """Records Ctrl-C from now on."""
         if self._heard:
             signal.signal(signal.SIGINT, self._note)
         return self
@@ -36,20 +36,20 @@ class Interrupt:
         error: BaseException | None,
         traceback: TracebackType | None,
     ) -> None:
-        """Leave Ctrl-C to who had it before."""
+        """Restores the previous handler."""
         if self._heard:
             signal.signal(signal.SIGINT, self._former)
 
     def check(self) -> None:
-        """Raise what Ctrl-C would have raised.
+        """Raises KeyboardInterrupt if Ctrl-C was pressed.
 
         Raises:
             KeyboardInterrupt: If it was pressed.
         """
-        if self._asked:
+        if self._pressed:
             raise KeyboardInterrupt
 
     def _note(self, *_: object) -> None:
-        self._asked = True
-        errors.print(f"{self._answer}; Ctrl-C again ends at once", highlight=False)
+        self._pressed = True
+        errors.print(f"{self._answer}; press Ctrl-C again to end at once", highlight=False)
         signal.signal(signal.SIGINT, signal.default_int_handler)

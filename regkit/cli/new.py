@@ -13,12 +13,19 @@ from regkit.scaffold import Scaffold
 
 def new(
     what: Annotated[
-        str, typer.Argument(help="What to begin: shape, kernel, solver, dataset or template.")
+        str,
+        typer.Argument(
+            metavar="WHAT", help="Kind of plug-in: shape, kernel, solver, dataset or template."
+        ),
     ],
-    name: Annotated[str, typer.Argument(help="Its name in YAML, such as my_shape.")],
-    out: Annotated[Path, typer.Option(help="Where the package's folder is written.")] = Path(),
+    name: Annotated[
+        str, typer.Argument(metavar="NAME", help="Name of the plug-in in YAML, such as my_shape.")
+    ],
+    out: Annotated[
+        Path, typer.Option(metavar="FOLDER", help="Folder that receives the package's folder.")
+    ] = Path(),
 ) -> None:
-    """Begin a package with a plug-in of your own, which passes conformance as it is written."""
+    """Create a package for a plug-in of your own, which passes conformance from the start."""
     scaffold = Scaffold.checked(what, name)
     folder = scaffold.write(out)
     recorded = " --set dataset.root=FOLDER" if what == "template" else ""

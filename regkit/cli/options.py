@@ -1,4 +1,4 @@
-"""Options that several commands have, and errors that name the option to be changed."""
+"""Options of several commands, and errors that name the option to change."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ TemplateName = Annotated[
     typer.Option(
         "--template",
         metavar="TEMPLATE",
-        help="What is seen: a name such as human or hand, a template's YAML file, a rigid cloud or "
-        "mesh, or a mapping such as '{kind: hand, side: left}'. (default: a person)",
+        help="Body to register: a name such as human or hand, a template's YAML file, a rigid "
+        "cloud or mesh, or a mapping such as '{kind: hand, side: left}'. (default: human)",
         show_default=False,
     ),
 ]
@@ -28,8 +28,8 @@ MethodName = Annotated[
     typer.Option(
         "--method",
         metavar="METHOD",
-        help="What registers it: a preset such as best or spheres, a kind, a preset's YAML file, "
-        "or a mapping such as '{preset: best, terms: []}'. (default: regkit's best)",
+        help="Method: a preset such as best or spheres, a kind, a preset's YAML file, or a mapping "
+        "such as '{preset: best, terms: []}'. (default: best)",
         show_default=False,
     ),
 ]
@@ -39,8 +39,8 @@ PreprocessorName = Annotated[
     typer.Option(
         "--preprocessor",
         metavar="PREPROCESSOR",
-        help="How a frame becomes data: a kind, or a mapping such as '{kind: points, voxel: 0.03, "
-        "crop: {near: 2, far: 4}}'. (default: downsampled to some 900 points)",
+        help="Preprocessing of a frame: a kind, or a mapping such as '{kind: points, voxel: 0.03, "
+        "crop: {near: 2, far: 4}}'. (default: downsample to about 900 points)",
         show_default=False,
     ),
 ]
@@ -50,7 +50,7 @@ Settings = Annotated[
     typer.Option(
         "--set",
         metavar="a.b.c=VALUE",
-        help="Change a value, such as template.height=1.75 or method.terms=[].",
+        help="Change a value, such as template.height=1.75 or method.terms=[]. Repeatable.",
     ),
 ]
 
@@ -58,7 +58,7 @@ Out = Annotated[
     Path | None,
     typer.Option(
         metavar="FOLDER",
-        help="Write result.json, markers.csv, poses.npz and picture.png there.",
+        help="Write result.json, markers.csv, poses.npz and picture.png to this folder.",
         show_default=False,
     ),
 ]
@@ -66,20 +66,20 @@ Out = Annotated[
 PluginFiles = Annotated[
     list[Path] | None,
     typer.Option(
-        "--plugin", metavar="FILE", help="Python file that registers plug-ins of your own."
+        "--plugin", metavar="FILE", help="Python file that registers your own plug-ins. Repeatable."
     ),
 ]
 
 
 def run_plugin_files(files: Iterable[Path] | None) -> None:
-    """Make the plug-ins of ``--plugin`` files available."""
+    """Makes the plug-ins of ``--plugin`` files available."""
     for file in files or ():
         run_plugin_file(file)
 
 
 @contextmanager
 def options(**names: str) -> Iterator[None]:
-    """A context whose errors name options where the library names its arguments.
+    """Context manager whose errors name options in place of the library's arguments.
 
     Args:
         names: The option of each argument, such as ``voxel="--voxel"``.

@@ -1,4 +1,4 @@
-"""How ``regkit register`` and ``regkit track`` end: a table, files, and whether to believe them."""
+"""Output of ``regkit register`` and ``regkit track``: a table, files, and an exit code."""
 
 from __future__ import annotations
 
@@ -24,21 +24,21 @@ DPI = 110
 
 
 def check_out(out: Path | None) -> None:
-    """Refuse a file where a folder is to be, before any work is done.
+    """Refuses a file in place of the output folder, before any work is done.
 
     Raises:
-        ConfigError: If something else is there.
+        ConfigError: If the path is a file.
     """
     if out is not None and out.exists() and not out.is_dir():
         raise ConfigError("this is a file; name a folder", place=f"--out {out}")
 
 
 def finish(tracking: Tracking, out: Path | None, *, as_json: bool) -> None:
-    """Print what was found, write it into a folder, and fail if the body was lost.
+    """Prints the result, writes it to a folder, and fails if the body was lost.
 
     Raises:
         RegkitError: If a file cannot be written.
-        Exit: With the code 1, if the body was lost.
+        Exit: With code 1, if the body was lost.
     """
     figures = _figures(tracking)
     if as_json:
@@ -61,7 +61,7 @@ def finish(tracking: Tracking, out: Path | None, *, as_json: bool) -> None:
 
 
 def _figures(tracking: Tracking) -> dict[str, Any]:
-    """What programs read; the pose itself where there is one frame."""
+    """Returns the content of ``result.json``, with the pose for a single frame."""
     track = tracking.track
     figures: dict[str, Any] = {
         "lost": tracking.lost,
@@ -90,7 +90,7 @@ def _table(tracking: Tracking, figures: dict[str, Any]) -> Table:
     distance, share = figures["surface_distance_mm"], figures["inlier_share"]
     doubts = f"{figures['doubtful_frames']} of {len(tracking)}"
     table = Table(show_header=False)
-    for what, told in (
+    for name, value in (
         ("frames", f"{tracking.name}, {len(tracking)}"),
         ("method", tracking.method),
         ("body", f"{tracking.body.name}, {tracking.size:.4g} m"),
@@ -102,7 +102,7 @@ def _table(tracking: Tracking, figures: dict[str, Any]) -> Table:
         ("lost", "yes" if tracking.lost else "no"),
         ("speed", f"{figures['frames_per_second']:.3g} frames per second"),
     ):
-        table.add_row(what, escape(told))
+        table.add_row(name, escape(value))
     return table
 
 
@@ -116,7 +116,7 @@ def _write(tracking: Tracking, figures: dict[str, Any], out: Path) -> None:
 
 
 def _markers(tracking: Tracking) -> str:
-    """Positions [m] in the form of a recording's ``truth.csv``."""
+    """Returns the marker positions [m] in the format of a recording's ``truth.csv``."""
     text = StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(("frame", "joint", "x", "y", "z"))

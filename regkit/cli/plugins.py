@@ -23,16 +23,18 @@ from regkit.system.errors import PluginError, RegkitError
 def plugins(
     kind: Annotated[
         str | None,
-        typer.Argument(help="Show the fields of this plug-in, or the file of this preset."),
+        typer.Argument(
+            metavar="NAME", help="Show the fields of this plug-in, or the file of this preset."
+        ),
     ] = None,
     plugin: PluginFiles = None,
 ) -> None:
-    """List what is installed, by group, with the distribution that brings it; or one's fields."""
+    """List the installed plug-ins with their distributions, or the fields of one plug-in."""
     run_plugin_files(plugin)
     if kind is not None:
         _print_fields(kind)
         return
-    table = Table("group", "kind", "what it is", "from")
+    table = Table("group", "kind", "description", "distribution")
     for slot in SLOTS:
         for index, (name, origin) in enumerate(slot.available().items()):
             table.add_row(
@@ -50,7 +52,7 @@ def plugins(
 
 
 def _limits_table() -> Table:
-    """What each solver does with joint limits."""
+    """Returns a table of how each solver enforces joint limits."""
     table = Table(
         "solver", "hinges", "ball joints (swing, twist)", "hard_limits", title="joint limits"
     )
@@ -58,7 +60,7 @@ def _limits_table() -> Table:
         try:
             limits = Solver.load(name).limits
         except PluginError:
-            continue  # The other table says why it is broken.
+            continue  # The list of plug-ins reports why it is broken.
         table.add_row(
             name, escape(limits.hinges), escape(limits.balls), "yes" if limits.hard else "refused"
         )
@@ -78,7 +80,7 @@ def _print_fields(kind: str) -> None:
         raise PluginError(f"no plug-in '{kind}' in any group" + did_you_mean(kind, kinds))
     for slot in named:
         found = slot.load(kind)
-        table = Table("field", "default", "what it is", title=f"{slot.group}: {kind}")
+        table = Table("field", "default", "description", title=f"{slot.group}: {kind}")
         for name, field in found.model_fields.items():
             default = "required"
             if not field.is_required():
@@ -99,7 +101,7 @@ def _summary(slot: type[Plugin], kind: str) -> str:
 
 
 def _preset_summary(group: str, name: str) -> str:
-    """The first line of the comment at the top of a preset's file."""
+    """Returns the first line of the comment at the top of a preset's file."""
     try:
         text = preset_file(group, name).read_text(encoding="utf-8")
     except (RegkitError, OSError) as error:

@@ -29,7 +29,7 @@ def register(
         Path,
         typer.Argument(
             metavar="FILE",
-            help="Cloud or mesh, 16-bit PNG depth image with its camera.json, or the folder of a "
+            help="Cloud or mesh, 16-bit PNG depth image with its camera.json, or folder of a "
             "recording.",
             show_default=False,
         ),
@@ -39,18 +39,18 @@ def register(
     method: MethodName = None,
     preprocessor: PreprocessorName = None,
     frame: Annotated[
-        int, typer.Option(min=0, metavar="N", help="Which frame of a recording's folder, from 0.")
+        int, typer.Option(min=0, metavar="N", help="Frame of a recording's folder, from 0.")
     ] = 0,
     depth_scale: Annotated[
         float,
-        typer.Option(help="Units per metre of a depth image that is in no recording."),
+        typer.Option(help="Units per metre of a depth image outside a recording."),
     ] = 1000.0,
     settings: Settings = None,
     out: Out = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
     plugin: PluginFiles = None,
 ) -> None:
-    """Register a template to one frame: the body's size and pose, and how well it fits."""
+    """Register a template to one frame: body size, pose, and quality of the fit."""
     if target is not None:
         raise ConfigError(
             "'register SOURCE TARGET' is now called 'align SOURCE TARGET'; 'register FILE' "

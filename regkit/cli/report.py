@@ -15,13 +15,17 @@ from regkit.system.errors import ConfigError
 
 
 def report(
-    folder: Annotated[Path, typer.Argument(help="Results folder of a run.", show_default=False)],
+    folder: Annotated[
+        Path, typer.Argument(metavar="RESULTS", help="Results folder of a run.", show_default=False)
+    ],
     compare: Annotated[
         list[str] | None,
-        typer.Option(metavar="A,B", help="Also test these two methods against each other."),
+        typer.Option(
+            metavar="A,B", help="Also compare these two methods statistically. Repeatable."
+        ),
     ] = None,
 ) -> None:
-    """Write the report of a results folder anew, also of a run that was interrupted."""
+    """Write the report of a results folder again, also after an interrupted run."""
     measures, failures = found(folder)
     pairs = [_pair(text, list(measures)) for text in compare or ()]
     page = write_report(folder, measures, failures, pairs)
@@ -29,14 +33,14 @@ def report(
 
 
 def _pair(text: str, methods: list[str]) -> tuple[str, str]:
-    """The two methods of ``--compare``.
+    """Returns the two methods of ``--compare``.
 
     Raises:
-        ConfigError: If they are not two that there are.
+        ConfigError: If they are not two different methods of the results.
     """
     place = f"--compare {text}"
     parts = text.split(",")
-    # The name of a sweep's variant has commas itself.
+    # The name of a sweep's variant may contain commas itself.
     splits = [(",".join(parts[:k]), ",".join(parts[k:])) for k in range(1, len(parts))]
     if not splits:
         raise ConfigError("name two different methods, as in A,B", place=place)

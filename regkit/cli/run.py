@@ -24,45 +24,46 @@ from regkit.report.tables import TERMINAL, rows
 
 
 def run(
-    experiment: Annotated[Path, typer.Argument(help="The experiment's YAML file.")],
+    experiment: Annotated[
+        Path, typer.Argument(metavar="EXPERIMENT", help="The experiment's YAML file.")
+    ],
     out: Annotated[
         Path | None,
         typer.Option(
-            help="Results folder; one that was begun before is completed. "
+            metavar="FOLDER",
+            help="Results folder; an unfinished run in it is continued. "
             "(default: results/NAME/DATE-TIME)",
             show_default=False,
         ),
     ] = None,
     settings: Annotated[
         list[str] | None,
-        typer.Option("--set", metavar="a.b.c=VALUE", help="Change a value of the YAML file."),
+        typer.Option("--set", metavar="a.b.c=VALUE", help="Change a YAML value. Repeatable."),
     ] = None,
     plugin: PluginFiles = None,
     only: Annotated[
-        list[str] | None, typer.Option(metavar="METHOD", help="Run only this method.")
+        list[str] | None, typer.Option(metavar="METHOD", help="Run only this method. Repeatable.")
     ] = None,
-    jobs: Annotated[
-        int, typer.Option(min=1, metavar="N", help="Number of processes that do the work.")
-    ] = 1,
+    jobs: Annotated[int, typer.Option(min=1, metavar="N", help="Number of worker processes.")] = 1,
     cluster: Annotated[
         str | None,
         typer.Option(
             metavar="SCHEME:ADDRESS",
-            help="Work on the workers of a cluster, such as dask:tcp://10.0.0.1:8786; they must "
-            "see the same files.",
+            help="Run on a Dask cluster, such as dask:tcp://10.0.0.1:8786; its workers must see "
+            "the same files.",
         ),
     ] = None,
     figures: Annotated[
         bool,
         typer.Option(
             "--figures/--no-figures",
-            help="Draw the report's figures in the end; `regkit report` draws them later.",
+            help="Draw the report's figures at the end; `regkit report` can draw them later.",
         ),
     ] = True,
 ) -> None:
     """Run an experiment: register the template to every recording with every method.
 
-    Lists below sweep: in the YAML make many of it.
+    Lists under `sweep:` in the YAML file expand into one experiment per combination.
     """
     run_plugin_files(plugin)
     workers = chosen_workers(jobs, cluster)
@@ -80,7 +81,7 @@ def run(
             )
     except KeyboardInterrupt:
         errors.print(
-            f"interrupted; what was finished is kept: repeat with --out {folder}",
+            f"interrupted; finished work is kept: continue with --out {folder}",
             highlight=False,
             soft_wrap=True,
         )
@@ -94,11 +95,11 @@ def run(
 
 
 def _table(measures: dict[str, dict[str, Measure]]) -> Table:
-    # A terminal of 80 characters holds all figures: titles may break there, names
-    # only where a sweep joined them.
+    # All metrics must fit a terminal of 80 characters: titles may break there, names only
+    # where a sweep joined them.
     table = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
     table.add_column("method", no_wrap=True)
-    table.add_column("seq.")
+    table.add_column("rec.")
     for title in TERMINAL.values():
         table.add_column(escape(title), justify="right")
     for name, *figures in rows(measures):

@@ -1,4 +1,4 @@
-"""How far a run is, on a terminal."""
+"""Progress of a run on a terminal."""
 
 from __future__ import annotations
 
@@ -20,26 +20,26 @@ from regkit.cli.interrupt import Interrupt
 from regkit.system.errors import RegkitError
 
 SHOWN = 8
-"""Of so many things that are being done at once a line is shown."""
+"""Maximum number of tasks shown at once."""
 
 
 class _Done(MofNCompleteColumn):
-    """How much is done, of what is told."""
+    """Completed and total steps of a task."""
 
     def render(self, task: Task) -> Text:
-        """Nothing of what only tells its end."""
+        """Renders nothing for a task without a known number of steps."""
         return Text() if task.total is None else super().render(task)
 
 
 class RunProgress:
-    """Progress on a terminal, silence in a pipe; failures are told in both.
+    """Progress bars on a terminal, nothing in a pipe; failures are printed in both.
 
-    One bar is that of the whole run; below it is what is being done just now. Between two frames,
-    or while workers are busy, it lets an interrupt be answered.
+    One bar shows the whole run, the bars below it the current tasks. Interrupts are handled
+    between two frames, and while workers are busy.
     """
 
     def __init__(self, interrupt: Interrupt, *, frames: bool) -> None:
-        """``frames`` is whether each frame will be told."""
+        """``frames`` tells whether ``advance`` is called for each frame."""
         self._interrupt = interrupt
         self._frames = frames
         self._bars = Progress(
@@ -54,7 +54,7 @@ class RunProgress:
         self._current: dict[str, TaskID] = {}
 
     def __enter__(self) -> RunProgress:
-        """Show the bars."""
+        """Shows the bars."""
         self._bars.start()
         return self
 
@@ -64,34 +64,34 @@ class RunProgress:
         error: BaseException | None,
         traceback: TracebackType | None,
     ) -> None:
-        """Leave that of the whole run."""
+        """Removes all bars but the one of the whole run."""
         for label in list(self._current):
             self._remove(label)
         self._bars.stop()
 
     def planned(self, tracks: int, finished: int) -> None:
-        """Show how much there is to do."""
+        """Shows the number of tracks, and how many are finished."""
         self._whole = self._bars.add_task("recordings x methods", total=tracks, completed=finished)
 
     def begin(self, label: str, frames: int | None) -> None:
-        """Show that something is being done."""
+        """Adds the bar of a task."""
         self._interrupt.check()
         visible = len(self._current) < SHOWN
         total = frames if self._frames else None
         self._current[label] = self._bars.add_task(f"  {label}", total=total, visible=visible)
 
     def advance(self) -> None:
-        """Move on by one frame."""
+        """Advances by one frame."""
         self._interrupt.check()
         for task in self._current.values():
             self._bars.advance(task)
 
     def wait(self) -> None:
-        """Nothing to show."""
+        """Handles an interrupt while workers are busy."""
         self._interrupt.check()
 
     def end(self, label: str, tracks: int, error: RegkitError | None) -> None:
-        """Take it away, and say why it failed."""
+        """Removes the bar of a task, and prints its error if it failed."""
         if error is not None:
             errors.print(
                 f"{label} failed: {error}", style="red", markup=False, highlight=False,

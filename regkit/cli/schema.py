@@ -21,18 +21,19 @@ from regkit.system.files import write_text
 
 def schema(
     folder: Annotated[
-        Path, typer.Argument(help="Where the schemas are written, or checked.")
+        Path,
+        typer.Argument(metavar="FOLDER", help="Folder to write the schemas to, or to check."),
     ] = Path(FOLDER),
     check: Annotated[
         bool,
         typer.Option(
             "--check",
-            help="Write nothing; fail if a file is up to date neither with what is installed nor "
-            "with regkit's own plug-ins alone.",
+            help="Write nothing; fail if a schema is out of date. Schemas of the built-in plug-ins "
+            "alone also count as up to date.",
         ),
     ] = False,
     built_in: Annotated[
-        bool, typer.Option("--built-in", help="Leave out what other distributions bring.")
+        bool, typer.Option("--built-in", help="Leave out plug-ins of other distributions.")
     ] = False,
     plugin: PluginFiles = None,
 ) -> None:
@@ -42,7 +43,7 @@ def schema(
         with only_from(OWN):
             texts = _texts()
     else:
-        _tell_broken()
+        _report_left_out()
         texts = _texts()
     if check:
         _check(folder, texts)
@@ -53,7 +54,7 @@ def schema(
         output.print(f"written: {file}", highlight=False, soft_wrap=True)
     line = f"{MARK}{(folder / 'experiment.json').as_posix()}"
     output.print(
-        f"for an editor, begin an experiment with this line, the path as seen from it: {line}",
+        f"for editors, begin an experiment with this line (path relative to its folder): {line}",
         markup=False,
         highlight=False,
         soft_wrap=True,
@@ -61,7 +62,7 @@ def schema(
 
 
 def _check(folder: Path, texts: dict[str, str]) -> None:
-    """End with the exit code 1 if a file is neither as given nor that of the built-ins alone."""
+    """Exits with code 1 if a file matches neither ``texts`` nor the built-in schemas."""
     files = {name: folder / f"{name}.json" for name in texts}
     found = {
         name: file.read_text(encoding="utf-8") if file.exists() else ""
@@ -73,14 +74,14 @@ def _check(folder: Path, texts: dict[str, str]) -> None:
         own = _texts()
     stale = [files[name] for name, text in found.items() if text not in (texts[name], own[name])]
     for file in stale:
-        state = "not up to date" if file.exists() else "missing"
+        state = "out of date" if file.exists() else "missing"
         errors.print(f"{file} is {state}; run: regkit schema {folder}", soft_wrap=True)
     if stale:
         raise typer.Exit(1)
 
 
-def _tell_broken() -> None:
-    """Say which plug-ins the schemas leave out, since they cannot be had or described."""
+def _report_left_out() -> None:
+    """Reports the plug-ins left out of the schemas because they are broken or not describable."""
     for slot in SLOTS:
         for kind, origin in slot.available().items():
             try:
@@ -88,16 +89,16 @@ def _tell_broken() -> None:
                 if not (isinstance(origin, Installed) and OWN in origin.distributions):
                     schema_of(plugin)
             except PluginError as error:
-                told = str(error)
+                reason = str(error)
             except PydanticInvalidForJsonSchema as error:
                 by = origin.versions if isinstance(origin, Installed) else origin.__module__
-                told = (
-                    f"plug-in '{kind}' of {by} has a field that no YAML can hold: {error.message}"
+                reason = (
+                    f"plug-in '{kind}' of {by} has a field without a YAML form: {error.message}"
                 )
             else:
                 continue
             errors.print(
-                f"left out: {told}", style="red", markup=False, highlight=False, soft_wrap=True
+                f"left out: {reason}", style="red", markup=False, highlight=False, soft_wrap=True
             )
 
 

@@ -1,4 +1,4 @@
-"""Templates that a command writes, each with its mesh beside it."""
+"""Writing of templates, each with its mesh in a file beside it."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from regkit.system.files import write_text
 
 
 def check_replaceable(out: Path) -> None:
-    """Refuse to overwrite what is no template, before any work is done.
+    """Refuses to overwrite a file that is not a template, before any work is done.
 
     Raises:
-        ConfigError: If something else is there.
+        ConfigError: If the file exists and is not a template.
     """
     if not out.exists():
         return
@@ -26,7 +26,7 @@ def check_replaceable(out: Path) -> None:
         Document.read(out).validated(BodyDescription)
     except RegkitError:
         raise ConfigError(
-            f"{out} is there already, and is no template; give another name", place="--out"
+            f"{out} exists and is not a template; give another name", place="--out"
         ) from None
 
 
@@ -37,9 +37,16 @@ def write_template(
     opening: str,
     comments: Mapping[str, str] | None = None,
 ) -> None:
-    """Write a template, which ``opening`` introduces, and its skin; ``comments`` are on joints.
+    """Writes a template and its mesh.
 
-    If there is a schema of templates nearby, the file names it for editors.
+    If a schema of templates is nearby, the file names it for editors.
+
+    Args:
+        out: The file to write.
+        description: The template.
+        skin: Its mesh, written beside the file; None without one.
+        opening: Comment at the top of the file.
+        comments: Comments on joints, by joint.
     """
     if skin is not None:
         mesh = out.with_name(f"{out.stem}_mesh.npz")

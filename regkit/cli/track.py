@@ -40,13 +40,13 @@ def track(
         str | None,
         typer.Option(
             metavar="TRACKER",
-            help="How one frame's pose leads to the next, where the method brings no tracker.",
+            help="Tracker from frame to frame, if the method has none of its own.",
             show_default=False,
         ),
     ] = None,
     recording: Annotated[
         str | None,
-        typer.Option(metavar="NAME", help="Which recording of the folder, if it has several."),
+        typer.Option(metavar="NAME", help="Name of the recording, if the folder has several."),
     ] = None,
     frames: Annotated[
         int | None, typer.Option(min=1, metavar="N", help="Track only the first N frames.")
@@ -56,7 +56,7 @@ def track(
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
     plugin: PluginFiles = None,
 ) -> None:
-    """Track a template through a recording, from a start that is found in its first frame."""
+    """Track a template through a recording; the first frame's pose is found automatically."""
     run_plugin_files(plugin)
     check_out(out)
     named = {"template": template, "method": method, "preprocessor": preprocessor}

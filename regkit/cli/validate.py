@@ -17,10 +17,13 @@ from regkit.system.errors import ConfigError, RegkitError
 
 
 def validate(
-    files: Annotated[list[Path], typer.Argument(help="Experiments, templates or skeletons.")],
+    files: Annotated[
+        list[Path],
+        typer.Argument(metavar="FILE", help="YAML files of experiments, templates or skeletons."),
+    ],
     plugin: PluginFiles = None,
 ) -> None:
-    """Check YAML files and say what is wrong with them, and where."""
+    """Check YAML files and report each mistake with its line."""
     run_plugin_files(plugin)
     failed = False
     for file in files:
@@ -34,7 +37,7 @@ def validate(
 
 
 def _checked(file: Path) -> str:
-    """What kind of file it is, once it is known to be valid."""
+    """Validates a file and returns its type."""
     document = Document.read(file)
     if "methods" in document.data:
         study = Study.of(document)
@@ -43,7 +46,7 @@ def _checked(file: Path) -> str:
         return "experiment"
     if "segments" not in document.data:
         raise ConfigError(
-            "cannot tell what this is: an experiment has 'methods', a template or a skeleton has "
+            "unknown type of file: an experiment has 'methods', a template or a skeleton has "
             "'segments'",
             place=str(file),
         )

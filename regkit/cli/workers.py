@@ -1,4 +1,4 @@
-"""Who does the work of a run, as its options name it."""
+"""Workers of a run, as chosen by its options."""
 
 from __future__ import annotations
 
@@ -9,24 +9,24 @@ from regkit.system.errors import ConfigError
 
 
 def chosen_workers(jobs: int, cluster: str | None) -> Workers:
-    """This process, several others, or the workers of a cluster.
+    """Returns this process, worker processes, or the workers of a cluster.
 
     Args:
-        jobs: How many processes of this machine.
+        jobs: Number of processes on this machine.
         cluster: ``SCHEME:ADDRESS`` of a cluster, or None.
 
     Raises:
-        ConfigError: If both are asked for, or there is no such scheme.
+        ConfigError: If both are requested, or the scheme is unknown.
     """
     if cluster is None:
         return ThisProcess() if jobs == 1 else Processes(jobs)
     place = f"--cluster {cluster}"
     if jobs != 1:
-        raise ConfigError("a cluster has its own workers; leave --jobs out", place=place)
+        raise ConfigError("a cluster has its own workers; leave out --jobs", place=place)
     scheme, _, address = cluster.partition(":")
     if scheme != "dask" or not address:
         raise ConfigError(
-            "a cluster is named by a scheme and an address, and the only scheme is dask; such as "
+            "a cluster is given as SCHEME:ADDRESS, and the only scheme is dask, as in "
             "dask:tcp://10.0.0.1:8786",
             place=place,
         )

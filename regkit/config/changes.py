@@ -1,6 +1,6 @@
 """Changes of nested data: one value at the end of a path, or a mapping of many.
 
-A setting, a sweep and whatever stands beside the name of a preset change data in this one way.
+Settings, sweeps and the changes of a preset all use these rules.
 """
 
 from __future__ import annotations
@@ -11,27 +11,27 @@ from typing import Any
 from regkit.system.errors import ConfigError
 
 Location = tuple[str | int, ...]
-"""The path to a value: keys of mappings and numbers of items."""
+"""Path to a value: keys of mappings and indices of items."""
 
 
 def with_value(
     data: Any, keys: Sequence[str], value: Any, at: Location = ()
 ) -> tuple[Any, Location]:
-    """``data`` in which ``value`` stands at the end of a path.
+    """Returns ``data`` with ``value`` at the end of a path.
 
-    What is not there yet is added, and a short form such as ``shape: gsog`` becomes a mapping.
+    Missing mappings are added, and a short form such as ``shape: gsog`` becomes a mapping.
 
     Args:
-        data: A mapping; it is not changed itself.
-        keys: The path; an item of a list is named by its number, from 0.
+        data: A mapping; it is not modified.
+        keys: The path; items of a list are given by their index, from 0.
         value: The new value.
-        at: Where ``data`` stands, for messages.
+        at: Location of ``data``, for messages.
 
     Returns:
         The changed data, and the value's location.
 
     Raises:
-        ConfigError: If the path goes through a single value, or a list has no such item.
+        ConfigError: If the path passes through a scalar, or a list has no such item.
     """
     if not keys:
         return value, at
@@ -43,16 +43,16 @@ def with_value(
         items[index], location = with_value(items[index], rest, value, (*at, index))
         return items, location
     if not isinstance(around, dict):
-        raise ConfigError(f"{_dotted(at)} is {around!r}, which is no mapping and no list")
+        raise ConfigError(f"{_dotted(at)} is {around!r}, which is neither a mapping nor a list")
     inner, location = with_value(around.get(key), rest, value, (*at, key))
     return {**around, key: inner}, location
 
 
 def with_changes(data: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """``data`` with a mapping of changes.
+    """Returns ``data`` with a mapping of changes.
 
-    A mapping within the changes changes a mapping of the same kind; a mapping whose keys are
-    numbers changes items of a list; everything else takes the place of what was there.
+    A mapping within the changes is merged into a mapping of the same kind; a mapping whose keys
+    are integers changes items of a list; any other value replaces the previous one.
 
     Raises:
         ConfigError: If a list has no such item.
@@ -65,7 +65,7 @@ def with_changes(data: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, 
 def _single_values(
     old: Any, new: Any, keys: tuple[str, ...]
 ) -> Iterator[tuple[tuple[str, ...], Any]]:
-    """Each new value with its path."""
+    """Yields each new value with its path."""
     old = _long_form(old)
     if not (isinstance(new, dict) and _changes_parts(old, new)):
         yield keys, new
@@ -79,14 +79,14 @@ def _single_values(
 
 
 def _changes_parts(old: Any, new: dict[str, Any]) -> bool:
-    """Whether a mapping changes parts of what was there, and does not replace it."""
+    """Whether a mapping changes parts of the old value, rather than replacing it."""
     if isinstance(old, dict):
         return bool(new.get("kind", old.get("kind")) == old.get("kind"))
     return isinstance(old, list) and bool(new) and all(str(key).isdecimal() for key in new)
 
 
 def _long_form(value: Any) -> Any:
-    """A plug-in that is named only, as a mapping that can be changed; null as an empty one."""
+    """Returns a plug-in's name as a mapping, null as an empty one, and others unchanged."""
     if isinstance(value, str):
         return {"kind": value}
     return {} if value is None else value
@@ -96,8 +96,8 @@ def _index(items: list[Any], key: str, at: Location) -> int:
     if str(key).isdecimal() and int(key) < len(items):
         return int(key)
     raise ConfigError(
-        f"{_dotted(at)} is a list of {len(items)}, whose items are named by numbers from 0; there "
-        f"is no item '{key}'"
+        f"{_dotted(at)} is a list of {len(items)}, with items numbered from 0; there is "
+        f"no item '{key}'"
     )
 
 

@@ -1,4 +1,4 @@
-"""What a class must declare to be a plug-in."""
+"""Checks that a class declares everything that a plug-in needs."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from regkit.system.errors import PluginError
 
 
 def check_complete(found: object, slot: type[Any], kind: str) -> None:
-    """Refuse what is no complete plug-in of a slot.
+    """Refuses an object that is not a complete plug-in of a slot.
 
     Args:
-        found: What an entry point names, or a class that registers itself.
-        slot: The abstract plug-in that it must be a subclass of.
-        kind: The name that it is found by.
+        found: The object of an entry point, or a registered class.
+        slot: The abstract plug-in that it must derive from.
+        kind: Its name in the group.
 
     Raises:
-        PluginError: If anything is missing; the message continues the plug-in's name.
+        PluginError: If anything is missing; the message is worded to follow the plug-in's name.
     """
     if not (inspect.isclass(found) and issubclass(found, slot)):
         raise PluginError(f"is not a concrete {slot.__name__}: {found!r}")

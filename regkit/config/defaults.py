@@ -1,4 +1,4 @@
-"""Which plug-in is taken where none is named: installed distributions declare it."""
+"""Default plug-ins, as installed distributions declare them."""
 
 from __future__ import annotations
 
@@ -6,17 +6,17 @@ from regkit.config.installed import installed
 from regkit.system.errors import PluginError
 
 GROUP = "regkit.defaults"
-"""Entry points whose names say what for, and whose values are those of the plug-in or preset."""
+"""Entry points named by purpose, whose values are those of a plug-in or preset."""
 
 
 def default_name(group: str, purpose: str = "") -> str:
-    """The name of the plug-in or preset that a group takes where none is named.
+    """Returns the name of the default plug-in or preset of a group.
 
-    Nothing is imported: the default is the plug-in or preset that has the same value as the entry
-    point ``GROUP`` of the name ``trackers``, or ``templates.file`` for a purpose.
+    Nothing is imported: the default is the plug-in or preset with the same entry-point value as
+    the entry point of ``GROUP`` named like ``trackers``, or ``templates.file`` for a purpose.
 
     Raises:
-        PluginError: If there is none, or two distributions declare one.
+        PluginError: If there is no default, or two distributions declare one.
     """
     name = group.removeprefix("regkit.") + (f".{purpose}" if purpose else "")
     declared = installed(GROUP).get(name)
@@ -29,4 +29,4 @@ def default_name(group: str, purpose: str = "") -> str:
         for kind, found in installed(known).items():
             if any(point.value == value for point in found.points):
                 return kind
-    raise PluginError(f"the default '{name}' ({value}) is no plug-in and no preset of {group}")
+    raise PluginError(f"the default '{name}' ({value}) is not a plug-in or preset of {group}")

@@ -1,4 +1,4 @@
-"""Documents: configuration that knows where each of its values was written."""
+"""Documents: configuration with the source location of each value."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ from regkit.system.errors import ConfigError, DataError
 M = TypeVar("M", bound=BaseModel)
 T = TypeVar("T")
 
-_SPEAKING = ("unknown_field", "plugin_", "value_error")
-"""Kinds of errors whose message already shows the value."""
+_SELF_CONTAINED = ("unknown_field", "plugin_", "value_error")
+"""Types of errors whose message already shows the value."""
 
 
 @dataclass(frozen=True)
 class Document:
-    """A mapping, and where each of its values was written.
+    """A mapping with the source location of each of its values.
 
     Attributes:
-        data: Plain dictionaries, lists and scalars; texts are ``Text`` and know their folder.
-        places: For the location of each value, ``file:line`` or the setting that changed it. A
-            value without a place of its own has that of the nearest one around it.
+        data: Plain dictionaries, lists and scalars; strings are ``Text`` and know their folder.
+        places: ``file:line``, or the setting, of the value at each location. A value without an
+            entry has the place of the nearest enclosing one.
     """
 
     data: dict[str, Any]
@@ -36,10 +36,10 @@ class Document:
 
     @classmethod
     def read(cls, path: Path) -> Document:
-        """Read a YAML 1.2 file whose top is a mapping.
+        """Reads a YAML 1.2 file that holds a mapping.
 
         Raises:
-            ConfigError: If it is not YAML, repeats a key, or is not a mapping.
+            ConfigError: If it is not YAML, repeats a key, or does not hold a mapping.
             DataError: If the file is missing or not text.
         """
         try:
@@ -53,14 +53,14 @@ class Document:
         return cls(*read_mapping(text, path))
 
     def overridden(self, settings: Iterable[str], *, called: str = "setting") -> Document:
-        """The document after ``a.b.c=value`` settings, whose values are YAML.
+        """Returns the document after ``a.b.c=value`` settings, whose values are YAML.
 
         Args:
-            settings: The settings, applied in their order.
-            called: What a setting is called in messages: an option's name, for instance.
+            settings: The settings, applied in order.
+            called: Name of a setting in messages, such as an option.
 
         Raises:
-            ConfigError: If a setting is not of that form, or its value cannot be there.
+            ConfigError: If a setting does not have this form, or its path is invalid.
         """
         document = self
         for setting in settings:
@@ -77,15 +77,15 @@ class Document:
         return document
 
     def changed(self, keys: Iterable[str], value: Any, *, place: str) -> Document:
-        """The document with one value that is new or another.
+        """Returns the document with one value added or replaced.
 
         Args:
-            keys: The path to the value; an item of a list is named by its number, from 0.
+            keys: Path to the value; items of a list are given by their index, from 0.
             value: The value.
             place: Where the value was written.
 
         Raises:
-            ConfigError: If the path goes through a single value, or a list has no such item.
+            ConfigError: If the path passes through a scalar, or a list has no such item.
         """
         try:
             data, location = with_value(self.data, tuple(keys), value)
@@ -97,19 +97,19 @@ class Document:
         return Document(data, places | added | {location: place})
 
     def without(self, key: str) -> Document:
-        """The document without one of its uppermost fields."""
+        """Returns the document without one of its top-level fields."""
         data = {name: value for name, value in self.data.items() if name != key}
         return Document(data, {at: place for at, place in self.places.items() if at[:1] != (key,)})
 
     def place(self, location: Location) -> str:
-        """``file:line: field`` of a value; the field alone if nobody knows where it was written."""
+        """Returns ``file:line: field`` of a value; the field alone without a known place."""
         nearest = (location[:length] for length in range(len(location), -1, -1))
         written = next((self.places[at] for at in nearest if at in self.places), "")
         field = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in location)
         return ": ".join(filter(None, (written, field.lstrip("."))))
 
     def validated(self, model: type[M]) -> M:
-        """The document as a ``model``.
+        """Returns the document as a ``model``.
 
         Raises:
             ConfigError: One line for each mistake, with its file, line and field.
@@ -117,11 +117,11 @@ class Document:
         return self._checked(model.model_validate, self.data, ())
 
     def field(self, name: str, validate: Callable[[Any], T]) -> T:
-        """One of the uppermost fields, whatever the others hold.
+        """Returns one of the top-level fields, without validating the others.
 
         Args:
             name: The field.
-            validate: Pydantic's validation of the type that the field has.
+            validate: Pydantic's validation of the field's type.
 
         Raises:
             ConfigError: As ``validated``.
@@ -140,19 +140,19 @@ class Document:
         location = self._written((*at, *details["loc"]), absent=absent)
         given = details["input"]
         shown = isinstance(given, (str, int, float, bool)) and not details["type"].startswith(
-            _SPEAKING
+            _SELF_CONTAINED
         )
         message = details["msg"].removeprefix("Value error, ").replace("a valid tuple", "a list")
-        told = f"{message[0].lower()}{message[1:]}" + (f"; it is {given!r}" if shown else "")
-        return ": ".join(filter(None, (self.place(location), told)))
+        complaint = f"{message[0].lower()}{message[1:]}" + (f"; it is {given!r}" if shown else "")
+        return ": ".join(filter(None, (self.place(location), complaint)))
 
     def _written(self, location: Location, *, absent: bool) -> Location:
-        """The location without the tags that pydantic puts in where a union was decided."""
+        """Returns the location without the tags that pydantic inserts for unions."""
         value: Any = self.data
         kept: list[str | int] = []
         for part in location:
             if isinstance(part, int) and isinstance(value, dict):
-                part = str(part)  # Items of a preset's list are named by their numbers.
+                part = str(part)  # Items of a preset's list have their index as key.
             try:
                 value = value[part]
             except (KeyError, IndexError, TypeError):
@@ -162,7 +162,7 @@ class Document:
 
 
 def _holds(data: Any, location: Location) -> bool:
-    """Whether there is a value at a location."""
+    """Whether a value exists at a location."""
     for part in location:
         try:
             data = data[part]

@@ -1,4 +1,4 @@
-"""Names that plug-ins and their groups had before, answered with the names that they have now."""
+"""Old names of plug-ins and their groups, answered with the new ones."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from regkit.system.errors import PluginError
 
 
 def check_former(slot: type[Any], kind: str) -> None:
-    """Refuse a kind that has another name now, or stands in a group that has another name now.
+    """Refuses a kind that was renamed, or whose group was renamed.
 
     Raises:
-        PluginError: If it is one; it says what to do.
+        PluginError: If it was; the message names the new name.
     """
     for name in slot.available():
         try:
@@ -27,7 +27,7 @@ def check_former(slot: type[Any], kind: str) -> None:
 
 
 def left_behind(slot: type[Any], kind: str | None = None) -> Iterator[str]:
-    """A message for each plug-in, or for that of a kind, in a group's former name."""
+    """Yields a message for each plug-in, or the one of a kind, in a group's old name."""
     if slot.former_group is None:
         return
     for name, found in installed(slot.former_group).items():

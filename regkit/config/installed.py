@@ -1,4 +1,4 @@
-"""What distributions have installed under a name: entry points, none of them imported yet."""
+"""Entry points of installed distributions, without importing them."""
 
 from __future__ import annotations
 
@@ -16,74 +16,74 @@ from typing import Any
 from regkit.system.errors import PluginError
 
 OWN = "regkit"
-"""The distribution that brings the built-ins."""
+"""The distribution of the built-in plug-ins."""
 
 _ONLY: ContextVar[str | None] = ContextVar("the only distribution that counts", default=None)
 
 
 @dataclass(frozen=True)
 class Installed:
-    """What is installed under one name of a group.
+    """The entry points of one name in a group.
 
     Attributes:
-        points: The entry points of that name; if there are several, none of them is usable.
+        points: The entry points of that name; with several, none of them is usable.
     """
 
     points: tuple[EntryPoint, ...]
 
     @property
     def distributions(self) -> tuple[str, ...]:
-        """The names of the distributions that bring it."""
+        """Names of the distributions that provide it."""
         return tuple(_brought_by(point) for point in self.points)
 
     @property
     def versions(self) -> str:
-        """The distributions with their versions, for people."""
+        """Names and versions of the distributions, for messages."""
         return " and ".join(
             f"{point.dist.name} {point.dist.version}" if point.dist else point.value
             for point in self.points
         )
 
     def load(self, what: str) -> Any:
-        """Import it.
+        """Imports the object.
 
         Args:
-            what: What it is called in messages: a plug-in, a preset.
+            what: Its type in messages: plug-in or preset.
 
         Raises:
-            PluginError: If it cannot be imported, or two distributions claim the name.
+            PluginError: If it cannot be imported, or two distributions provide the name.
         """
         first = self.points[0]
         if len(self.points) > 1:
             rivals = " and ".join(f"{_brought_by(p)} ({p.value})" for p in self.points)
             raise PluginError(
-                f"{what} '{first.name}' of {first.group} is brought by {rivals}; uninstall one of "
+                f"{what} '{first.name}' of {first.group} is provided by {rivals}; uninstall one of "
                 "these distributions"
             )
         try:
             return first.load()
-        # A module that ends the interpreter must not end those who never named it.
+        # A module that exits the interpreter must not harm users who never name it.
         except (Exception, SystemExit) as error:
-            # Some libraries go on with advice for whoever wrote the module, in further paragraphs.
-            told = str(error).partition("\n\n")[0]
+            # Some libraries add advice to developers in further paragraphs.
+            reason = str(error).partition("\n\n")[0]
             raise PluginError(
                 f"{what} '{first.name}' of {_brought_by(first)} cannot be imported: "
-                f"{type(error).__name__}: {told}"
+                f"{type(error).__name__}: {reason}"
             ) from error
 
 
 def installed(group: str) -> dict[str, Installed]:
-    """All entry points of a group by name."""
+    """Returns all entry points of a group by name."""
     only = _ONLY.get()
     found: dict[str, list[EntryPoint]] = {}
     for point in entry_points(group):
         if only is not None and not same_distribution(_brought_by(point), only):
             continue
         points = found.setdefault(point.name, [])
-        # An editable distribution may be seen twice.
+        # An editable distribution may appear twice.
         if all(other.value != point.value for other in points):
             points.append(point)
-    # The name of a distribution is read from its files, which takes longer than all the rest.
+    # Sorting by distribution reads its files, which takes longer than everything else.
     return {
         name: Installed(tuple(sorted(points, key=_brought_by) if len(points) > 1 else points))
         for name, points in found.items()
@@ -91,13 +91,13 @@ def installed(group: str) -> dict[str, Installed]:
 
 
 def entry_points(group: str) -> list[EntryPoint]:
-    """The entry points of a group, whoever brings them."""
+    """Returns the entry points of a group from all distributions."""
     return _points(_path()).get(group, [])
 
 
 @contextmanager
 def only_from(distribution: str) -> Iterator[None]:
-    """A context in which what other distributions bring is not there."""
+    """Context manager that hides the entry points of all other distributions."""
     token = _ONLY.set(distribution)
     try:
         yield
@@ -106,7 +106,7 @@ def only_from(distribution: str) -> Iterator[None]:
 
 
 def same_distribution(name: str, other: str) -> bool:
-    """Whether two names are of one distribution, as package indexes compare them."""
+    """Whether two names denote the same distribution after normalization."""
     return _normalized(name) == _normalized(other)
 
 
@@ -115,20 +115,20 @@ def _normalized(name: str) -> str:
 
 
 def _path() -> tuple[tuple[str, float], ...]:
-    """Where distributions are looked for, and when something was last installed there."""
+    """Returns the search path of distributions, with the time of the last change of each folder."""
     return tuple((entry, folder.stat().st_mtime) for entry in sys.path
                  if (folder := Path(entry or ".")).exists())  # fmt: skip
 
 
 @lru_cache(maxsize=1)
 def _points(_: tuple[tuple[str, float], ...]) -> dict[str, list[EntryPoint]]:
-    """Every entry point by its group; to read them takes a moment, and every slot asks for them."""
+    """Returns all entry points by group; cached, since reading them is slow and frequent."""
     found: dict[str, list[EntryPoint]] = {}
     names: set[str] = set()
     for distribution in distributions():
         name = _normalized(distribution.name)
         if name in names:
-            continue  # An earlier folder of the path hides it.
+            continue  # An earlier folder of the path takes precedence.
         names.add(name)
         for point in distribution.entry_points:
             found.setdefault(point.group, []).append(point)

@@ -1,4 +1,4 @@
-"""The pydantic base of everything that a user writes in YAML."""
+"""Base class of everything that users write in YAML."""
 
 from __future__ import annotations
 
@@ -22,13 +22,12 @@ from regkit.config.strict_numbers import strict_numbers
 class Model(BaseModel):
     """A frozen record whose fields are documented by the docstrings below them.
 
-    A field that does not exist is an error which names the nearest one that does. A number is a
-    number and a truth value one, not a text that reads like it: what JSON Schema accepts in an
-    editor and what is accepted here are the same.
+    An unknown field is an error that suggests the nearest known one. Numbers and booleans are not
+    converted from strings, so regkit accepts exactly what the JSON Schema accepts in an editor.
     """
 
     renamed: ClassVar[dict[str, str]] = {}
-    """Names that fields had before, and the names that they have now."""
+    """New names of renamed fields by their old ones."""
 
     model_config = ConfigDict(
         frozen=True,
@@ -42,7 +41,7 @@ class Model(BaseModel):
     def __get_pydantic_core_schema__(
         cls, source: type[Any], handler: GetCoreSchemaHandler
     ) -> CoreSchema:
-        """The fields' schema, whose numbers are strict."""
+        """Returns the schema of the fields, with strict numbers."""
         return strict_numbers(handler(source), cls)
 
     @model_validator(mode="before")
@@ -63,14 +62,14 @@ class Model(BaseModel):
 
 
 def misplaced(model: type[Model], message: str, *location: str) -> ValidationError:
-    """An error of a whole model that names one of its fields as the place."""
+    """Returns an error of the whole model, placed at one of its fields."""
     problem = PydanticCustomError("value_error", "{message}", {"message": message})
     details = InitErrorDetails(type=problem, loc=location, input=None)
     return ValidationError.from_exception_data(model.__name__, [details])
 
 
 def did_you_mean(name: str, known: list[str]) -> str:
-    """A hint that ends a message: the nearest known name, or nothing."""
+    """Returns a hint at the nearest known name, or an empty string."""
     close = difflib.get_close_matches(name, known, n=1)
     return f"; did you mean '{close[0]}'?" if close else ""
 
@@ -91,23 +90,23 @@ def _unknown_field(key: object, model: type[Model]) -> PydanticCustomError:
 
 
 class Text(str):
-    """A text read from a file, which knows the folder of that file.
+    """A string from a file, which knows the file's folder.
 
-    A relative path in a YAML file is meant from where that file lies; one on the command line, from
-    where the user stands. The text carries the difference through any nesting of models.
+    Relative paths in a YAML file are relative to the file's folder; those on the command line, to
+    the working directory. The string carries its folder through any nesting of models.
     """
 
     __slots__ = ("folder",)
     folder: Path
 
     def __new__(cls, value: str, folder: Path) -> Text:
-        """``value``, read from a file in ``folder``."""
+        """Returns ``value`` as read from a file in ``folder``."""
         text = super().__new__(cls, value)
         text.folder = folder
         return text
 
     def __getnewargs__(self) -> tuple[str, Path]:  # type: ignore[override]
-        """What a copy is made of."""
+        """Returns the arguments for copying."""
         return str(self), self.folder
 
 
@@ -118,4 +117,4 @@ def _from_its_folder(value: Any) -> Any:
 
 
 InputPath = Annotated[Path, BeforeValidator(_from_its_folder)]
-"""A file or folder that the user names: relative to the YAML file, or to the working folder."""
+"""A file or folder: relative to the YAML file, or to the working directory."""

@@ -35,39 +35,39 @@ class Plugin(Model):
     """Entry-point group, set once by each slot."""
 
     former_group: ClassVar[str | None] = None
-    """The name that the group had before."""
+    """Old name of the group."""
 
     declared: ClassVar[tuple[str, ...]] = ()
     """Class variables that each plug-in of a slot must declare; their values are classes."""
 
     formerly: ClassVar[tuple[str, ...]] = ()
-    """Names that the plug-in had before."""
+    """Old names of the plug-in."""
 
     kind: str
     """Name of the plug-in, equal to its entry-point name."""
 
     @classmethod
     def available(cls) -> dict[str, Installed | type[Self]]:
-        """All plug-ins of this group by name, none of them imported."""
+        """Returns all plug-ins of this group by name, without importing them."""
         found: dict[str, Installed | type[Self]] = {**installed(cls.group)}
         return dict(sorted((found | registered(cls.group)).items()))
 
     @classmethod
     def load(cls, kind: str) -> type[Self]:
-        """Import the plug-in called ``kind``.
+        """Imports the plug-in called ``kind``.
 
         Raises:
-            PluginError: If there is none, it cannot be imported, it is not what it claims to be, or
-                two distributions bring one of that name.
+            PluginError: If it does not exist, cannot be imported, is not a complete plug-in of this
+                group, or two distributions provide the name.
         """
         available = cls.available()
         found = available.get(kind)
         if found is None:
             check_former(cls, kind)
             presets = list(presets_of(cls.group))
-            told = f"; presets: {', '.join(presets)}" if presets else ""
+            hint = f"; presets: {', '.join(presets)}" if presets else ""
             raise PluginError(
-                f"no plug-in '{kind}' in {cls.group} (installed: {', '.join(available)}{told})"
+                f"no plug-in '{kind}' in {cls.group} (installed: {', '.join(available)}{hint})"
                 + did_you_mean(kind, [*presets, *available])
             )
         if not isinstance(found, Installed):
@@ -83,47 +83,47 @@ class Plugin(Model):
 
     @classmethod
     def parse(cls, choice: Any, *, place: str, field: str) -> Self:
-        """The plug-in that an argument means.
+        """Returns the plug-in of an argument.
 
         Args:
             choice: The name of a preset or kind, a file, a mapping with a ``kind`` or a ``preset``,
                 or the plug-in itself.
-            place: Where it was given: a function, or a command-line option.
-            field: The argument that it was given as.
+            place: Function or command-line option of the argument, for messages.
+            field: Name of the argument.
 
         Raises:
-            ConfigError: One line for each thing that is wrong.
+            ConfigError: One line for each mistake.
         """
         data = cls.named(str(choice)) if isinstance(choice, (str, Path)) else choice
         return cls.of(Document({field: data}, {(): place}), field)
 
     @classmethod
     def of(cls, document: Document, field: str) -> Self:
-        """The plug-in that a document's field describes, whatever the other fields hold.
+        """Returns the plug-in of a document's field, without validating the other fields.
 
         Raises:
-            ConfigError: One line for each thing that is wrong.
+            ConfigError: One line for each mistake.
         """
         return document.field(field, TypeAdapter[Self](cls).validate_python)
 
     @classmethod
     def named(cls, name: str) -> dict[str, Any]:
-        """Data for a name alone: that of a preset or its YAML file, or else a kind."""
+        """Returns the data of a name: a preset, its YAML file, or else a kind."""
         of_preset = name in presets_of(cls.group) or Path(name).suffix.lower() in YAML
         return {"preset" if of_preset else "kind": name}
 
     @classmethod
     def default(cls, purpose: str = "", **fields: Any) -> dict[str, Any]:
-        """Data for the plug-in of this group that is taken where none is named.
+        """Returns the data of this group's default plug-in.
 
-        The distributions that are installed declare it, so that regkit names no plug-in.
+        Installed distributions declare the defaults, so that regkit names no plug-in.
 
         Args:
-            purpose: What it is for, where a group has more than one default.
-            fields: Its fields, where they differ from its own defaults.
+            purpose: Purpose of the default, in groups with several.
+            fields: Values of the plug-in's fields.
 
         Raises:
-            PluginError: If no distribution declares one, or two do.
+            PluginError: If no distribution declares the default, or two do.
         """
         return {**cls.named(default_name(cls.group, purpose)), **fields}
 
@@ -131,7 +131,7 @@ class Plugin(Model):
     def __get_pydantic_core_schema__(
         cls, source: type[Any], handler: GetCoreSchemaHandler
     ) -> CoreSchema:
-        """A concrete plug-in is validated as a model, a slot by the plug-in that is named."""
+        """Validates a concrete plug-in as a model, and a slot by the plug-in that it names."""
         if "group" not in vars(cls):
             return super().__get_pydantic_core_schema__(source, handler)
         return core_schema.no_info_plain_validator_function(
@@ -150,7 +150,7 @@ class Plugin(Model):
 
 
 def slot_default(slot: type[Plugin], purpose: str = "", **fields: Any) -> Any:
-    """The default of a model's field: what ``slot.default`` gives, looked up when needed."""
+    """Returns the default of a model's field: ``slot.default``, evaluated on use."""
 
     def data() -> Any:
         found = slot.default(purpose, **fields)
@@ -167,10 +167,10 @@ P = TypeVar("P", bound=Plugin)
 
 
 def register(plugin: type[P]) -> type[P]:
-    """Make a plug-in class available in this process: in a notebook, a test or a plug-in file.
+    """Class decorator: registers a plug-in in this process, from a notebook, test or plug-in file.
 
     Raises:
-        PluginError: If it does not declare what a plug-in must.
+        PluginError: If the class lacks a required declaration.
     """
     kind = plugin.model_fields["kind"].default
     try:

@@ -1,4 +1,4 @@
-"""Presets: configurations of plug-ins in YAML files, used by name and changed in places."""
+"""Presets: named configurations of plug-ins in YAML files."""
 
 from __future__ import annotations
 
@@ -10,23 +10,23 @@ from regkit.config.model import Text, did_you_mean
 from regkit.system.errors import PluginError
 
 YAML = (".yaml", ".yml")
-"""How the name of a file ends that holds a preset."""
+"""Suffixes of preset files."""
 
 
 def presets_of(group: str) -> dict[str, Installed]:
-    """The presets of a group of plug-ins by name: entry points to the paths of YAML files."""
+    """Returns the presets of a group by name: entry points that hold the paths of YAML files."""
     return installed(f"{group}.presets")
 
 
 def preset_file(group: str, name: str) -> Path:
-    """The file of a preset.
+    """Returns the file of a preset.
 
     Args:
-        group: Of the plug-in that it configures.
-        name: Of an installed preset, or a path that ends with ``.yaml``.
+        group: Group of the plug-in that it configures.
+        name: Name of an installed preset, or a path that ends with ``.yaml``.
 
     Raises:
-        PluginError: If there is none of that name, or it is broken.
+        PluginError: If the preset does not exist, or is broken.
     """
     if Path(name).suffix.lower() in YAML:
         folder = name.folder if isinstance(name, Text) else Path.cwd()
@@ -41,9 +41,9 @@ def preset_file(group: str, name: str) -> Path:
 
 
 def preset(group: str, name: str) -> Document:
-    """The document of a preset.
+    """Returns the document of a preset.
 
     Raises:
-        RegkitError: If there is no such preset, or its file is no YAML mapping.
+        RegkitError: If the preset does not exist, or its file is not a YAML mapping.
     """
     return Document.read(preset_file(group, name))

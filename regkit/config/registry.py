@@ -1,4 +1,4 @@
-"""Plug-ins that this process registered itself, rather than an installed distribution."""
+"""Plug-ins registered in this process rather than by an installed distribution."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ _REGISTERED: dict[str, dict[str, type[Any]]] = {}
 """Classes by group and kind."""
 
 _FROM_FILE = "regkit_plugin_file_"
-"""How the names of modules begin that ``run_plugin_file`` makes."""
+"""Prefix of the names of modules from plug-in files."""
 
 
 def registered(group: str) -> dict[str, type[Any]]:
-    """The plug-ins of a group that were registered, by kind."""
+    """Returns the registered plug-ins of a group by kind."""
     return dict(_REGISTERED.get(group, {}))
 
 
 def add(group: str, kind: str, plugin: type[Any]) -> None:
-    """Register a plug-in that is known to be complete."""
+    """Registers a plug-in that passed ``check_complete``."""
     _REGISTERED.setdefault(group, {})[kind] = plugin
 
 
 def run_plugin_file(path: Path) -> None:
-    """Run a Python file that registers plug-ins with ``@register``.
+    """Runs a Python file that registers plug-ins with ``@register``.
 
     Raises:
         PluginError: If the file is missing, fails, or registers nothing.
@@ -40,7 +40,7 @@ def run_plugin_file(path: Path) -> None:
     if spec is None or spec.loader is None or not path.is_file():
         raise PluginError("there is no such Python file", place=str(path))
     module = importlib.util.module_from_spec(spec)
-    # pydantic looks a class's module up here, to read the docstrings and types of its fields.
+    # pydantic finds a class's module here, to read the docstrings and types of its fields.
     sys.modules[spec.name] = module
     try:
         spec.loader.exec_module(module)
@@ -53,12 +53,12 @@ def run_plugin_file(path: Path) -> None:
 
 
 def plugin_files() -> tuple[Path, ...]:
-    """The files whose plug-ins are registered, for other processes to run them too."""
+    """Returns the plug-in files that ran, so that worker processes can run them too."""
     plugins = [plugin for by_kind in _REGISTERED.values() for plugin in by_kind.values()]
     modules = sorted({plugin.__module__ for plugin in plugins if from_file(plugin)})
     return tuple(Path(str(sys.modules[module].__file__)) for module in modules)
 
 
 def from_file(plugin: type[Any]) -> bool:
-    """Whether a plug-in was registered by a file that ``run_plugin_file`` ran."""
+    """Whether a plug-in was registered by ``run_plugin_file``."""
     return plugin.__module__.startswith(_FROM_FILE)

@@ -1,4 +1,4 @@
-"""The line by which a YAML file tells editors its JSON Schema."""
+"""The comment line that links a YAML file to its JSON Schema for editors."""
 
 from __future__ import annotations
 
@@ -6,21 +6,21 @@ import os
 from pathlib import Path
 
 MARK = "# yaml-language-server: $schema="
-"""How the line begins that language servers look for."""
+"""Prefix of the line, as YAML language servers expect it."""
 
 FOLDER = "schemas"
-"""Where ``regkit schema`` writes, and where its files are looked for."""
+"""Folder of the schemas that ``regkit schema`` writes."""
 
 
 def schema_line(file: Path, kind: str) -> str | None:
-    """The line for a file whose folder, or one above it, has a folder ``schemas``.
+    """Returns the schema line of a file with a ``schemas`` folder in its folder or above.
 
     Args:
-        file: A YAML file, which need not be there yet.
-        kind: Of the document: experiment, template, skeleton or method.
+        file: A YAML file, which need not exist yet.
+        kind: Type of the document: experiment, template, skeleton or method.
 
     Returns:
-        The line with the schema's path as seen from the file; None if there is no such schema.
+        The line with the schema's path relative to the file; None if there is no such schema.
     """
     folder = file.absolute().parent
     for above in (folder, *folder.parents):

@@ -1,4 +1,4 @@
-"""How the value of a field becomes the plug-in that it describes."""
+"""Validation of a field's value into the plug-in that it describes."""
 
 from __future__ import annotations
 
@@ -14,24 +14,24 @@ from regkit.system.errors import PluginError, RegkitError
 
 
 class Slot(Protocol):
-    """An abstract plug-in, as the type of a field."""
+    """An abstract plug-in as the type of a field."""
 
     group: str
     former_group: str | None
 
     def available(self) -> Mapping[str, object]:
-        """The kinds by name."""
+        """Returns the kinds by name."""
 
     def load(self, kind: str) -> type[BaseModel]:
-        """The plug-in of a kind."""
+        """Returns the plug-in of a kind."""
 
 
 def plugin_of(slot: Slot, value: Any) -> BaseModel:
-    """The plug-in that data describe: a kind, or a mapping with a ``kind`` or a ``preset``.
+    """Returns the plug-in that data describe: a kind, or a mapping with a ``kind`` or ``preset``.
 
     Raises:
-        PydanticCustomError: If there is no such plug-in or preset.
-        ValidationError: If a field of it is wrong.
+        PydanticCustomError: If the plug-in or preset does not exist.
+        ValidationError: If one of its fields is invalid.
     """
     if isinstance(value, str):
         value = {"kind": value}
@@ -52,7 +52,7 @@ def plugin_of(slot: Slot, value: Any) -> BaseModel:
 
 
 def _changed(slot: Slot, name: str, changes: Mapping[str, Any]) -> dict[str, Any]:
-    """A preset with changes in it, whose kind stays."""
+    """Returns a preset with changes, which must keep its kind."""
     base = _whole(slot, name)
     if changes.get("kind", base["kind"]) != base["kind"]:
         raise PluginError(
@@ -63,7 +63,7 @@ def _changed(slot: Slot, name: str, changes: Mapping[str, Any]) -> dict[str, Any
 
 
 def _whole(slot: Slot, name: str) -> dict[str, Any]:
-    """The configuration in a preset, which must be valid by itself; an error names its own file."""
+    """Returns the data of a preset, which must be valid by itself; errors name its own file."""
     document = preset(slot.group, name)
     kind = document.data.get("kind")
     if not isinstance(kind, str):

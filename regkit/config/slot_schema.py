@@ -1,4 +1,4 @@
-"""The JSON Schema of a slot: what an editor offers where a plug-in is asked for."""
+"""JSON Schema of a slot, for completion in editors."""
 
 from __future__ import annotations
 
@@ -17,20 +17,21 @@ from regkit.config.slot import Slot
 from regkit.system.errors import PluginError, RegkitError
 
 PRESET_FILE = r"\.ya?ml$"
-"""How the name of a preset ends that is a file."""
+"""Pattern of a preset's file name."""
 
 _BEGUN: ContextVar[frozenset[str]] = ContextVar("begun", default=frozenset())
-"""The groups whose schemas are being made, for a plug-in may hold another of its own group."""
+"""Groups whose schemas are under construction; a plug-in may contain one of its own group."""
 
 
 def slot_schema(slot: Slot, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
-    """A plug-in's name if it needs nothing else, a mapping with its kind, or a changed preset.
+    """Returns the schema of a slot's values: a plug-in's name, its mapping, or a changed preset.
 
-    A broken plug-in or preset is left out: it must not harm those who never name it.
+    A name alone suffices for plug-ins without required fields. Broken plug-ins and presets are left
+    out, so that they cannot harm users who never name them.
     """
     begun = _BEGUN.get()
     if slot.group in begun:
-        return {}  # The outer call, which has begun it, puts the whole in this place.
+        return {}  # The outer call on the same group provides the whole schema.
     token = _BEGUN.set(begun | {slot.group})
     try:
         plugins = _working(slot, handler)
@@ -51,7 +52,7 @@ def slot_schema(slot: Slot, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
 def _working(
     slot: Slot, handler: GetJsonSchemaHandler
 ) -> dict[str, tuple[type[BaseModel], JsonSchemaValue]]:
-    """The plug-ins that can be imported and described, by kind, and what describes them."""
+    """Returns the plug-ins that can be imported and described, by kind, with their schemas."""
     found = {}
     for kind in slot.available():
         try:
@@ -63,7 +64,7 @@ def _working(
 
 
 def _option(plugin: type[BaseModel], handler: GetJsonSchemaHandler) -> JsonSchemaValue:
-    """The schema of a plug-in that is named by its kind."""
+    """Returns the schema of a plug-in's mapping with its kind."""
     schema = handler.resolve_ref_schema(handler(plugin.__pydantic_core_schema__))
     required = [name for name in _required(plugin) if name != "kind"]
     return {**schema, "required": ["kind", *required]}
@@ -74,9 +75,9 @@ def _required(plugin: type[BaseModel]) -> list[str]:
 
 
 def _preset(slot: Slot, name: str, handler: GetJsonSchemaHandler) -> JsonSchemaValue | None:
-    """A preset by its name, and what may be changed in it."""
+    """Returns the schema of a preset's name with its possible changes."""
     try:
-        # Plain texts, for those of a file carry its folder along.
+        # Convert to plain strings: those from a file carry its folder.
         data = json.loads(json.dumps(preset(slot.group, name).data, default=str))
         changes = _changes(slot, data, handler)
     except (RegkitError, PydanticInvalidForJsonSchema):
@@ -86,7 +87,7 @@ def _preset(slot: Slot, name: str, handler: GetJsonSchemaHandler) -> JsonSchemaV
 
 
 def _changes(slot: Slot, old: Any, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
-    """What may be changed in the plug-in that a preset names, by its kind or with its fields."""
+    """Returns the schema of changes to a preset's plug-in, given by its kind or its fields."""
     data = {"kind": old} if isinstance(old, str) else old
     kind = data.get("kind")
     if not isinstance(kind, str):
@@ -101,11 +102,11 @@ def _partial(
     data: Mapping[str, Any],
     handler: GetJsonSchemaHandler,
 ) -> JsonSchemaValue:
-    """The schema ``whole`` of a model of which nothing is required and parts may be partial."""
+    """Returns ``whole``, a model's schema, with no required fields and partial parts allowed."""
     properties = {}
     for name, schema in whole["properties"].items():
         old = data.get(name)
-        # What holds without a change is what the preset says.
+        # The preset's value is the default of its changes.
         shown = {**schema, "default": data[name]} if name in data else schema
         part = _model_of(model.model_fields[name].annotation)
         if part is None or not isinstance(old, (str, dict)):
@@ -123,7 +124,7 @@ def _partial(
 
 
 def _model_of(annotation: Any) -> type[BaseModel] | None:
-    """The model that a field holds, or may hold."""
+    """Returns the model that a field holds, or may hold."""
     for one in (annotation, *get_args(annotation)):
         if inspect.isclass(one) and issubclass(one, BaseModel):
             return one

@@ -1,4 +1,4 @@
-"""Numbers of models that are numbers, as in JSON Schema."""
+"""Strict numbers in models, equivalent to JSON Schema."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from typing import Any, cast
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 _OPAQUE = ("cls", "default", "default_factory", "metadata", "serialization", "expected")
-"""Parts of a schema that hold no schema of a value."""
+"""Parts of a core schema that contain no schema of a value."""
 
 
 def strict_numbers(schema: CoreSchema, model: type) -> CoreSchema:
-    """The schema of ``model``, whose numbers and truth values are taken from nothing else.
+    """Returns the schema of ``model`` with numbers and booleans that are not converted from others.
 
-    pydantic's own strict mode would also refuse lists where a tuple is meant, which YAML cannot
-    write, and 3.0 where a whole number is, which JSON Schema accepts.
+    pydantic's own strict mode would also refuse lists for tuples, which YAML cannot write, and 3.0
+    for an integer, which JSON Schema accepts.
     """
     return cast(CoreSchema, _strict(schema, model))
 
@@ -28,7 +28,7 @@ def _strict(part: Any, model: type) -> Any:
         return part
     kind = part.get("type")
     if kind == "model" and part.get("cls") is not model:
-        return part  # It saw to its own numbers.
+        return part  # Each model applies the rule to its own numbers.
     if kind in ("int", "float"):
         check = _whole_number if kind == "int" else _number
         return core_schema.no_info_before_validator_function(check, cast(CoreSchema, part))

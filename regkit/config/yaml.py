@@ -1,4 +1,4 @@
-"""YAML in and out: a text as plain data whose lines are known, and data as a text for people."""
+"""YAML input with line numbers, and readable YAML output."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from regkit.system.errors import ConfigError
 
 
 def read_mapping(text: str, path: Path) -> tuple[dict[str, Any], dict[Location, str]]:
-    """The mapping that a YAML 1.2 file holds, and the ``file:line`` of each of its values.
+    """Returns the mapping of a YAML 1.2 file, and the ``file:line`` of each of its values.
 
     Args:
         text: The file's content.
-        path: The file, for messages and for the folder of the texts in it.
+        path: The file, for messages and for the folder of its strings.
 
     Raises:
-        ConfigError: If it is not YAML, repeats a key, or is not a mapping.
+        ConfigError: If it is not YAML, repeats a key, or does not hold a mapping.
     """
     tree = _parsed(text, str(path))
     if not isinstance(tree, CommentedMap):
@@ -33,7 +33,7 @@ def read_mapping(text: str, path: Path) -> tuple[dict[str, Any], dict[Location, 
 
 
 def yaml_value(text: str) -> Any:
-    """A value in one line, such as that of a setting.
+    """Returns a YAML value written in one line, such as the value of a setting.
 
     Raises:
         ConfigError: If it is not YAML.
@@ -42,7 +42,7 @@ def yaml_value(text: str) -> Any:
 
 
 def yaml_text(data: Any) -> str:
-    """``data`` as YAML that a person can read."""
+    """Returns ``data`` as readable YAML."""
     stream = StringIO()
     yaml = YAML(typ="safe", pure=True)
     yaml.default_flow_style = False
@@ -52,11 +52,11 @@ def yaml_text(data: Any) -> str:
 
 
 def yaml_data(text: str, place: str) -> Any:
-    """What ``yaml_text`` wrote.
+    """Returns the data of a text by ``yaml_text``.
 
     Args:
         text: The YAML.
-        place: Where it stands, for messages.
+        place: Source of the text, for messages.
 
     Raises:
         ConfigError: If it is not YAML.
@@ -65,7 +65,7 @@ def yaml_data(text: str, place: str) -> Any:
 
 
 def _parsed(text: str, place: str | None) -> Any:
-    """The tree of a text; an error names the line behind ``place``."""
+    """Returns the tree of a text; errors name the line after ``place``."""
     try:
         return YAML(typ="rt").load(text)
     except MarkedYAMLError as error:
@@ -77,7 +77,7 @@ def _parsed(text: str, place: str | None) -> Any:
 
 
 def _located(node: Any, location: Location, path: Path, places: dict[Location, str]) -> Any:
-    """``node`` without ruamel's types; its lines are added to ``places``."""
+    """Returns ``node`` without ruamel's types, and adds its lines to ``places``."""
     if isinstance(node, CommentedMap):
         for key in node:
             line = node.lc.data[key][0] if key in (node.lc.data or {}) else node.lc.line
@@ -93,7 +93,7 @@ def _located(node: Any, location: Location, path: Path, places: dict[Location, s
 
 
 def _plain(value: Any) -> Any:
-    """``value`` without ruamel's types."""
+    """Returns ``value`` without ruamel's types."""
     if isinstance(value, dict):
         return {key: _plain(item) for key, item in value.items()}
     if isinstance(value, list):

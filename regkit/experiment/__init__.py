@@ -1,4 +1,4 @@
-"""Experiments: methods compared on the same data, template, start and tracker."""
+"""Experiments: comparison of methods on the same data, template, start and tracker."""
 
 from regkit.experiment.experiment import Experiment
 from regkit.experiment.ledger import Outcome

@@ -1,19 +1,19 @@
-"""The differences of two configurations."""
+"""Differences between two configurations."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from typing import Any
 
-TOLD = 3
-"""At most this many differences are listed."""
+SHOWN = 3
+"""Maximum number of listed differences."""
 
 
 def differences(there: Any, here: Any) -> str:
-    """The first few fields in which two configurations differ, as a person would say it."""
+    """Returns a short text of the fields in which two configurations differ."""
     found = [f"{field} is {old} there and {new} here" for field, old, new in _all("", there, here)]
-    more = len(found) - TOLD
-    return ", ".join(found[:TOLD]) + (f", and {more} more" if more > 0 else "")
+    more = len(found) - SHOWN
+    return ", ".join(found[:SHOWN]) + (f", and {more} more" if more > 0 else "")
 
 
 def _all(field: str, there: Any, here: Any) -> Iterator[tuple[str, str, str]]:
@@ -24,10 +24,10 @@ def _all(field: str, there: Any, here: Any) -> Iterator[tuple[str, str, str]]:
             inner = f"{field}.{key}" if field else str(key)
             yield from _all(inner, there.get(key, _NOTHING), here.get(key, _NOTHING))
     elif there != here:
-        yield field, _told(there), _told(here)
+        yield field, _text(there), _text(here)
 
 
-def _told(value: Any) -> str:
+def _text(value: Any) -> str:
     if value is _NOTHING:
         return "not given"
     if value is None:

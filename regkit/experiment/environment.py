@@ -1,4 +1,4 @@
-"""On what machine and with what versions results were made."""
+"""Machine and versions with which results were made."""
 
 from __future__ import annotations
 
@@ -29,16 +29,16 @@ LIBRARIES = (
 
 
 def environment(earlier: Path, workers: str) -> dict[str, Any]:
-    """Versions, machine, workers, the format of the results and when the run began, as JSON.
+    """Returns versions, machine, workers, format of the results and start time of the run, as JSON.
 
     Args:
-        earlier: The file with what was written when the run was begun, if it is resumed.
-        workers: Who does the work this time; frames per second are theirs, who share the machine.
+        earlier: The file of the run's first start, if it is continued.
+        workers: Description of the current workers, whose frames per second are measured.
     """
-    told, begun = [], f"{datetime.now().astimezone():%Y-%m-%d %H:%M %z}"
+    known, begun = [], f"{datetime.now().astimezone():%Y-%m-%d %H:%M %z}"
     with suppress(OSError, ValueError, KeyError, TypeError):
         before = json.loads(earlier.read_text(encoding="utf-8"))
-        told, begun = list(before["workers"]), str(before["date"])
+        known, begun = list(before["workers"]), str(before["date"])
     return {
         "date": begun,
         "regkit": __version__,
@@ -48,12 +48,12 @@ def environment(earlier: Path, workers: str) -> dict[str, Any]:
         "system": platform.platform(),
         "processor": _processor(),
         "cores": os.cpu_count(),
-        "workers": list(dict.fromkeys([*told, workers])),
+        "workers": list(dict.fromkeys([*known, workers])),
     }
 
 
 def installed(distribution: str) -> str | None:
-    """The version of an installed distribution, or None."""
+    """Returns the version of an installed distribution, or None."""
     try:
         return version(distribution)
     except PackageNotFoundError:
@@ -61,7 +61,7 @@ def installed(distribution: str) -> str | None:
 
 
 def _processor() -> str:
-    """The processor's name; Linux keeps it where ``platform`` does not look."""
+    """Returns the processor's name, which ``platform`` does not know on Linux."""
     try:
         with open("/proc/cpuinfo", encoding="utf-8") as lines:  # noqa: PTH123
             for line in lines:

@@ -1,4 +1,4 @@
-"""What an experiment's YAML holds."""
+"""The model of an experiment's YAML file."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ _FOLDER = r"^[A-Za-z0-9][A-Za-z0-9_.,=-]*$"
 def _fit_for_a_folder(name: str) -> str:
     if not re.fullmatch(_FOLDER, name):
         raise ValueError(
-            f"'{name}' names a folder: use letters, digits, '-', '_' and '.', and begin with a "
-            "letter or digit"
+            f"'{name}' is used as a folder's name: use letters, digits, '-', '_' and '.', and "
+            "begin with a letter or digit"
         )
     return name
 
@@ -40,13 +40,13 @@ RESERVED = (
     "config.yaml", "environment.json", "metrics.json", "report.html", "report.md",
     "starts", "figures", "tables",
 )  # fmt: skip
-"""What else is in a results folder, beside the methods' folders."""
+"""Names in a results folder that are not available for methods."""
 
 
 def _not_reserved(name: str) -> str:
-    # Some file systems do not tell capitals apart.
+    # Some file systems ignore the case of letters.
     if name.lower() in RESERVED:
-        raise ValueError(f"'{name}' is what a run calls something else in its folder; take another")
+        raise ValueError(f"'{name}' is reserved in results folders; choose another name")
     return name
 
 
@@ -56,22 +56,22 @@ class Experiment(Model):
     renamed: ClassVar[dict[str, str]] = {"observer": "preprocessor"}
 
     name: Name
-    """What the results folder is called."""
+    """Name of the results folder."""
     dataset: Dataset
-    """Where the frames come from."""
+    """The recordings."""
     template: Template
-    """What is seen in them."""
+    """The body to register."""
     subjects: dict[str, Template] = Field(default_factory=dict)
-    """Templates of single people, by the dataset's names for them; all others get ``template``."""
+    """Templates of individual subjects by the dataset's names; all others use ``template``."""
     preprocessor: Preprocessor = slot_default(Preprocessor)
-    """How frames become data."""
+    """Preprocessing of frames."""
     tracker: Tracker = slot_default(Tracker)
-    """How one frame's pose leads to the next."""
+    """Tracker from frame to frame, for methods without one of their own."""
     start: PoseDescription | None = None
-    """Pose in the first frame of every recording; found from the cloud without it. It needs the
-    template's size."""
+    """Pose in the first frame of every recording, which requires the template's size. By default
+    both are estimated from the data."""
     methods: dict[Annotated[Name, AfterValidator(_not_reserved)], Method] = Field(min_length=1)
-    """What is compared, by a name of your own."""
+    """Methods to compare, by names of your choice."""
 
     @field_validator("start")
     @classmethod
@@ -91,22 +91,27 @@ class Experiment(Model):
     def read(
         cls, path: Path, settings: Iterable[str] = (), *, called: str = "setting"
     ) -> Experiment:
-        """An experiment's YAML, after ``a.b.c=value`` settings; messages call each one ``called``.
+        """Reads an experiment's YAML, and applies ``a.b.c=value`` settings.
+
+        Args:
+            path: The file.
+            settings: The settings, applied in order.
+            called: Name of a setting in messages.
 
         Raises:
-            ConfigError: One line for each thing that is wrong, with its file, line and field; or
-                the file holds a sweep, which is many experiments.
+            ConfigError: One line for each mistake, with its file, line and field; or the file holds
+                a sweep, which is several experiments.
         """
         document = Document.read(path).overridden(settings, called=called)
         if document.data.get("sweep"):
             raise ConfigError(
-                "a sweep makes many experiments, and one is needed here; remove it, as the setting "
-                "sweep={} does",
+                "a sweep makes several experiments, but exactly one is needed here; remove it, for "
+                "example with the setting sweep={}",
                 place=document.place(("sweep",)),
             )
         return document.without("sweep").validated(cls)
 
     def session(self, recording: Recording) -> Session:
-        """A recording to be tracked, with the template of who is seen in it."""
+        """Returns a recording to track, with the template of its subject."""
         template = self.subjects.get(recording.subject or "", self.template)
         return Session(recording, template, self.preprocessor, self.start)

@@ -1,4 +1,4 @@
-"""What is known of an experiment while it runs, and its results folder."""
+"""State of an experiment during a run, and its results folder."""
 
 from __future__ import annotations
 
@@ -15,34 +15,34 @@ from regkit.metrics import Measure
 from regkit.system.errors import RegkitError
 
 WRITTEN_EVERY = 1.0
-"""The figures are written no more often than this [s] while the run goes on."""
+"""Minimum time [s] between two writings of the metrics during the run."""
 
 WRITING = 0.05
-"""Nor may writing them take more than this part of the time: of a large sweep it takes seconds."""
+"""Maximum fraction of the time spent on writing them, which takes seconds in a large sweep."""
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """The figures in a results folder, by method and recording, and what failed with its reason."""
+    """Metrics in a results folder by method and recording, and the reasons of failures."""
 
     measures: dict[str, dict[str, Measure]]
     failures: dict[str, dict[str, str]]
 
 
 Track = tuple[str, str]
-"""The names of a method and of a recording."""
+"""Names of a method and a recording."""
 
 
 @dataclass
 class Ledger:
-    """An experiment's figures so far.
+    """Metrics of an experiment so far.
 
     Attributes:
-        experiment: What is run.
-        results: Where to.
-        methods: Names of the methods that are run now.
-        lengths: The number of frames of the dataset's recordings, by their names.
-        setting: Name of the experiment among those of a sweep, or nothing.
+        experiment: The experiment.
+        results: Its results folder.
+        methods: Names of the methods in this run.
+        lengths: Number of frames of each recording, by name.
+        setting: Name of the experiment within a sweep; empty without one.
     """
 
     experiment: Experiment
@@ -55,18 +55,18 @@ class Ledger:
     _due: float = 0.0
 
     def open(self, workers: str) -> None:
-        """Make the folder of an experiment of a sweep, in that of the sweep.
+        """Creates the folder of an experiment within the folder of its sweep.
 
         Raises:
-            RegkitError: If it holds something else.
+            RegkitError: If it holds other results.
         """
         self.results.folder.mkdir(exist_ok=True)
         Results.opened(self.results.folder, resolved(self.experiment), workers)
 
     def read(self) -> Iterator[tuple[str, RegkitError]]:
-        """Take in what the folder holds already; what is damaged there counts as failed.
+        """Reads the existing results and yields failures; damaged results count as failures.
 
-        Of methods that are not run now, what failed before is still to be told.
+        Earlier failures of methods outside this run are included.
         """
         failed = self.results.failures()
         for method in self.experiment.methods:
@@ -84,7 +84,7 @@ class Ledger:
                         self._failures[track] = failed[method][recording]
 
     def tracks(self) -> Iterator[tuple[Task, list[Task]]]:
-        """For each recording, the task that makes it ready and those that are still to be done."""
+        """Yields each recording's preparation with its unfinished tracks."""
         known = self._measures.keys() | self._failures.keys()
         for recording in self.lengths:
             missing = [method for method in self.methods if (method, recording) not in known]
@@ -94,21 +94,21 @@ class Ledger:
 
     @property
     def planned(self) -> int:
-        """How many tracks are to be run."""
+        """Returns the number of tracks in this run."""
         return len(self.methods) * len(self.lengths)
 
     def frames(self, task: Task) -> int | None:
-        """How many frames a task will tell of."""
+        """Returns the number of frames that a task reports."""
         return None if task.method is None else self.lengths[task.recording]
 
     @property
     def finished(self) -> int:
-        """How many of the tracks to be run are done, or failed before anything was run."""
+        """Returns the number of tracks in this run that are finished or have failed already."""
         known = self._measures.keys() | self._failures.keys()
         return sum((m, s) in known for m in self.methods for s in self.lengths)
 
     def ended(self, task: Task, result: Measure | RegkitError) -> None:
-        """Take in what became of a track."""
+        """Records the result of a track."""
         assert task.method is not None
         track = (task.method, task.recording)
         if isinstance(result, RegkitError):
@@ -120,7 +120,7 @@ class Ledger:
 
     @property
     def outcome(self) -> Outcome:
-        """Everything in the order of the configuration, whatever was done first."""
+        """Returns all results in the order of the configuration."""
         measures: dict[str, dict[str, Measure]] = {}
         failures: dict[str, dict[str, str]] = {}
         for method in self.experiment.methods:
@@ -133,19 +133,19 @@ class Ledger:
         return Outcome(measures, failures)
 
     def summarise(self) -> None:
-        """Write the figures so far."""
+        """Writes the metrics so far."""
         outcome, begun = self.outcome, time.monotonic()
         summarise(self.results.folder, outcome.measures, outcome.failures)
         ended = time.monotonic()
         self._due = ended + max(WRITTEN_EVERY, (ended - begun) / WRITING)
 
     def report(self, *, figures: bool) -> None:
-        """Write the report, with its figures or without."""
+        """Writes the report, with or without figures."""
         outcome = self.outcome
         report(self.results.folder, outcome.measures, outcome.failures, figures=figures)
 
     def _task(self, recording: str, method: str, *, opening: bool = False) -> Task:
-        # Each worker reads the experiment anew: it shall not read a hundred methods for one.
+        # Each worker validates the experiment again, which is faster with only its own method.
         methods = {method: self.experiment.methods[method]}
         alone = self.experiment.model_copy(update={"methods": methods})
         chosen = None if opening else method

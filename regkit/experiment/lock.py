@@ -1,4 +1,4 @@
-"""Whose a results folder is while a run writes to it."""
+"""Exclusive use of a results folder by one run."""
 
 from __future__ import annotations
 
@@ -15,26 +15,26 @@ from uuid import uuid4
 from regkit.system.errors import ConfigError, DataError
 
 MARK = ".running"
-"""The file that is locked; it is gone when the run has ended, and stale if it was killed."""
+"""The locked file; removed at the end of a run, stale if the run was killed."""
 
 
 @dataclass(frozen=True)
 class FolderLock:
-    """A run's claim on its results folder.
+    """A run's lock on its results folder.
 
-    The operating system ends it with the process, so that a killed run never stands in the way.
-    Workers, which may be elsewhere, read the claim: they write for nobody else.
+    The operating system releases it with the process, so that a killed run never blocks others.
+    Workers, possibly on other machines, read it to stop when their run is over.
 
     Attributes:
         folder: The results folder.
-        run: A name that no other run has.
+        run: Unique name of the run.
     """
 
     folder: Path
     run: str
 
     def stands(self) -> bool:
-        """Whether the folder, as seen from here, is still the run's."""
+        """Whether the run still holds the folder, as seen by this process."""
         try:
             text = (self.folder / MARK).read_text(encoding="utf-8")
             return bool(json.loads(text)["run"] == self.run)
@@ -44,21 +44,21 @@ class FolderLock:
 
 @contextmanager
 def locked(folder: Path) -> Iterator[FolderLock]:
-    """A results folder as this run's alone.
+    """Context manager that locks a results folder for this run.
 
-    It is made if it is not there, and then is gone again if nothing was written to it.
+    A missing folder is created, and removed again if nothing was written to it.
 
     Raises:
-        ConfigError: If another run is writing there.
-        DataError: If it cannot be written to.
+        ConfigError: If another run holds the folder.
+        DataError: If the folder is not writable.
     """
     lock, new = FolderLock(folder.absolute(), uuid4().hex), not folder.exists()
-    with _told(folder):
+    with _naming(folder):
         folder.mkdir(parents=True, exist_ok=True)
         descriptor = _lock_file(folder)
     try:
         claim = {"run": lock.run, "process": os.getpid(), "machine": platform.node()}
-        with _told(folder):
+        with _naming(folder):
             os.truncate(descriptor, 0)
             os.write(descriptor, json.dumps(claim).encode())
         yield lock
@@ -72,8 +72,8 @@ def locked(folder: Path) -> Iterator[FolderLock]:
 
 
 @contextmanager
-def _told(folder: Path) -> Iterator[None]:
-    """An error of the operating system as one that names the folder."""
+def _naming(folder: Path) -> Iterator[None]:
+    """Context manager that turns errors of the operating system into ones that name the folder."""
     try:
         yield
     except OSError as error:
@@ -83,7 +83,7 @@ def _told(folder: Path) -> Iterator[None]:
 
 
 def _lock_file(folder: Path) -> int:
-    """An open descriptor of the mark, which nobody else has locked."""
+    """Returns an open descriptor of the locked file."""
     while True:
         descriptor = os.open(folder / MARK, os.O_RDWR | os.O_CREAT, 0o644)
         try:
@@ -92,10 +92,10 @@ def _lock_file(folder: Path) -> int:
             os.close(descriptor)
             raise _occupied(folder) from None
         except OSError:
-            # A file system without locks, say; nobody else is there.
+            # For example, the file system has no locks.
             os.close(descriptor)
             raise
-        # Its last holder may have removed the file between our opening and locking it.
+        # The previous holder may have removed the file between opening and locking it here.
         with suppress(OSError):
             if os.path.samestat(os.fstat(descriptor), (folder / MARK).stat()):
                 return descriptor
@@ -108,7 +108,7 @@ def _occupied(folder: Path) -> ConfigError:
         claim = json.loads((folder / MARK).read_text(encoding="utf-8"))
         who += f" (process {claim['process']} on {claim['machine']})"
     return ConfigError(
-        f"{who} is writing there; wait for its end, or choose another folder",
+        f"{who} writes to this folder; wait until it ends, or choose another folder",
         place=str(folder),
     )
 
@@ -117,7 +117,7 @@ if sys.platform == "win32":
     import msvcrt
 
     def _lock(descriptor: int) -> None:
-        # Windows locks ranges, and none may read a locked one: this byte is far behind the claim.
+        # Windows locks ranges and forbids reading them: lock a byte far behind the content.
         os.lseek(descriptor, 1 << 20, os.SEEK_SET)
         msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)
         os.lseek(descriptor, 0, os.SEEK_SET)

@@ -1,4 +1,4 @@
-"""Who follows the progress of a run."""
+"""Observers of a run's progress."""
 
 from __future__ import annotations
 
@@ -8,26 +8,26 @@ from regkit.system.errors import RegkitError
 
 
 class Progress(Protocol):
-    """Follows the progress of a run, and may end the run by raising ``KeyboardInterrupt``."""
+    """Observes a run's progress, and may end the run by raising ``KeyboardInterrupt``."""
 
     def planned(self, tracks: int, finished: int) -> None:
-        """A run begins: its tracks (recordings times methods), and how many are finished."""
+        """Called once with the numbers of all and of finished tracks (recordings times methods)."""
 
     def begin(self, label: str, frames: int | None) -> None:
-        """A track of ``frames`` frames begins, or a recording is prepared."""
+        """Called when a track of ``frames`` frames, or the preparation of a recording, begins."""
 
     def advance(self) -> None:
-        """One more frame of the current track is done; workers do not report it."""
+        """Called after each frame of the current track, except by workers."""
 
     def wait(self) -> None:
-        """Nothing has ended for a moment; workers are busy."""
+        """Called regularly while workers are busy."""
 
     def end(self, label: str, tracks: int, error: RegkitError | None) -> None:
-        """What had begun has ended or failed, and with it this number of the planned tracks."""
+        """Called when a task ends or fails, with the number of planned tracks that end with it."""
 
 
 class Silent(Progress):
-    """Follows nothing."""
+    """Observes nothing."""
 
     def planned(self, tracks: int, finished: int) -> None:
         """Nothing."""

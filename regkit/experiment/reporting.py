@@ -1,4 +1,4 @@
-"""The report of a results folder, from its files alone: no data and no plug-ins are needed."""
+"""The report of a results folder, from its files alone, without data or plug-ins."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from regkit.report import Run, write_report, write_summary
 from regkit.system.errors import DataError
 
 Measures = Mapping[str, Mapping[str, Measure]]
-"""Figures by method and recording; a method of a sweep is called ``SETTING/METHOD``."""
+"""Metrics by method and recording; a method of a sweep is named ``SETTING/METHOD``."""
 
 Failures = Mapping[str, Mapping[str, str]]
-"""Why recordings failed, by method and recording."""
+"""Reasons of failures, by method and recording."""
 
 
 def summarise(folder: Path, measures: Measures, failures: Failures) -> None:
-    """Write ``metrics.json`` and ``report.md`` as far as a run is, without figures."""
+    """Writes ``metrics.json`` and ``report.md`` of an unfinished run, without figures."""
     write_summary(_run(folder, measures, failures), folder)
 
 
@@ -35,17 +35,17 @@ def report(
     *,
     figures: bool = True,
 ) -> Path:
-    """Write the report with its figures and tables, and ``metrics.json``.
+    """Writes the report with its figures and tables, and ``metrics.json``.
 
     Args:
-        folder: The results.
-        measures: Figures by method and recording.
-        failures: Why recordings failed, by method and recording.
-        pairs: Methods to be compared beside the best one with the others.
-        figures: Whether figures are drawn.
+        folder: The results folder.
+        measures: Metrics by method and recording.
+        failures: Reasons of failures, by method and recording.
+        pairs: Pairs of methods to compare, in addition to the best one with each other.
+        figures: Whether to draw figures.
 
     Returns:
-        The page.
+        The path of the report.
 
     Raises:
         DataError: If a file is damaged or cannot be written.
@@ -65,13 +65,13 @@ def report(
 
 
 def found(folder: Path) -> tuple[dict[str, dict[str, Measure]], dict[str, dict[str, str]]]:
-    """The figures of all finished recordings, and why others failed, as a folder tells.
+    """Returns the metrics and failures in a results folder.
 
-    Methods and recordings are in the order of the configuration and of ``metrics.json``; those
-    that neither names come last.
+    Methods and recordings are in the order of the configuration and of ``metrics.json``, followed
+    by those that neither contains.
 
     Raises:
-        DataError: If it is no results folder, one of another format, or a file is damaged.
+        DataError: If it is not a results folder, has another format, or a file is damaged.
     """
     if not (folder / "config.yaml").is_file() or not (folder / "environment.json").is_file():
         raise DataError(
@@ -81,14 +81,16 @@ def found(folder: Path) -> tuple[dict[str, dict[str, Measure]], dict[str, dict[s
         )
     check_format(folder)
     results, metrics = Results(folder), folder / "metrics.json"
-    told = _json(metrics).get("methods", {}) if metrics.exists() else {}
+    written_metrics = _json(metrics).get("methods", {}) if metrics.exists() else {}
     config = Document.read(folder / "config.yaml").data
     named = [] if "sweep" in config else config.get("methods", {})
     written = [path.parent.relative_to(folder) for path in sorted(folder.rglob("measure.json"))]
     measures: dict[str, dict[str, Measure]] = {}
     failures: dict[str, dict[str, str]] = {}
-    for method in dict.fromkeys([*named, *told, *(one.parent.as_posix() for one in written)]):
-        recordings = told.get(method, {}).get("recordings", {})
+    for method in dict.fromkeys(
+        [*named, *written_metrics, *(one.parent.as_posix() for one in written)]
+    ):
+        recordings = written_metrics.get(method, {}).get("recordings", {})
         own = [one.name for one in written if one.parent.as_posix() == method]
         measures[method], failures[method] = {}, {}
         for recording in dict.fromkeys([*recordings, *own]):
@@ -113,7 +115,7 @@ def _run(folder: Path, measures: Measures, failures: Failures) -> Run:
 
 
 def _json(file: Path) -> dict[str, Any]:
-    """A JSON object that was written before.
+    """Returns a JSON object from a file.
 
     Raises:
         DataError: If it is missing or damaged.
@@ -123,5 +125,5 @@ def _json(file: Path) -> dict[str, Any]:
     except (OSError, ValueError) as error:
         raise DataError(f"missing or damaged ({error})", place=str(file)) from None
     if not isinstance(data, dict):
-        raise DataError("damaged: it is no JSON object", place=str(file))
+        raise DataError("damaged: it holds no JSON object", place=str(file))
     return data

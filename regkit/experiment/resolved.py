@@ -1,4 +1,4 @@
-"""An experiment with every default filled in, as what can be written down."""
+"""The configuration of an experiment with all defaults filled in."""
 
 from __future__ import annotations
 
@@ -12,22 +12,22 @@ from regkit.system.errors import ConfigError
 
 
 def resolved(experiment: Experiment) -> dict[str, Any]:
-    """The experiment as JSON.
+    """Returns the experiment as JSON.
 
     Raises:
-        ConfigError: If a plug-in has a field of a type that no YAML can hold; it says which.
+        ConfigError: If a plug-in has a field of a type without a YAML form; the message names it.
     """
     try:
         return experiment.model_dump(mode="json")
     except PydanticSerializationError as error:
         raise ConfigError(
-            f"it cannot be written to config.yaml ({error}); a plug-in's fields hold what YAML can",
+            f"it cannot be written to config.yaml ({error}); use types with a YAML form",
             place=_unwritable(experiment),
         ) from None
 
 
 def _unwritable(value: Any, place: str = "") -> str:
-    """The way to the innermost part that cannot be written."""
+    """Returns the path to the innermost value that cannot be written."""
     parts: dict[Any, Any]
     if isinstance(value, BaseModel):
         parts = {name: getattr(value, name) for name in type(value).model_fields}

@@ -1,4 +1,4 @@
-"""The results folder: what is written, and what a resumed run finds there."""
+"""The results folder: files of a run, and detection of finished work."""
 
 from __future__ import annotations
 
@@ -28,30 +28,31 @@ from regkit.tracking import Track
 
 @dataclass(frozen=True)
 class Results:
-    """An experiment's folder.
+    """An experiment's results folder.
 
-    config.yaml               the experiment with every default filled in
+    config.yaml               the experiment with all defaults filled in
     environment.json          versions, machine and workers
-    starts/RECORDING.json      where every method begins
-    metrics.json              figures by method and recording, and what they say together
-    report.html, report.md    the same as tables, figures and pictures
+    starts/RECORDING.json      initial pose of every method
+    metrics.json              metrics by method and recording, and their summary
+    report.html, report.md    the same as tables, figures and images
     figures/, tables/         the figures, and all numbers as CSV
-    METHOD/RECORDING/          measure.json, poses.npz, record.npz and overlay.png of a finished one
+    METHOD/RECORDING/          measure.json, poses.npz, record.npz and overlay.png of a finished
+    track
 
     Attributes:
-        folder: Where it is.
+        folder: Its path.
     """
 
     folder: Path
 
     @classmethod
     def opened(cls, folder: Path, config: dict[str, Any], workers: str) -> Results:
-        """The folder for an experiment, new or begun before with the same configuration.
+        """Returns the folder of an experiment, new or with unfinished results.
 
         Args:
-            folder: Where it is; the run holds it already.
-            config: The experiment as JSON has it.
-            workers: Who does the work this time.
+            folder: Its path, locked by the run.
+            config: The experiment as JSON.
+            workers: Description of the current workers.
 
         Raises:
             ConfigError: If it holds the results of another configuration.
@@ -74,14 +75,14 @@ class Results:
         return cls(folder)
 
     def recording_folder(self, method: str, recording: str) -> Path:
-        """Where a method's results on a recording are."""
+        """Returns the folder of a method's results on a recording."""
         return self.folder / method / recording
 
     def finished(self, method: str, recording: str) -> Measure | None:
-        """The figures of a recording that was finished before, or None.
+        """Returns the metrics of a finished track, or None.
 
         Raises:
-            DataError: If the file was damaged since.
+            DataError: If the file is damaged.
         """
         file = self.recording_folder(method, recording) / "measure.json"
         if not file.exists():
@@ -90,29 +91,29 @@ class Results:
             return Measure(**json.loads(file.read_text(encoding="utf-8")))
         except (ValueError, TypeError) as error:
             raise DataError(
-                f"damaged ({error}); delete the file to have the recording done again",
+                f"damaged ({error}); delete the file to track the recording again",
                 place=str(file),
             ) from None
 
     def failures(self) -> dict[str, dict[str, str]]:
-        """Why recordings failed before, by method and recording, if ``metrics.json`` is there."""
+        """Returns reasons of earlier failures by method and recording, from ``metrics.json``."""
         with suppress(OSError, ValueError, KeyError, TypeError, AttributeError):
-            told = json.loads((self.folder / "metrics.json").read_text(encoding="utf-8"))
+            metrics = json.loads((self.folder / "metrics.json").read_text(encoding="utf-8"))
             return {
                 method: {
                     recording: str(figures["error"])
                     for recording, figures in one["recordings"].items()
                     if "error" in figures
                 }
-                for method, one in told["methods"].items()
+                for method, one in metrics["methods"].items()
             }
         return {}
 
     def record(self, method: str, recording: str) -> Record | None:
-        """What is kept of a finished recording for the report, or None.
+        """Returns the record of a finished track for the report, or None.
 
         Raises:
-            DataError: If the file was damaged since.
+            DataError: If the file is damaged.
         """
         file = self.recording_folder(method, recording) / "record.npz"
         if not file.exists():
@@ -135,7 +136,7 @@ class Results:
         measure: Measure,
         record: Record,
     ) -> None:
-        """Write a finished recording; its metrics come last and mark it as finished."""
+        """Writes a finished track; its metrics come last and mark it as finished."""
         folder = self.recording_folder(method, recording)
         write_arrays(folder / "poses.npz", track.named_arrays(body))
         write_arrays(folder / "record.npz", record.arrays())
@@ -146,26 +147,26 @@ class Results:
         write_json(folder / "measure.json", measure.to_dict())
 
     def failed(self, file: Path, error: Exception) -> RegkitError:
-        """The error as one that can be told; of a programming error the traceback is kept."""
+        """Returns the error as a RegkitError; the traceback of a programming error is written."""
         if isinstance(error, RegkitError):
             return error
         write_text(file, "".join(traceback.format_exception(error)))
         return PluginError(
-            f"{type(error).__name__}: {error}; this is a fault of the program or of a plug-in, and "
-            f"{file} says where"
+            f"{type(error).__name__}: {error}; this is a bug in regkit or in a plug-in, see the "
+            f"traceback in {file}"
         )
 
 
 def _check_same(file: Path, text: str) -> None:
-    """Refuse to complete results with another configuration than that in ``config.yaml``."""
+    """Refuses to continue results of another configuration than ``config.yaml``."""
     before = file.read_text(encoding="utf-8")
     if before == text:
         return
     there, here = yaml_data(before, str(file)), yaml_data(text, str(file))
-    # A comment in the file, or another order of its fields, is no other configuration.
+    # Comments and the order of fields do not matter.
     if there != here:
         raise ConfigError(
             f"the folder holds the results of another configuration ({file.name}): "
-            f"{differences(there, here)}; choose another folder, or run what it was begun with",
+            f"{differences(there, here)}; choose another folder, or run the original one",
             place=str(file.parent),
         )

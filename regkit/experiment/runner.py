@@ -1,4 +1,4 @@
-"""Running experiments: every method on every recording, what is finished being kept."""
+"""Runs of experiments: every method on every recording; finished work is kept."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from regkit.experiment.workers.working import work
 from regkit.system.errors import ConfigError
 
 REPORTING = "writing the report"
-"""What is begun last."""
+"""Label of the last step."""
 
 
 def run(
@@ -31,27 +31,26 @@ def run(
     workers: Workers | None = None,
     figures: bool = True,
 ) -> Outcome:
-    """Run an experiment into its folder; what the folder holds already is not done again.
+    """Runs an experiment into its folder, and skips work that the folder already contains.
 
-    A recording that fails does not stop the others. The figures are the same to the last bit,
-    whoever does the work, but for the frames per second. While the run goes on ``metrics.json``
-    and ``report.md`` tell what is finished, also when it is interrupted; the page and the figures
-    are written when all is done.
+    A failing recording does not stop the others. Results do not depend on the workers, to the last
+    bit, apart from frames per second. During the run ``metrics.json`` and ``report.md`` show the
+    finished part, also after an interrupt; the full report with its figures follows at the end.
 
     Args:
-        experiment: What to run; the experiments of a sweep are run into folders of their own.
-        folder: Where to.
-        progress: Who follows the progress.
-        only: Names of the methods to run, with all their variants; all of them if it is empty.
-        workers: Who does the work; this process without them.
-        figures: Whether the report's figures are drawn; it has its tables in any case.
+        experiment: The experiment; the experiments of a sweep get folders of their own.
+        folder: The results folder.
+        progress: Observer of the progress.
+        only: Names of the methods to run, with all their variants; all methods if empty.
+        workers: Workers of the run; this process by default.
+        figures: Whether to draw the report's figures; its tables are always written.
 
     Returns:
-        All that the folder holds; methods of a sweep are called ``SETTING/METHOD``.
+        All results in the folder; methods of a sweep are named ``SETTING/METHOD``.
 
     Raises:
-        RegkitError: If nothing can be run: an unknown method, a dataset without recordings, a
-            folder that holds something else, workers that are not available.
+        RegkitError: If nothing can be run: a method is unknown, the dataset has no recordings, the
+            folder holds other results, or the workers are not available.
     """
     study = Study.of_one(experiment) if isinstance(experiment, Experiment) else experiment
     workers, progress = workers or ThisProcess(), progress or Silent()
@@ -85,10 +84,10 @@ def run(
 
 
 def _ledgers(study: Study, folder: Path, only: tuple[str, ...]) -> list[Ledger]:
-    """What is known of each experiment before anything is run.
+    """Returns the state of each experiment before the run.
 
     Raises:
-        RegkitError: If a method, a recording or a subject is named that there is not.
+        RegkitError: If a named method, recording or subject does not exist.
     """
     methods = _chosen(study.methods, only)
     ledgers: list[Ledger] = []
@@ -102,16 +101,16 @@ def _ledgers(study: Study, folder: Path, only: tuple[str, ...]) -> list[Ledger]:
 
 
 def _lengths(experiment: Experiment) -> dict[str, int]:
-    """The number of frames of each recording, by its name."""
+    """Returns the number of frames of each recording, by name."""
     recordings = experiment.dataset.chosen()
     unknown = experiment.subjects.keys() - {recording.subject for recording in recordings}
     if unknown:
-        # Those of other recordings may be given templates, too.
+        # Templates may also be given for subjects of recordings that are not selected.
         everything = experiment.dataset.model_copy(update={"recordings": None}).chosen()
         known = sorted({one.subject for one in everything if one.subject is not None})
         for name in sorted(unknown - set(known)):
             raise ConfigError(
-                f"no recording shows a subject '{name}' (there are: {', '.join(known) or 'none'})"
+                f"no recording has the subject '{name}' (there are: {', '.join(known) or 'none'})"
                 + did_you_mean(name, known),
                 place="subjects",
             )
@@ -119,7 +118,7 @@ def _lengths(experiment: Experiment) -> dict[str, int]:
 
 
 def _chosen(known: list[str], only: tuple[str, ...]) -> list[str]:
-    """The methods to run; one that is swept stands for all of its variants."""
+    """Returns the methods to run; the name of a swept method selects all of its variants."""
     heads = [name.partition(",")[0] for name in known]
     for name in only:
         if name not in known and name not in heads:
@@ -132,7 +131,7 @@ def _chosen(known: list[str], only: tuple[str, ...]) -> list[str]:
 
 
 def _together(ledgers: list[Ledger]) -> Outcome:
-    """The outcomes of all experiments as one."""
+    """Returns the outcomes of all experiments as one."""
     whole = Outcome({}, {})
     for ledger in ledgers:
         outcome = ledger.outcome

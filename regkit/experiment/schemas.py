@@ -1,4 +1,4 @@
-"""The JSON Schemas of everything that a user writes in YAML."""
+"""JSON Schemas of everything that users write in YAML."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from regkit.skeleton import SkeletonDescription
 
 
 def schemas() -> dict[str, dict[str, Any]]:
-    """Each schema by the name of its file."""
+    """Returns each schema by the name of its file."""
     return {
         "experiment": schema_of(SweptExperiment),
         "template": schema_of(BodyDescription),
@@ -26,19 +26,19 @@ def schemas() -> dict[str, dict[str, Any]]:
 
 
 def schema_of(model: type[BaseModel]) -> dict[str, Any]:
-    """The JSON Schema of one model.
+    """Returns the JSON Schema of a model.
 
     Raises:
-        PydanticInvalidForJsonSchema: If a field has a type that JSON does not have.
+        PydanticInvalidForJsonSchema: If a field has a type without a JSON form.
     """
     schema = TypeAdapter(model).json_schema(schema_generator=_ForEditors)
     return {"$schema": _ForEditors.schema_dialect, **schema}
 
 
 def _whole(schema: dict[str, Any], description: str) -> dict[str, Any]:
-    """The schema of a file that must name its kind, made of that of a slot."""
+    """Returns the schema of a file that must name its kind, from the schema of a slot."""
     definitions = schema["$defs"]
-    # pydantic sets a slot among the definitions only if it is used more than once.
+    # pydantic moves a slot to the definitions only if it is used more than once.
     slot = definitions[schema["$ref"].rpartition("/")[2]] if "$ref" in schema else schema
     (named,) = (form for form in slot["anyOf"] if "oneOf" in form)
     return {
@@ -50,20 +50,20 @@ def _whole(schema: dict[str, Any], description: str) -> dict[str, Any]:
 
 
 class _ForEditors(GenerateJsonSchema):
-    """Schemas whose fields have descriptions, but no titles, which only repeat the names."""
+    """Schemas with descriptions of fields but without titles, which only repeat the names."""
 
     def field_title_should_be_set(self, schema: Any) -> bool:
         """Never."""
         return False
 
     def tagged_union_schema(self, schema: core_schema.TaggedUnionSchema) -> JsonSchemaValue:
-        """The alternatives, which must say what they are even if that is also their default."""
+        """Makes the discriminator of each alternative required, even if it has a default."""
         union = super().tagged_union_schema(schema)
         tag = schema["discriminator"]
         return {**union, "type": "object", "required": [tag]} if isinstance(tag, str) else union
 
     def dict_schema(self, schema: core_schema.DictSchema) -> JsonSchemaValue:
-        """A mapping, which has no other keys than those that are right."""
+        """Forbids keys that do not match the type of a mapping's keys."""
         mapping = super().dict_schema(schema)
         return (
             {**mapping, "additionalProperties": False}

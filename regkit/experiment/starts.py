@@ -1,4 +1,4 @@
-"""The start of each recording, found once and kept, so that all methods and workers begin alike."""
+"""The start of each recording, found once and stored, so that all methods begin equally."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from regkit.tracking import Session
 
 
 def start_file(folder: Path, recording: str) -> Path:
-    """Where in a results folder the start of a recording is kept."""
+    """Returns the file of a recording's start in a results folder."""
     return folder / "starts" / f"{recording}.json"
 
 
 def kept_start(session: Session, folder: Path) -> Start:
-    """The given start of a session, the one kept in the results folder, or one that is found now.
+    """Returns the session's given start, the stored one, or a newly found one.
 
-    Numbers in JSON are written so that the same number is read: a start that was kept is, to the
-    last bit, the one that was found.
+    JSON stores floating-point numbers exactly, so a stored start equals the found one to the last
+    bit.
 
     Raises:
-        RegkitError: If none can be found, or the one that was kept is damaged.
+        RegkitError: If no start is found, or the stored one is damaged.
     """
     if session.start is not None:
         return session.begin()
@@ -51,6 +51,6 @@ def kept_start(session: Session, folder: Path) -> Start:
         )
     except (ValueError, TypeError, KeyError) as error:
         raise DataError(
-            f"damaged ({error}); delete the file to have the start found again", place=str(file)
+            f"damaged ({error}); delete the file to find the start again", place=str(file)
         ) from None
     return Start(body, pose)

@@ -1,4 +1,4 @@
-"""The unit of work: a recording is made ready, or a method is run on one that is."""
+"""The unit of work: the preparation of a recording, or a method's track through it."""
 
 from __future__ import annotations
 
@@ -20,23 +20,22 @@ from regkit.system.optional import one_thread
 from regkit.tracking import Session, TrackRecorder
 
 Result = Measure | RegkitError | None
-"""A track's figures, what went wrong, or nothing of a recording that is ready."""
+"""Metrics of a track, an error, or None after the preparation of a recording."""
 
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """A pure function of an experiment, its results folder, and the names of what is to be done.
+    """A pure function of an experiment, its results folder, and the names of recording and method.
 
-    Whoever does it, and however often it is begun, writes the same files to the last bit, but for
-    the times.
+    Repeated or run elsewhere, it writes the same files to the last bit, apart from times.
 
     Attributes:
-        experiment: What it is part of; of its methods one is enough.
+        experiment: The experiment; only the task's own method is needed in it.
         folder: The results folder of the experiment.
         recording: Name of the recording.
-        method: Name of the method, or None to make the recording ready for all of them: its data
-            are prepared and its start is found.
-        setting: Name of the experiment among those of a sweep, or nothing.
+        method: Name of the method, or None to prepare the recording for all methods: read its data
+            and find its start.
+        setting: Name of the experiment within a sweep; empty without one.
     """
 
     experiment: Experiment
@@ -47,26 +46,26 @@ class Task:
 
     @property
     def label(self) -> str:
-        """What a person would call it."""
+        """Name of the task for users."""
         who = "preparing" if self.method is None else f"{self.method} on"
         what = f"{who} {self.recording}"
         return f"{self.setting}: {what}" if self.setting else what
 
     def result(self, each_frame: Callable[[], None]) -> Result:
-        """Do it.
+        """Runs the task.
 
         Args:
-            each_frame: Called between two frames; what it raises beyond ``Exception`` is let pass.
+            each_frame: Called between two frames; only ``BaseException`` passes through from it.
 
         Returns:
-            The figures; an error of any kind is returned as one that can be told.
+            The metrics; errors of any kind are returned as a RegkitError.
         """
         results = Results(self.folder)
         try:
             with one_thread():
                 if self.method is not None:
                     finished = results.finished(self.method, self.recording)
-                    # A worker can be lost after it has written and before it has answered.
+                    # A worker may have died after writing the files, before returning the result.
                     return finished or self._tracked(results, self.method, each_frame)
                 self._made_ready()
                 return None
@@ -84,7 +83,7 @@ class Task:
         start = kept_start(session, self.folder)
         truth = self._truth(session)
         if truth is not None:
-            # A misspelt joint is found before the hours of computing, not after them.
+            # Report a misspelt joint before hours of computing, not after them.
             matched(start.body, truth, self.experiment.dataset.joints)
 
     def _tracked(self, results: Results, name: str, each_frame: Callable[[], None]) -> Measure:
@@ -108,7 +107,7 @@ class Task:
         registrar: Registrar,
         recorder: TrackRecorder,
     ) -> Measure:
-        """All that is made of a track: its figures, its picture and its files."""
+        """Computes the metrics of a track, draws its overlay and writes its files."""
         track, body, truth = recorder.track(), registrar.body, self._truth(session)
         errors = None
         if truth is not None:
@@ -120,11 +119,11 @@ class Task:
         return measure
 
     def _session(self) -> Session:
-        """The recording with all that its frames are read from; no other one is looked at."""
+        """Returns the recording with everything needed to read its frames."""
         recording = self.experiment.dataset.only(self.recording)
         recording.prepare()
         return self.experiment.session(recording)
 
     def _truth(self, session: Session) -> Truth | None:
-        """The reference joints, if there are any and they are to be compared."""
+        """Returns the reference joints, or None if there are none to compare."""
         return session.recording.truth() if self.experiment.dataset.compared else None

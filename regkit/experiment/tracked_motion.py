@@ -1,4 +1,4 @@
-"""The motion in a results folder, with the body that moved."""
+"""The motion in a results folder, with its body."""
 
 from __future__ import annotations
 
@@ -24,21 +24,21 @@ from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError, DataError
 
 NEEDED = ("root", "balls", "hinges", "markers", "size")
-"""The arrays of ``poses.npz`` that make a motion."""
+"""Arrays of ``poses.npz`` that define a motion."""
 
 SAME = 1e-6
-"""A marker that is placed again lies so near to where it was [m]."""
+"""Tolerance [m] between stored markers and those of the body from the configuration."""
 
 
 def read_tracked_motion(folder: Path, fps: float | None = None) -> TrackedMotion:
-    """The motion in ``RESULTS/METHOD/RECORDING``, and the body made again from the configuration.
+    """Returns the motion in ``RESULTS/METHOD/RECORDING``, with its body from the configuration.
 
     Args:
         folder: The folder of a finished recording.
-        fps: Frames per second, where they are not those that the recording was recorded with.
+        fps: Frames per second; by default those of the recording.
 
     Raises:
-        RegkitError: If there is no finished recording, or the template is another one since.
+        RegkitError: If there is no finished recording, or the template has changed since.
     """
     arrays, results = _arrays(folder), folder.resolve().parents[1]
     check_format(results)
@@ -50,14 +50,13 @@ def read_tracked_motion(folder: Path, fps: float | None = None) -> TrackedMotion
         if transforms is not None:
             return TrackedMotion(name, body, transforms, given, _skin(template, body))
     raise DataError(
-        "the template is not the one that these poses were found with: it was changed since; run "
-        "the experiment again",
+        "the template has changed since these poses were estimated; run the experiment again",
         place=str(folder),
     )
 
 
 def _placed(body: Body, arrays: Mapping[str, NDArray[Any]]) -> Array | None:
-    """The transforms (T, S, 4, 4) of a body's segments, if its markers come to lie as they were."""
+    """Returns T_world_segment (T, S, 4, 4), or None if the body's markers are not the stored."""
     skeleton = body.skeleton
     shapes = {
         "balls": (len(skeleton.ball_links), 4),
@@ -74,10 +73,10 @@ def _placed(body: Body, arrays: Mapping[str, NDArray[Any]]) -> Array | None:
 
 
 def _arrays(folder: Path) -> dict[str, NDArray[Any]]:
-    """The arrays of ``poses.npz``.
+    """Returns the arrays of ``poses.npz``.
 
     Raises:
-        ConfigError: If it is not there.
+        ConfigError: If the file does not exist.
         DataError: If it is damaged.
     """
     file = folder / "poses.npz"
@@ -85,7 +84,7 @@ def _arrays(folder: Path) -> dict[str, NDArray[Any]]:
         others = sorted(folder.glob("**/poses.npz"))
         hint = f"; there are: {', '.join(str(other.parent) for other in others)}" if others else ""
         raise ConfigError(
-            f"no poses.npz is here; name the folder of a finished recording, "
+            f"no poses.npz is here; give the folder of a finished recording, "
             f"RESULTS/METHOD/RECORDING{hint}",
             place=str(folder),
         )
@@ -97,19 +96,19 @@ def _arrays(folder: Path) -> dict[str, NDArray[Any]]:
 
 
 def _fps(folder: Path, arrays: Mapping[str, NDArray[Any]]) -> float:
-    """Frames per second at which the recording was recorded.
+    """Returns the frame rate of the recording [1/s].
 
     Raises:
-        ConfigError: If the results do not say it.
+        ConfigError: If the results do not contain it.
     """
     record = folder / "record.npz"
-    told = _read(record) if "fps" not in arrays and record.is_file() else arrays
-    if "fps" not in told:
+    source = _read(record) if "fps" not in arrays and record.is_file() else arrays
+    if "fps" not in source:
         raise ConfigError(
-            f"the results in {folder} do not say how many frames there were in a second; give it",
+            f"the results in {folder} do not contain the frames per second; give them",
             place="fps",
         )
-    return float(told["fps"])
+    return float(source["fps"])
 
 
 def _read(file: Path) -> dict[str, NDArray[Any]]:
@@ -121,14 +120,14 @@ def _read(file: Path) -> dict[str, NDArray[Any]]:
 
 
 def _templates(config: Path) -> tuple[Template, ...]:
-    """The templates of an experiment's configuration, which need not be valid otherwise.
+    """Returns the templates of an experiment's configuration, without validating the rest.
 
     Raises:
-        RegkitError: If there is none, or one is wrong.
+        RegkitError: If there is none, or one is invalid.
     """
     document = Document.read(config)
     if "template" not in document.data:
-        raise ConfigError("there is no template; this is no results folder", place=str(config))
+        raise ConfigError("there is no template; this is not a results folder", place=str(config))
     subjects: dict[str, Template] = {}
     if "subjects" in document.data:
         subjects = document.field("subjects", TypeAdapter(dict[str, Template]).validate_python)
@@ -136,7 +135,7 @@ def _templates(config: Path) -> tuple[Template, ...]:
 
 
 def _skin(template: Template, body: Body) -> SkinnedMesh | None:
-    """The template's mesh at the body's size."""
+    """Returns the template's mesh at the body's size."""
     description = template.description()
     if description.mesh is None:
         return None

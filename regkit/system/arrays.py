@@ -1,4 +1,4 @@
-"""Array types and the checks that every array from outside passes."""
+"""Array types, and checks of arrays from users and files."""
 
 from __future__ import annotations
 
@@ -8,21 +8,21 @@ from numpy.typing import ArrayLike, NDArray
 from regkit.system.errors import DataError
 
 Array = NDArray[np.float64]
-"""Real numbers; the docstring at hand gives the shape."""
+"""Array of real numbers; the docstring of each use gives the shape."""
 
 Indices = NDArray[np.intp]
-"""Whole numbers that index another array."""
+"""Array of integers that index another array."""
 
 
 def read_only(values: ArrayLike) -> Array:
-    """A copy of ``values`` as float64 that refuses to be written to."""
+    """Returns a read-only copy of ``values`` as float64."""
     array = np.array(values, dtype=np.float64)
     array.flags.writeable = False
     return array
 
 
 def checked_points(points: ArrayLike, *, place: str | None = None) -> Array:
-    """Points from outside as an (N, 3) array [m].
+    """Returns points from a user or a file as an array (N, 3) [m].
 
     Raises:
         DataError: If the shape is not (N, 3), or a coordinate is NaN or infinite.

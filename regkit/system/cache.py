@@ -1,4 +1,4 @@
-"""Where regkit keeps what it can make again at any time."""
+"""The cache folder, for data that regkit can compute again."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from pathlib import Path
 from platformdirs import user_cache_path
 
 VARIABLE = "REGKIT_CACHE"
-"""Environment variable that names another folder."""
+"""Environment variable that overrides the cache folder."""
 
 
 def cache_folder() -> Path:
-    """The user's cache folder of regkit, which may be deleted as a whole whenever nothing runs."""
+    """Returns the user's cache folder of regkit; it may be deleted while regkit is not running."""
     named = os.environ.get(VARIABLE)
     return Path(named).expanduser().absolute() if named else user_cache_path("regkit")

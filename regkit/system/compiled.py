@@ -1,4 +1,4 @@
-"""Loops over arrays, compiled by Numba when they are first called."""
+"""Functions with loops over arrays, compiled by Numba on their first call."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ P = ParamSpec("P")
 R = TypeVar("R")
 
 _DISPATCHERS: list[Any] = []
-"""What Numba made of the functions so far."""
+"""Numba's dispatchers of all functions compiled so far."""
 
-_TELLERS: list[Callable[[], None]] = []
-"""Who wants to know that loops are compiled."""
+_CALLBACKS: list[Callable[[], None]] = []
+"""Callbacks to run once before the first compilation."""
 
 
 class Compiled(Generic[P, R]):
-    """A function that Numba compiles at its first call, and keeps on disk.
+    """A function that Numba compiles on its first call and caches on disk.
 
-    Numba takes half a second to import, which no command that registers nothing should wait for.
+    Importing Numba takes half a second, which commands without a registration avoid.
     """
 
     def __init__(self, function: Callable[P, R]) -> None:
@@ -31,14 +31,14 @@ class Compiled(Generic[P, R]):
         update_wrapper(self, function)
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
-        """The function's value, by machine code."""
+        """Calls the compiled function."""
         return (self._dispatcher or self.dispatcher())(*args, **kwargs)
 
     def dispatcher(self) -> Callable[P, R]:
-        """What Numba made of the function."""
+        """Returns Numba's dispatcher of the function."""
         if self._dispatcher is None:
             names = cast(Any, self.function).__globals__
-            # Numba knows its own functions only: those that this one calls stand in its globals.
+            # Numba calls only its own functions: replace those in the globals of this one.
             for name in self.function.__code__.co_names:
                 if isinstance(names.get(name), Compiled):
                     names[name] = names[name].dispatcher()
@@ -51,39 +51,39 @@ class Compiled(Generic[P, R]):
 
 
 def compiled(function: Callable[P, R]) -> Compiled[P, R]:
-    """A function of loops over arrays, compiled by Numba when first called and kept on disk.
+    """Decorator: compiles a function by Numba on its first call and caches it on disk.
 
-    The error of a missing Numba comes from the first call.
+    If Numba is missing, the first call raises DependencyError.
     """
     return Compiled(function)
 
 
 def loaded_loops() -> int:
-    """How many loops are compiled or loaded from disk so far, one for each set of types.
+    """Returns the number of loops compiled or loaded from disk so far, one per signature.
 
-    A time in which this number grows is not that of the loops.
+    A time measurement during which this number grows includes compilation.
     """
     return sum(len(dispatcher.overloads) for dispatcher in _DISPATCHERS)
 
 
-def when_compiling(tell: Callable[[], None]) -> None:
-    """Have ``tell`` called once, when loops are compiled that are not on disk."""
-    _TELLERS.append(tell)
+def when_compiling(callback: Callable[[], None]) -> None:
+    """Calls ``callback`` once, before the first compilation of a loop not cached on disk."""
+    _CALLBACKS.append(callback)
 
 
 def _listen() -> None:
-    """Tell who wants to know that Numba compiles, before it begins."""
-    if not _TELLERS or _DISPATCHERS:
+    """Registers the callbacks with Numba before its first compilation."""
+    if not _CALLBACKS or _DISPATCHERS:
         return
     load_library("numba")
     event = importlib.import_module("numba.core.event")
 
     class Listener(event.Listener):  # type: ignore[misc, name-defined]
         def on_start(self, _: Any) -> None:
-            while _TELLERS:
-                _TELLERS.pop()()
+            while _CALLBACKS:
+                _CALLBACKS.pop()()
 
         def on_end(self, _: Any) -> None:
-            """Nothing to tell."""
+            """Ignored."""
 
     event.register("numba:compile", Listener())

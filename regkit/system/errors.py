@@ -4,11 +4,11 @@ from __future__ import annotations
 
 
 class RegkitError(Exception):
-    """Base of every error that regkit raises on purpose; the CLI prints it without a traceback.
+    """Base of all errors that regkit raises on purpose; the CLI prints it without a traceback.
 
     Args:
-        message: What is wrong, naming the value, and what would be right.
-        place: What to correct: ``file:line: field``, a file, or a command-line option.
+        message: What is wrong, with the offending value, and what is right.
+        place: Where to correct it: ``file:line: field``, a file, or a command-line option.
     """
 
     def __init__(self, message: str, *, place: str | None = None) -> None:
@@ -17,16 +17,16 @@ class RegkitError(Exception):
         self.place = place
 
     def __str__(self) -> str:
-        """The place, if it is known, and the message."""
+        """Returns ``place: message``, or the message alone."""
         return f"{self.place}: {self.message}" if self.place else self.message
 
     def at(self, place: str) -> RegkitError:
-        """The same error at ``place``, unless it already knows a place of its own."""
+        """Returns the error at ``place``, unless it has a place already."""
         return self if self.place else type(self)(self.message, place=place)
 
 
 class ConfigError(RegkitError):
-    """A YAML document or a command-line override says something that cannot be."""
+    """A YAML document, an argument or a command-line override is invalid."""
 
 
 class DataError(RegkitError):
@@ -38,4 +38,4 @@ class PluginError(RegkitError):
 
 
 class DependencyError(RegkitError):
-    """A library or system package is missing; the message holds the command that installs it."""
+    """A library or system package is missing; the message names the command to install it."""

@@ -1,4 +1,4 @@
-"""Files that are either there as a whole or not there at all."""
+"""Atomic writing of files."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from regkit.system.errors import DataError
 
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
-    """A temporary name beside ``path`` to write to, renamed to ``path`` when all went well.
+    """Context manager: yields a temporary path that replaces ``path`` on success.
 
     Raises:
         DataError: If the file cannot be written.
     """
-    # Processes of several machines may write to one folder, where their numbers may be the same.
+    # Processes on several machines, with equal process numbers, may write to the same folder.
     temporary = path.with_name(f".{path.name}.{uuid4().hex[:12]}.tmp{path.suffix}")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -36,23 +36,23 @@ def replacing(path: Path) -> Iterator[Path]:
 
 
 def remove_unfinished(folder: Path, name: str = "*") -> None:
-    """Remove what ``replacing`` left of a file, or of all, when its process was killed."""
+    """Removes temporary files that ``replacing`` left behind when its process was killed."""
     for path in folder.glob(f".{name}.*.tmp*"):
         path.unlink(missing_ok=True)
 
 
 def write_text(path: Path, text: str) -> None:
-    """Write ``text`` as UTF-8."""
+    """Writes ``text`` as UTF-8, atomically."""
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
 
 
 def write_json(path: Path, data: Any) -> None:
-    """Write ``data`` as indented JSON; a NaN has no place in it and must be given as None."""
+    """Writes ``data`` as indented JSON, atomically; NaN is not allowed and must be None."""
     write_text(path, json.dumps(data, indent=2, allow_nan=False) + "\n")
 
 
 def write_arrays(path: Path, arrays: Mapping[str, Array | np.ndarray[Any, Any]]) -> None:
-    """Write named arrays as a compressed ``.npz``."""
+    """Writes named arrays as a compressed ``.npz``, atomically."""
     with replacing(path) as temporary, temporary.open("wb") as stream:
         np.savez_compressed(stream, **dict(arrays))  # type: ignore[arg-type]

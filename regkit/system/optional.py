@@ -1,4 +1,4 @@
-"""Libraries that are heavy or that not everyone has, imported when they are first used."""
+"""Heavy or optional libraries, imported on first use."""
 
 from __future__ import annotations
 
@@ -14,22 +14,22 @@ INSTALL = {
     "open3d": "pip install open3d-cpu" if sys.platform == "linux" else "pip install open3d",
     "pytest": 'pip install "regkit[testing]"',
 }
-"""Commands that install a library, where its own name is not enough."""
+"""Commands to install a library, if its name alone is not enough."""
 
 SYSTEM_PACKAGES = {"open3d": "libusb-1.0-0 libgl1 libegl1 libx11-6 libgomp1"}
-"""Packages of Debian and Ubuntu without which a library's wheel cannot be imported."""
+"""Packages of Debian and Ubuntu that a library's wheel needs to load."""
 
 
 def load_library(module: str, *, install: str | None = None) -> Any:
-    """Import a library.
+    """Imports a library.
 
     Args:
-        module: Its name in Python.
-        install: The command that installs it, if regkit does not know.
+        module: Name of its Python module.
+        install: Command to install it; by default from ``INSTALL``, or pip with its name.
 
     Raises:
-        DependencyError: If it, or a system library that it needs, is missing; the message holds
-            the command that installs it.
+        DependencyError: If it, or a system library that it needs, is missing; the message names
+            the command to install it.
     """
     name = module.partition(".")[0]
     command = install or INSTALL.get(name, f"pip install {name}")
@@ -46,18 +46,18 @@ def load_library(module: str, *, install: str | None = None) -> Any:
 
 
 def one_blas_thread() -> AbstractContextManager[object]:
-    """A context in which NumPy's matrix products use one thread.
+    """Context manager: NumPy's matrix products use one thread.
 
-    The products here are small; a second thread costs several times more than it brings.
+    The products here are small, so a second thread costs more than it gains.
     """
     return _limited(user_api="blas")
 
 
 def one_thread() -> AbstractContextManager[object]:
-    """A context in which the libraries that are loaded use one thread, in OpenMP too.
+    """Context manager: all loaded libraries use one thread, in OpenMP too.
 
-    The order in which threads add up changes the last bits of a sum, and with one thread there is
-    one order.
+    The order in which threads add up changes the last bits of a sum; one thread makes results
+    reproducible.
     """
     return _limited()
 

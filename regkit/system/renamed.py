@@ -1,4 +1,4 @@
-"""Names of the Python API that changed: the old one is answered with the new one."""
+"""Renamed arguments of the Python API: an old name is answered with the new one."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ R = TypeVar("R")
 
 
 def renamed_arguments(**names: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
-    """A decorator for a function some of whose keyword arguments had other names before.
+    """Decorator of a function with renamed keyword arguments.
 
     Args:
-        names: The names that the arguments have now, by those that they had.
+        names: New names of the arguments by their old ones.
     """
 
     def decorated(function: Callable[P, R]) -> Callable[P, R]:

@@ -1,4 +1,4 @@
-"""The laws of plug-ins as tests: a third party's whole conformance test is two lines.
+"""Conformance tests of plug-ins: two lines test a third party's distribution completely.
 
     from regkit.testing import conformance
 
@@ -6,7 +6,7 @@
 
 pytest then collects one test for each law and plug-in, such as
 ``TestConformance::test_shape_covers_every_segment[superquadric]``. See
-:func:`regkit.testing.conformance.conformance` for plug-ins that need an example of their options.
+:func:`regkit.testing.conformance.conformance` for plug-ins that need examples of their options.
 """
 
 from regkit.system.optional import load_library

@@ -1,4 +1,4 @@
-"""Laws of a kernel's Gauss-Newton blocks, with every shape whose primitives it compares."""
+"""Laws of a kernel's Gauss-Newton blocks, for every shape that it accepts."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from regkit.testing.laws import Laws, checked_on_every
 from regkit.testing.verdict import require
 
 TOO_FAR = 32.0
-"""A Gauss-Newton step that should be so many times longer or shorter has wrong blocks."""
+"""Maximum factor between a Gauss-Newton step and the best step of the same direction."""
 
 
 class BlockLaws(Laws):
-    """Laws of Gauss-Newton blocks, which a kernel may have."""
+    """Laws of Gauss-Newton blocks, which are optional in a kernel."""
 
     @pytest.fixture
     def bound(self, pair: Pair, body: Body, random: np.random.Generator) -> Bound:
-        """A kernel and a shape with data."""
+        """Returns a kernel bound to a shape and data."""
         return Bound.near(pair, body, random)
 
     def test_kernel_blocks_are_symmetric_and_semidefinite(self, bound: Bound) -> None:
@@ -36,7 +36,7 @@ class BlockLaws(Laws):
         )  # fmt: skip
         uneven = np.abs(blocks - np.swapaxes(blocks, 1, 2)).max() / size
         require(
-            uneven < 1e-9, bound.kernel, f"has blocks that are not symmetric, by {uneven:.2g} of "
+            uneven < 1e-9, bound.kernel, f"has blocks that are not symmetric: {uneven:.2g} of "
             "the largest entry", look_at=at,
         )  # fmt: skip
         least = np.linalg.eigvalsh(blocks).min() / size
@@ -47,7 +47,7 @@ class BlockLaws(Laws):
 
     @checked_on_every("option")
     def test_kernel_blocks_fit_its_forces(self, bound: Bound, random: np.random.Generator) -> None:
-        """A force acts only where there is stiffness, and the step has about the right length."""
+        """Forces act only along stiff directions, and the step has about the right length."""
         x, problem = bound.near_start(random), bound.problem()
         equations = problem.normal_equations(x)
         if equations is None:
@@ -56,15 +56,15 @@ class BlockLaws(Laws):
         step, *_ = np.linalg.lstsq(matrix, -gradient, rcond=1e-10)
         left = np.linalg.norm(matrix @ step + gradient) / np.linalg.norm(gradient)
         require(
-            left < 1e-3, bound.kernel, f"has blocks without stiffness where it has forces: "
-            f"{100 * left:.2g} % of the gradient cannot be stepped along", look_at=bound.answer,
+            left < 1e-3, bound.kernel, f"has blocks without stiffness along its forces: no step "
+            f"reduces {100 * left:.2g} % of the gradient", look_at=bound.answer,
         )  # fmt: skip
         length = best_length(problem, x, np.asarray(step))
         require(
-            length > 1.0 / TOO_FAR, bound.kernel, "has blocks that are too soft: the energy is "
-            f"least after {length:.2g} of the Gauss-Newton step", look_at=bound.answer,
+            length > 1.0 / TOO_FAR, bound.kernel, "has blocks that are too soft: the minimum is at "
+            f"{length:.2g} of the Gauss-Newton step", look_at=bound.answer,
         )  # fmt: skip
         require(
-            length < TOO_FAR, bound.kernel, "has blocks that are too stiff: the energy is least "
-            f"after {length:.3g} Gauss-Newton steps", look_at=bound.answer,
+            length < TOO_FAR, bound.kernel, "has blocks that are too stiff: the minimum is at "
+            f"{length:.3g} Gauss-Newton steps", look_at=bound.answer,
         )  # fmt: skip

@@ -1,4 +1,4 @@
-"""A kernel bound to data about a posed body, on which its laws are tried."""
+"""A kernel bound to data near a posed body, for the tests of its laws."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ from regkit.testing.shape_laws import attached
 
 @dataclass(frozen=True)
 class Bound:
-    """A kernel bound to data about a posed body.
+    """A kernel bound to data near a posed body.
 
     Attributes:
         pair: The kernel and the shape.
         body: The body.
         start: Its pose.
-        primitives: What the shape made of it.
+        primitives: Primitives of the shape on the body.
         data: The data.
     """
 
@@ -39,7 +39,7 @@ class Bound:
 
     @classmethod
     def near(cls, pair: Pair, body: Body, random: np.random.Generator) -> Bound:
-        """With noisy, uneven data before a camera."""
+        """Returns the kernel bound to noisy data of uneven weights, seen by a camera."""
         start = posed(body, random)
         data = data_of(body, start, random)
         return cls(pair, body, start, attached(pair.shape, body), data)
@@ -50,31 +50,31 @@ class Bound:
         return cast(Kernel, self.pair.plugin)
 
     def placed(self, pose: Pose | None = None) -> Placed[Primitives]:
-        """The primitives in a pose; without one, at the start."""
+        """Returns the primitives in a pose; by default in the start."""
         return self.primitives.place(self.body.place(pose or self.start).transforms)
 
     def similarity(self, smoothing: float = 0.0) -> Similarity:
-        """The kernel against the data."""
+        """Returns the kernel bound to the data."""
         return self.kernel.bind(self.data, self.placed(), smoothing=smoothing)
 
     def problem(self, smoothing: float = 0.0) -> RegistrationProblem:
-        """The energy on the degrees of freedom."""
+        """Returns the registration problem on the degrees of freedom."""
         chart = TangentCoordinates(self.body.skeleton, self.start)
         return RegistrationProblem(chart, self.primitives, {"kernel": self.similarity(smoothing)})
 
     def near_start(self, random: np.random.Generator, by: float = 0.05) -> Array:
-        """A point about the start, where nothing is special."""
+        """Returns a random point (n,) near the start."""
         return np.asarray(by * random.normal(size=self.body.skeleton.dofs))
 
     def moved(self, motion: Array) -> Bound:
-        """The same after a rigid motion of the body and the data."""
+        """Returns body and data after a common rigid motion (4, 4)."""
         return replace(
             self, start=moved_pose(self.start, motion), data=moved_data(self.data, motion)
         )
 
     @property
     def answer(self) -> object:
-        """The method that answers, where the kernel's author should look."""
+        """The method that computes the response, for the author to look at."""
         similarity = type(self.similarity())
         if issubclass(similarity, ResidualSimilarity):
             inherited = similarity.__call__ is ResidualSimilarity.__call__

@@ -1,4 +1,4 @@
-"""The cases that the laws are tried on: installed plug-ins with their options."""
+"""Cases of the laws: installed plug-ins with their options."""
 
 from __future__ import annotations
 
@@ -16,29 +16,29 @@ from regkit.interfaces import SLOTS, Kernel, ShapeModel, Term
 from regkit.system.errors import PluginError
 
 Options = Mapping[str, Any]
-"""A plug-in's fields, as they stand in YAML, without its kind."""
+"""A plug-in's fields as in YAML, without its kind."""
 Examples = Mapping[str, Options | Sequence[Options]]
-"""Options by kind, or by ``group.kind`` where two groups have one of that name."""
+"""Options by kind, or by ``group.kind`` if two groups have the same kind."""
 
 
 Scope = Literal["class", "pair", "option"]
-"""How much of what is installed a law is checked on, from little to much: every class once; every
-pair of a kernel's or a term's class with that of a shape; every named option besides."""
+"""Scope of a law: each class once; each pair of a kernel's or term's class with a shape's class; or
+each named option in addition."""
 
 
 @dataclass(frozen=True)
 class Case:
-    """A plug-in with options, or the reason why there is none.
+    """A plug-in with options, or the reason for its absence.
 
     Attributes:
         slot: Its group.
         kind: Its name.
-        name: How it is told apart from others, as the identifier of a test.
-        own: Whether it is of those that the tests are for, and not only their partner.
-        plugin: The plug-in, if it could be made.
-        missing: The required fields that no example gives.
+        name: Unique name in the identifier of a test.
+        own: Whether it is tested itself, and not only used by tests of others.
+        plugin: The plug-in, if it could be created.
+        missing: Required fields without an example.
         broken: Why it cannot be loaded.
-        scope: The least scope of the laws that are checked on it.
+        scope: Smallest scope of the laws that are tested on it.
     """
 
     slot: type[Plugin]
@@ -58,8 +58,8 @@ class Pair:
     Attributes:
         plugin: The kernel or the term.
         shape: The shape.
-        name: The identifier of a test.
-        scope: The least scope of the laws that are checked on it.
+        name: Identifier of a test.
+        scope: Smallest scope of the laws that are tested on it.
     """
 
     plugin: Plugin
@@ -69,15 +69,14 @@ class Pair:
 
 
 def cases(subjects: Sequence[str | type[Plugin]], examples: Examples) -> list[Case]:
-    """All installed plug-ins as cases.
+    """Returns all installed plug-ins as cases.
 
     Args:
-        subjects: Names of distributions and classes of plug-ins that are the tests' own; all are
-            without any.
-        examples: Options for those that need some, or that should be tried with several.
+        subjects: Names of distributions and classes of plug-ins to test; all if empty.
+        examples: Options of plug-ins with required fields, or further options to test.
 
     Raises:
-        PluginError: If a distribution brings no plug-in, or an example does not fit.
+        PluginError: If a distribution provides no plug-in, or an example is invalid.
     """
     found = []
     for slot in SLOTS:
@@ -90,21 +89,21 @@ def cases(subjects: Sequence[str | type[Plugin]], examples: Examples) -> list[Ca
     for subject in subjects:
         if isinstance(subject, str) and not any(same_distribution(subject, n) for n in brought):
             raise PluginError(
-                f"no installed distribution '{subject}' brings a plug-in (there are: "
+                f"no installed distribution '{subject}' provides a plug-in (there are: "
                 f"{', '.join(sorted(brought))}); install it: pip install -e ."
             )
         if not isinstance(subject, str) and not any(
             subject is origin for slot in SLOTS for origin in slot.available().values()
         ):
-            raise PluginError(f"{subject.__qualname__} is not registered: decorate it, @register")
+            raise PluginError(f"{subject.__qualname__} is not registered: decorate it by @register")
     return found
 
 
 def pairs(found: Sequence[Case], slot: type[Kernel] | type[Term]) -> list[Pair]:
-    """Kernels or terms with the shapes whose primitives they accept, one of which is an own.
+    """Returns kernels or terms with the shapes that they accept, one of which is under test.
 
-    A kernel is tried with every shape. A term looks at the primitives alone: it is tried with one
-    shape for each type of them. Other options of a kernel or a term are tried with one shape.
+    A kernel is paired with every shape. A term depends on the primitives alone: it is paired with
+    one shape for each type of them. Further options of both are paired with one shape.
     """
     made = []
     for one in found:
@@ -112,7 +111,7 @@ def pairs(found: Sequence[Case], slot: type[Kernel] | type[Term]) -> list[Pair]:
             continue
         partners = {
             (two.plugin.makes if slot is Term else two.name): (two.plugin, two)
-            for two in reversed(found)  # The first of a type comes last, and stays.
+            for two in reversed(found)  # The first shape of a type comes last, and stays.
             if isinstance(two.plugin, ShapeModel)
             and (one.own or two.own)
             and accepts(one.plugin, two.plugin)
@@ -127,7 +126,7 @@ def pairs(found: Sequence[Case], slot: type[Kernel] | type[Term]) -> list[Pair]:
 
 
 def accepts(plugin: Kernel | Term, shape: ShapeModel) -> bool:
-    """Whether a kernel or a term takes a shape's primitives."""
+    """Whether a kernel or a term accepts a shape's primitives."""
     if isinstance(plugin, Term):
         return issubclass(shape.makes, plugin.accepts)
     try:
@@ -164,8 +163,8 @@ def _cases_of(slot: type[Plugin], kind: str, own: bool, examples: Examples) -> I
         except ValidationError as error:
             missing = [str(each["loc"][0]) for each in error.errors() if each["type"] == "missing"]
             if given is not None:
-                raise PluginError(f"the example of {group}.{kind} does not fit: {error}") from None
-            # It may be a partner from elsewhere, which must not end the tests of others.
+                raise PluginError(f"the example of {group}.{kind} is invalid: {error}") from None
+            # A broken plug-in of another distribution must not end the tests of this one.
             broken = "" if missing else f"{group}.{kind} has defaults that {_misfit(error)}"
             yield Case(slot, kind, name, own, missing=tuple(missing), broken=broken)
             return
@@ -174,18 +173,18 @@ def _cases_of(slot: type[Plugin], kind: str, own: bool, examples: Examples) -> I
             try:
                 changed = plugin.model_validate({**options, **change})
             except ValidationError:
-                continue  # The choice needs others, which an example can make.
+                continue  # This choice requires other fields, which an example can provide.
             yield Case(slot, kind, f"{name}-{field}={value}", own, changed, scope="option")
 
 
 def _misfit(error: ValidationError) -> str:
-    """What is wrong with the fields, in one line."""
+    """Returns the invalid fields in one line."""
     wrong = [f"{'.'.join(map(str, each['loc']))}: {each['msg']}" for each in error.errors()]
-    return f"do not fit ({'; '.join(wrong)})"
+    return f"are invalid ({'; '.join(wrong)})"
 
 
 def _other_choices(plugin: type[Plugin], options: Options) -> Iterator[dict[str, Any]]:
-    """For each field with a few named values, those that are not taken anyway."""
+    """Yields, for each field with a few named values, those other than the current one."""
     for name, field in plugin.model_fields.items():
         if name == "kind" or typing.get_origin(field.annotation) is not Literal:
             continue
@@ -195,7 +194,7 @@ def _other_choices(plugin: type[Plugin], options: Options) -> Iterator[dict[str,
 
 
 def _leaves(options: Any) -> list[str]:
-    """The values in options, as parts of a test's identifier."""
+    """Returns the values in options, as parts of a test's identifier."""
     if isinstance(options, Mapping):
         return [leaf for value in options.values() for leaf in _leaves(value)]
     if isinstance(options, list | tuple):

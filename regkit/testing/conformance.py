@@ -35,34 +35,34 @@ LAWS: Mapping[str, tuple[type[Laws], ...]] = {
     "tracker": (TrackerLaws,),
     "method": (MethodLaws,),
 }
-"""The laws by the argument of their tests."""
+"""Laws by the argument of their tests."""
 
 
 class Conformance(Laws):
-    """Base of the classes that ``conformance`` makes."""
+    """Base of the classes from ``conformance``."""
 
 
 def conformance(
     *subjects: str | type[Plugin], examples: Examples | None = None
 ) -> type[Conformance]:
-    """The laws of plug-ins as a class of tests, to be bound to a name that begins with ``Test``.
+    """Returns a class with the laws of plug-ins as tests; assign it to a name like ``TestX``.
 
-    Each law is checked once for each class, with its defaults or the first example. Kernels are
-    tried with every shape whose primitives they accept, shapes with every kernel, and terms with
-    one shape for each type of primitives that they accept. The laws of gradients and blocks are
-    checked with every other example and with every value of each field that has a few named ones
-    besides. A plug-in with required fields is skipped, with the reason, unless there is an
-    example. A test class may be derived from this one to add laws of one's own,
-    or to override the fixtures ``body`` and ``rigid_body``, what shapes and methods are tried on.
+    Each law is tested once for each class, with its defaults or the first example. Kernels are
+    paired with every shape that they accept, shapes with every kernel, and terms with one shape for
+    each type of primitives that they accept. The laws of gradients and blocks are also tested with
+    every other example, and with every value of each field that has a few named ones. A plug-in
+    with required fields but no example is skipped, with the reason. Derive from the class to add
+    laws of your own, or to override the fixtures ``body`` and ``rigid_body`` for shapes and
+    methods.
 
     Args:
-        subjects: Names of distributions, or classes decorated with ``@register``; without any, all
-            that is installed is tried.
+        subjects: Names of distributions, or classes decorated by ``@register``; all installed
+            plug-ins if empty.
         examples: Options of plug-ins, as in YAML, by kind (or ``group.kind``): one mapping, or a
             list of them. ``{"my_dataset": {"root": "tests/data"}}``.
 
     Raises:
-        PluginError: If nothing of that name is installed, or an example does not fit.
+        PluginError: If no plug-in of that name is installed, or an example is invalid.
     """
     found = cases(subjects, examples or {})
     parameters: dict[str, list[Case | Pair]] = {

@@ -12,9 +12,9 @@ from regkit.testing.laws import Laws
 from regkit.testing.verdict import require, same
 
 FRAMES = 2
-"""No more are read of each recording."""
+"""Maximum number of frames to read of each recording."""
 RECORDINGS = 3
-"""The frames of no more are read."""
+"""Maximum number of recordings to read frames of."""
 
 
 class DatasetLaws(Laws):
@@ -22,13 +22,13 @@ class DatasetLaws(Laws):
 
     @pytest.fixture
     def recordings(self, dataset: Dataset) -> list[Recording]:
-        """All recordings, of which a few frames are read."""
+        """Returns all recordings, limited to a few frames each."""
         return dataset.model_copy(update={"frames": FRAMES}).chosen()
 
     def test_dataset_names_its_recordings(
         self, dataset: Dataset, recordings: list[Recording]
     ) -> None:
-        """There is one; names are unique and fit for folders; speed and length are positive."""
+        """Names are unique and valid as folders; frame rates and lengths are positive."""
         at = type(dataset).found
         names = [recording.name for recording in recordings]
         require(bool(names), dataset, "has no recording", look_at=at)
@@ -52,7 +52,7 @@ class DatasetLaws(Laws):
             )
 
     def test_dataset_has_the_recordings_that_are_asked_for(self, dataset: Dataset) -> None:
-        """``recordings`` chooses by name."""
+        """``recordings`` selects by name."""
         names = [recording.name for recording in dataset.chosen()]
         last = dataset.model_copy(update={"recordings": (names[-1],)})
         found = [recording.name for recording in last.chosen()]
@@ -64,32 +64,32 @@ class DatasetLaws(Laws):
     def test_dataset_frames_are_finite_and_as_many_as_it_says(
         self, dataset: Dataset, recordings: list[Recording]
     ) -> None:
-        """Points (N, 3) in metres; a depth image of its camera's size."""
+        """Points are (N, 3) in metres; a depth image has the size of its camera's."""
         for recording in recordings[:RECORDINGS]:
             at, frames = type(recording).frames, list(recording.frames())
             require(
-                len(frames) == recording.length, dataset, f"says that '{recording.name}' has "
-                f"{recording.length} frames and gives {len(frames)}", look_at=at,
+                len(frames) == recording.length, dataset, f"states that '{recording.name}' has "
+                f"{recording.length} frames but yields {len(frames)}", look_at=at,
             )  # fmt: skip
             for frame in frames:
                 points = np.asarray(frame.points)
                 require(
                     points.ndim == 2 and points.shape[1:] == (3,) and np.isfinite(points).all(),
-                    dataset, f"gives points of the shape {points.shape}, or not finite, in "
+                    dataset, f"yields points of shape {points.shape}, or not finite, in "
                     f"'{recording.name}'", look_at=at,
                 )  # fmt: skip
                 far = float(np.abs(points).max(initial=0.0))
                 require(
-                    far < 1000.0, dataset, f"gives a point {far:.3g} m away in '{recording.name}'; "
-                    "points are in metres", look_at=at,
+                    far < 1000.0, dataset, f"yields a point {far:.3g} m away in "
+                    f"'{recording.name}'; points must be in metres", look_at=at,
                 )  # fmt: skip
                 if frame.depth is not None:
                     camera = frame.camera
                     require(
                         camera is not None
                         and frame.depth.shape == (camera.height, camera.width),
-                        dataset, f"gives a depth image of the shape {frame.depth.shape} that is "
-                        "not its camera's", look_at=at,
+                        dataset, f"yields a depth image of shape {frame.depth.shape}, unlike "
+                        "its camera's", look_at=at,
                     )  # fmt: skip
 
     def test_dataset_reads_the_same_twice(
@@ -99,7 +99,7 @@ class DatasetLaws(Laws):
         first = recordings[0]
         require(
             same([frame.points for frame in first.frames()], [f.points for f in first.frames()]),
-            dataset, f"gives other frames of '{first.name}' when it is read again",
+            dataset, f"yields other frames of '{first.name}' when it is read again",
             look_at=type(first).frames,
         )  # fmt: skip
 
@@ -121,7 +121,7 @@ class DatasetLaws(Laws):
     def test_dataset_truth_has_a_row_for_each_frame(
         self, dataset: Dataset, recordings: list[Recording]
     ) -> None:
-        """(T, J, 3) positions of J joints with different names; NaN alone is not seen."""
+        """Positions are (T, J, 3) for J joints with different names; NaN marks unseen ones."""
         for recording in recordings[:RECORDINGS]:
             truth, at = recording.truth(), type(recording).truth
             if truth is None:
@@ -129,10 +129,10 @@ class DatasetLaws(Laws):
             expected = (recording.length, len(truth.joints), 3)
             require(
                 truth.positions.shape == expected and not np.isinf(truth.positions).any(), dataset,
-                f"has a truth of the shape {truth.positions.shape} for '{recording.name}'; it must "
+                f"has a truth of shape {truth.positions.shape} for '{recording.name}'; it must "
                 f"be {expected}, and finite or NaN", look_at=at,
             )  # fmt: skip
             require(
                 len(set(truth.joints)) == len(truth.joints), dataset,
-                f"has two reference joints of one name in '{recording.name}'", look_at=at,
+                f"has two reference joints with the same name in '{recording.name}'", look_at=at,
             )  # fmt: skip

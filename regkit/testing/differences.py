@@ -1,4 +1,4 @@
-"""Gradients and curvatures of a registration problem against differences of its energy."""
+"""Comparison of a problem's gradients and curvatures with finite differences of its energy."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from regkit.system.arrays import Array
 
 STEP = 1e-6
 SLOPE_TOLERANCE = 1e-4
-"""Of a slope against the difference quotient, as a part of the largest slope."""
+"""Tolerance between gradient and difference quotient, relative to the largest component."""
 
 
 @dataclass(frozen=True)
 class Slopes:
-    """A gradient beside difference quotients of the energy.
+    """A gradient and difference quotients of the energy.
 
     Attributes:
         claimed: The gradient, (n,).
@@ -29,7 +29,7 @@ class Slopes:
 
     @classmethod
     def of(cls, problem: Problem, x: Array) -> Slopes:
-        """Those of a problem at x (n,)."""
+        """Returns the gradients of a problem at x (n,)."""
         _, gradient = problem.value_and_gradient(x)
         ends = [
             [problem.value_and_gradient(x + sign * STEP * e)[0] for sign in (1.0, -1.0)]
@@ -39,36 +39,36 @@ class Slopes:
 
     @property
     def largest(self) -> float:
-        """The steepest of the measured slopes."""
+        """Largest absolute value of the measured gradient."""
         return float(np.abs(self.measured).max())
 
     @property
     def errors(self) -> Array:
-        """The differences, (n,), as parts of the largest slope."""
+        """Differences (n,), relative to the largest component."""
         return np.asarray(np.abs(self.claimed - self.measured) / max(self.largest, 1e-300))
 
     def agree(self) -> bool:
-        """Whether they are the same but for rounding."""
+        """Whether both agree apart from rounding."""
         return bool((self.errors < SLOPE_TOLERANCE).all())
 
-    def told(self, body: Body) -> str:
-        """What an author should know: the worst degree of freedom, and which ones are right."""
+    def message(self, body: Body) -> str:
+        """Returns a message with the worst degree of freedom, and a hint at the cause."""
         names = _dofs(body)
         worst = int(self.errors.argmax())
         text = (
-            f"has a gradient that is not the derivative of its energy: at {names[worst]} it claims "
-            f"{self.claimed[worst]:.6g}, differences give {self.measured[worst]:.6g}"
+            f"has a gradient that is not the derivative of its energy: at {names[worst]} it is "
+            f"{self.claimed[worst]:.6g}, but differences give {self.measured[worst]:.6g}"
         )
         wrong = self.errors >= SLOPE_TOLERANCE
         if body.skeleton.free and not wrong[:3].any():
-            return text + " (the forces are right, so it is the torques)"
+            return text + " (the forces are right, so the torques are wrong)"
         if np.allclose(self.claimed, -self.measured, atol=SLOPE_TOLERANCE * self.largest):
             return text + " (all signs are wrong: it must point uphill)"
         return text
 
 
 def _dofs(body: Body) -> list[str]:
-    """A name for each degree of freedom."""
+    """Returns a name for each degree of freedom."""
     bones = body.skeleton
     names = [f"degree of freedom {index}" for index in range(bones.dofs)]
     if bones.free:
@@ -81,7 +81,7 @@ def _dofs(body: Body) -> list[str]:
 
 
 def best_length(problem: Problem, x: Array, step: Array) -> float:
-    """By which power of two a step (n,) from x (n,) is to be multiplied to go lowest."""
+    """Returns the power of two by which the step (n,) from x (n,) reaches the lowest energy."""
     lengths = 2.0 ** np.arange(-14, 10)
     energies = [problem.value_and_gradient(x + length * step)[0] for length in lengths]
     return float(lengths[int(np.argmin(energies))])

@@ -1,4 +1,4 @@
-"""Laws: tests that are parametrised by the plug-ins that a conformance suite is for."""
+"""Laws: tests with the plug-ins of a conformance suite as parameters."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Law = TypeVar("Law", bound=Callable[..., None])
 
 
 def checked_on_every(scope: Scope) -> Callable[[Law], Law]:
-    """Mark a law that is not of a class alone, but of each pair of classes or each option."""
+    """Decorator of a law to test on each pair of classes, or on each option."""
 
     def marked(law: Law) -> Law:
         law.scope = scope  # type: ignore[attr-defined]
@@ -26,16 +26,16 @@ def checked_on_every(scope: Scope) -> Callable[[Law], Law]:
 
 
 class Laws:
-    """Tests that take a plug-in, or a pair of them, as their argument.
+    """Tests with a plug-in, or a pair of plug-ins, as their argument.
 
-    A law is checked once for each class of plug-ins, unless ``checked_on_every`` says otherwise.
+    A law is tested once for each class of plug-ins, unless ``checked_on_every`` sets another scope.
     """
 
     parameters: ClassVar[Mapping[str, Sequence[Case | Pair]]] = {}
-    """The cases by the name of the argument."""
+    """Cases by the name of the argument."""
 
     def pytest_generate_tests(self, metafunc: pytest.Metafunc) -> None:
-        """Give each test the cases of its argument."""
+        """Gives each test the cases of its argument."""
         scopes = get_args(Scope)
         checked = scopes[: 1 + scopes.index(getattr(metafunc.function, "scope", "class"))]
         for argument, cases in self.parameters.items():
@@ -45,17 +45,17 @@ class Laws:
 
     @pytest.fixture
     def body(self) -> Body:
-        """What is registered: a linkage with every type of joint, capsules and a skin."""
+        """The body to register: a linkage with every type of joint, capsules and a skin."""
         return linkage()
 
     @pytest.fixture
     def rigid_body(self) -> Body:
-        """What methods without joints register: a closed surface without symmetry."""
+        """The body for methods without joints: a closed surface without symmetry."""
         return lump()
 
     @pytest.fixture
     def random(self) -> np.random.Generator:
-        """The same numbers in every test."""
+        """Random numbers, the same in every test."""
         return np.random.default_rng(7)
 
 

@@ -20,9 +20,9 @@ from regkit.testing.samples import posed, surface_data
 from regkit.testing.verdict import copied, require, same
 
 STAYS = 0.05
-"""How far a body may move from where its own surface is, as a part of its size."""
+"""Maximum motion of a body from its own surface, relative to its size."""
 DISTURBED = 0.08
-"""By how much a start is off, in each joint [rad] and as a part of the body's size."""
+"""Disturbance of a start, in each joint [rad] and relative to the body's size."""
 
 
 class MethodLaws(Laws):
@@ -30,7 +30,7 @@ class MethodLaws(Laws):
 
     @pytest.fixture
     def registrar(self, method: Method, body: Body, rigid_body: Body) -> Registrar:
-        """The method for the body with joints or, if it refuses that, for the rigid one."""
+        """Returns the method bound to the body with joints or, if refused, to the rigid one."""
         refusals = []
         for each in (body, rigid_body):
             try:
@@ -41,26 +41,26 @@ class MethodLaws(Laws):
                 refusals.append(str(error))
         require(
             False, method, f"refuses both sample bodies ({'; '.join(refusals)}); override the "
-            "fixture `body` with one that it takes", look_at=type(method).bind,
+            "fixture `body` by one that it accepts", look_at=type(method).bind,
         )  # fmt: skip
         raise AssertionError
 
     def test_method_stays_where_it_is_right(
         self, registrar: Registrar, method: Method, random: np.random.Generator
     ) -> None:
-        """Set out from the truth, the body stays where its surface is, within a small part."""
+        """From the true pose, the body hardly moves away from its surface."""
         truth = posed(registrar.body, random)
         found = _registered(registrar, surface_data(registrar.body, truth), truth)
         by = _distance(registrar.body, found.pose, truth) / registrar.body.size
         require(
-            by < STAYS, method, f"leaves a perfect start by {100 * by:.2g} % of the body's size",
+            by < STAYS, method, f"moves a perfect start by {100 * by:.2g} % of the body's size",
             look_at=type(registrar).register,
         )  # fmt: skip
 
     def test_method_improves_a_disturbed_start(
         self, registrar: Registrar, method: Method, random: np.random.Generator
     ) -> None:
-        """Its pose is nearer to the truth than the start, and its own energy is no worse."""
+        """The result is closer to the truth than the start, with no higher energy."""
         body, at = registrar.body, type(registrar).register
         truth = posed(body, random)
         data = surface_data(body, truth)
@@ -70,19 +70,19 @@ class MethodLaws(Laws):
         found = _registered(registrar, data, start)
         before, after = (_distance(body, pose, truth) for pose in (start, found.pose))
         require(
-            after < 0.9 * before, method, f"brings a body that is {before:.3g} m off to "
+            after < 0.9 * before, method, f"brings a start that is {before:.3g} m off only to "
             f"{after:.3g} m", look_at=at,
         )  # fmt: skip
         first, last = (registrar.evaluate(data, pose).energy for pose in (start, found.pose))
         require(
-            last <= first + 1e-9 * abs(first), method, f"ends with the energy {last:.6g}, worse "
+            last <= first + 1e-9 * abs(first), method, f"ends with the energy {last:.6g}, higher "
             f"than {first:.6g} at the start", look_at=at,
         )  # fmt: skip
 
     def test_method_tells_how_far_points_are_explained(
         self, registrar: Registrar, method: Method, random: np.random.Generator
     ) -> None:
-        """From 0 to 1 for each point, or NaN where it cannot tell."""
+        """Inlier probabilities are 0 to 1 for each point, or NaN if unknown."""
         truth = posed(registrar.body, random)
         data = surface_data(registrar.body, truth)
         explained = registrar.evaluate(data, truth).inlier_probability
@@ -93,26 +93,26 @@ class MethodLaws(Laws):
                 explained.shape == (len(data.points),)
                 and known.min() >= 0.0
                 and known.max() <= 1.0 + 1e-9
-            ), method, f"explains points in the shape {explained.shape}, not as 0 to 1",
+            ), method, f"returns inlier probabilities of shape {explained.shape}, or not 0 to 1",
             look_at=type(registrar).evaluate,
         )  # fmt: skip
 
     def test_method_is_deterministic_and_changes_nothing(
         self, registrar: Registrar, method: Method, random: np.random.Generator
     ) -> None:
-        """Asked twice it finds the same pose, and writes to neither data nor start."""
+        """Repeated, it finds the same pose, and it modifies neither data nor start."""
         truth = posed(registrar.body, random)
         data, at = surface_data(registrar.body, truth), type(registrar).register
         before = copied((data.points, data.weights, truth.root, truth.balls, truth.hinges))
         first, second = (_registered(registrar, data, truth) for _ in range(2))
         by = _distance(registrar.body, first.pose, second.pose)
         require(
-            by < 1e-9, method, f"finds another pose when it is asked again, {by:.2g} m away; seed "
-            "what is random", look_at=at,
+            by < 1e-9, method, f"finds a pose {by:.2g} m away when called again; seed random "
+            "numbers", look_at=at,
         )  # fmt: skip
         require(
             same(before, (data.points, data.weights, truth.root, truth.balls, truth.hinges)),
-            method, "changes the data or the start that it is given", look_at=at,
+            method, "modifies the data or the start", look_at=at,
         )  # fmt: skip
 
 
@@ -123,14 +123,14 @@ def _registered(registrar: Registrar, data: Observation, start: Pose) -> Registr
 
 @contextmanager
 def _foreign_warnings() -> Iterator[None]:
-    """Libraries that methods call may warn of what they like."""
+    """Ignores warnings of libraries that methods call."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         yield
 
 
 def _distance(body: Body, first: Pose, second: Pose) -> float:
-    """The mean distance of the surface's points in two poses [m]."""
+    """Returns the mean distance of the surface's points between two poses [m]."""
     assert body.surface is not None
     places: list[Array] = [
         body.surface.place(body.place(pose).transforms) for pose in (first, second)

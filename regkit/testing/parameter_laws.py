@@ -1,4 +1,4 @@
-"""Laws of what a shape model lets a template list."""
+"""Laws of a shape model's parameters in templates."""
 
 from __future__ import annotations
 
@@ -20,19 +20,19 @@ DEFORMATIONS = (
     (Stretch.along(np.array([0.0, 1.0, 0.0]), 1.2, 0.9), np.diag([0.9, 1.2, 0.9])),
     (Mirror(), np.diag([-1.0, 1.0, 1.0])),
 )
-"""What primitives are tried in, and what it does to points."""
+"""Deformations of primitives, and their effect on points."""
 
 POINTS = 400
-"""Inside each segment."""
+"""Number of points inside each segment."""
 
 
 class ParameterLaws(Laws):
-    """Laws of shape models whose parameters a template lists."""
+    """Laws of shape models with parameters in templates."""
 
     def test_shape_fits_its_parameters(
         self, shape: ShapeModel, body: Body, random: np.random.Generator
     ) -> None:
-        """A fitted primitive has about the mean and the spread of the points in its segment."""
+        """A fitted primitive has about the mean and spread of the points in its segment."""
         made = _made(shape)
         for points in _flesh(body, random).values():
             mean, covariance = made.fitted(points).moments()
@@ -41,14 +41,14 @@ class ParameterLaws(Laws):
             ratio = float(np.sqrt(np.trace(covariance))) / size
             require(
                 off < 0.5 * size and 0.5 < ratio < 2.0, shape, f"fits parameters {off:.2g} m from "
-                f"the points, {ratio:.2g} times as large; both must be about those of the points",
+                f"the points and {ratio:.2g} times as large; both must match the points",
                 look_at=made.fitted,
             )  # fmt: skip
 
     def test_shape_parameters_follow_the_segment(
         self, shape: ShapeModel, body: Body, random: np.random.Generator
     ) -> None:
-        """Scaled, stretched or mirrored, a primitive moves as the points of its segment do."""
+        """Scaled, stretched or mirrored, a primitive moves like the points of its segment."""
         made = _made(shape)
         for points in _flesh(body, random).values():
             one = made.fitted(points)
@@ -58,10 +58,10 @@ class ParameterLaws(Laws):
                 after, spread = one.deformed(deformation).moments()
                 by = float(np.abs(after - matrix @ mean).max())
                 require(
-                    by < 1e-9, shape, f"has parameters whose middle is off by {by:.2g} m after a "
+                    by < 1e-9, shape, f"has parameters whose centre is off by {by:.2g} m after a "
                     f"{name}", look_at=made.deformed,
                 )  # fmt: skip
-                # A stretched primitive may keep its form, as a sphere does.
+                # A stretched primitive may keep its shape, as a sphere does.
                 by = float(np.abs(spread - matrix @ covariance @ matrix.T).max())
                 require(
                     isinstance(deformation, Stretch) or by < 1e-9, shape,
@@ -72,7 +72,7 @@ class ParameterLaws(Laws):
     def test_shape_parameters_are_written_as_they_are_read(
         self, shape: ShapeModel, body: Body, random: np.random.Generator
     ) -> None:
-        """To the decimals of a template's file: the moments differ by less than 1 mm."""
+        """Rounding in a template's file changes the moments by less than 1 mm."""
         made = _made(shape)
         for points in _flesh(body, random).values():
             one = made.fitted(points)
@@ -89,7 +89,7 @@ class ParameterLaws(Laws):
     def test_shape_takes_the_parameters_of_the_body(
         self, shape: ShapeModel, body: Body, random: np.random.Generator
     ) -> None:
-        """What is listed becomes primitives on the listed segments, and grows with the body."""
+        """Listed parameters become primitives on their segments, and scale with the body."""
         made = _made(shape)
         listed = {name: made.fitted(points) for name, points in _flesh(body, random).items()}
         own, larger = (
@@ -110,20 +110,20 @@ class ParameterLaws(Laws):
             float(np.abs(larger.scales - scaled.scales).max()),
         )
         require(
-            by < 1e-9, shape, f"makes primitives off by {by:.2g} m of parameters that are scaled, "
-            "against those that are scaled themselves", look_at=type(shape).bind,
+            by < 1e-9, shape, f"makes primitives of scaled parameters that differ by "
+            f"{by:.2g} m from its own scaled primitives", look_at=type(shape).bind,
         )  # fmt: skip
 
 
 def _made(shape: ShapeModel) -> type[ShapeParameters]:
-    """The class of a shape model's parameters; one without them is skipped."""
+    """Returns the class of a shape model's parameters; skips the test without one."""
     if shape.parameters is None:
-        pytest.skip("no template lists its parameters")
+        pytest.skip("it has no parameters in templates")
     return shape.parameters
 
 
 def _flesh(body: Body, random: np.random.Generator) -> dict[str, Array]:
-    """Points inside the capsules of each segment that has some, (N, 3) in its frame [m]."""
+    """Returns points inside the capsules of each segment with some, (N, 3) in its frame [m]."""
     found = {}
     for segment in np.unique(body.capsules.segments):
         own = body.capsules.selected(body.capsules.segments == segment)
@@ -136,6 +136,6 @@ def _flesh(body: Body, random: np.random.Generator) -> dict[str, Array]:
 
 
 def _listing(body: Body, kind: str, listed: dict[str, Any]) -> Body:
-    """The body with one primitive of a kind on each of some segments."""
+    """Returns the body with one primitive of a kind on each of some segments."""
     segments = np.array([body.skeleton.names.index(name) for name in listed], dtype=np.intp)
     return replace(body, shapes={kind: ListedShape(segments, tuple(listed.values()))})

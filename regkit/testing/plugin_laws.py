@@ -1,4 +1,4 @@
-"""What holds for every plug-in: it can be loaded, is documented, frozen, and survives YAML."""
+"""Laws of all plug-ins: they load, are documented, frozen, and survive YAML."""
 
 from __future__ import annotations
 
@@ -20,16 +20,16 @@ class PluginLaws(Laws):
     """Laws of all plug-ins."""
 
     def test_plugin_can_be_loaded(self, plugin: Case) -> None:
-        """Its entry point leads to a complete plug-in of its group."""
+        """Its entry point names a complete plug-in of its group."""
         if plugin.broken:
             pytest.fail(plugin.broken, pytrace=False)
 
     def test_plugin_is_documented(self, plugin: Case) -> None:
-        """The class and each of its fields have a docstring: they are the help and the schema."""
+        """The class and its fields have docstrings, which become help and schema."""
         found = _loaded(plugin)
         require(
             bool(inspect.cleandoc(found.__doc__ or "")), found.model_construct(),
-            "has no docstring, which `regkit plugins` shows and editors complete", look_at=found,
+            "has no docstring, which `regkit plugins` and editors show", look_at=found,
         )  # fmt: skip
         silent = [
             name
@@ -42,7 +42,7 @@ class PluginLaws(Laws):
         )  # fmt: skip
 
     def test_plugin_is_frozen(self, plugin: Case) -> None:
-        """No field can be set: what depends on the data is an argument, never a state."""
+        """No field can be set: data are arguments, never a state."""
         made = _made(plugin)
         frozen = True
         try:
@@ -52,18 +52,18 @@ class PluginLaws(Laws):
         except ValidationError:
             pass
         require(
-            frozen, made, "can be changed after it is made; leave model_config frozen",
+            frozen, made, "can be modified after its creation; keep model_config frozen",
             look_at=type(made),
         )  # fmt: skip
 
     def test_plugin_round_trips_through_yaml(self, plugin: Case) -> None:
-        """What ``model_dump`` writes is read back as the same plug-in."""
+        """The output of ``model_dump`` is read back as the same plug-in."""
         made = _made(plugin)
         try:
             written: dict[str, Any] = made.model_dump(mode="json")
         except PydanticSerializationError as error:
             require(
-                False, made, f"has a field that cannot be written as YAML ({error})",
+                False, made, f"has a field without a YAML form ({error})",
                 look_at=type(made),
             )  # fmt: skip
             raise

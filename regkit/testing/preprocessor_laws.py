@@ -20,7 +20,7 @@ class PreprocessorLaws(Laws):
 
     @pytest.fixture(params=["cloud", "depth"])
     def frame(self, request: pytest.FixtureRequest) -> Frame:
-        """A cloud, and the depth image of a ball and a wall."""
+        """Returns a cloud, or the depth image of a ball in front of a wall."""
         if request.param == "cloud":
             return Frame(lump_points(600) + np.array([0.0, 0.0, 1.0]), place="a cloud")
         v, u = np.mgrid[: CAMERA.height, : CAMERA.width]
@@ -31,13 +31,13 @@ class PreprocessorLaws(Laws):
     def test_preprocessor_gives_finite_points_with_positive_weights(
         self, preprocessor: Preprocessor, frame: Frame
     ) -> None:
-        """(N, 3) points, (N,) weights and variances, unit normals if there are any."""
+        """Points are (N, 3), weights and variances (N,), normals of unit length or None."""
         seen, at = preprocessor.preprocess(frame), type(preprocessor).preprocess
         count = len(seen.points)
         require(
             0 < count <= len(frame.points) and seen.points.shape == (count, 3)
             and np.isfinite(seen.points).all(), preprocessor,
-            f"makes points of the shape {seen.points.shape} of {len(frame.points)}, or not finite",
+            f"makes points of shape {seen.points.shape} from {len(frame.points)}, or not finite",
             look_at=at,
         )  # fmt: skip
         for name in ("weights", "variances"):
@@ -45,8 +45,7 @@ class PreprocessorLaws(Laws):
             require(
                 values.shape == (count,) and np.isfinite(values).all() and (values > 0.0).all(),
                 preprocessor,
-                f"makes {name} of the shape {values.shape}, or not positive; they must "
-                f"be {(count,)}",
+                f"makes {name} of shape {values.shape}, or not positive; they must be {(count,)}",
                 look_at=at,
             )
         if seen.normals is not None:
@@ -56,14 +55,14 @@ class PreprocessorLaws(Laws):
                 f"makes normals whose length is off by {off:.2g}", look_at=at,
             )  # fmt: skip
         require(
-            seen.camera is frame.camera, preprocessor, "does not hand on the frame's camera",
+            seen.camera is frame.camera, preprocessor, "does not pass on the frame's camera",
             look_at=at,
         )  # fmt: skip
 
     def test_preprocessor_moves_with_the_frame(
         self, preprocessor: Preprocessor, frame: Frame
     ) -> None:
-        """The data's centre is that of the moved points, within the data's own deviation."""
+        """The data's centre moves with the points, within the data's standard deviation."""
         turn = vector_to_matrix(np.array([0.1, -0.2, 0.3]))
         motion = rigid(turn, np.array([0.05, 0.02, 0.1]))
         before = preprocessor.preprocess(Frame(frame.points))
@@ -77,7 +76,7 @@ class PreprocessorLaws(Laws):
             by <= allowed,
             preprocessor,
             f"does not move with the frame: the centre of its data is off "
-            f"by {by:.2g} m, more than their deviation of {allowed:.2g} m",
+            f"by {by:.2g} m, more than their standard deviation of {allowed:.2g} m",
             look_at=type(preprocessor).preprocess,
         )
 
@@ -85,7 +84,7 @@ class PreprocessorLaws(Laws):
     def test_preprocessor_refuses_what_is_no_cloud(
         self, preprocessor: Preprocessor, points: str
     ) -> None:
-        """With a ``DataError``: an empty frame, and coordinates that are not finite."""
+        """Raises ``DataError`` for an empty frame, or coordinates that are not finite."""
         cloud = lump_points(100)
         if points == "empty":
             cloud = cloud[:0]
@@ -99,21 +98,21 @@ class PreprocessorLaws(Laws):
         require(
             refused,
             preprocessor,
-            f"takes a frame whose points are {points}; it must raise a "
-            "DataError, as regkit.system.arrays.checked_points",
+            f"accepts a frame with points {points}; it must raise a "
+            "DataError, like regkit.system.arrays.checked_points",
             look_at=type(preprocessor).preprocess,
         )
 
     def test_preprocessor_is_deterministic_and_changes_nothing(
         self, preprocessor: Preprocessor, frame: Frame
     ) -> None:
-        """Asked twice it sees the same, and the frame stays as it was."""
+        """Repeated, it returns the same, and it does not modify the frame."""
         before, at = copied((frame.points, frame.depth)), type(preprocessor).preprocess
         first, second = preprocessor.preprocess(frame), preprocessor.preprocess(frame)
         require(
-            same(first, second), preprocessor, "sees something else when it looks again", look_at=at
+            same(first, second), preprocessor, "returns another result when repeated", look_at=at
         )
         require(
             same(before, (frame.points, frame.depth)), preprocessor,
-            "changes the frame that it is given", look_at=at,
+            "modifies the frame", look_at=at,
         )  # fmt: skip

@@ -1,4 +1,4 @@
-"""Functions that are easy, hard and broken, for solvers to make small."""
+"""Easy, hard and broken functions for solvers to minimize."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from regkit.interfaces import Problem
 from regkit.system.arrays import Array
 
 Function = Callable[[Array], tuple[float, Array]]
-"""A value and its gradient (m,) at x (m,)."""
+"""Returns value and gradient (m,) at x (m,)."""
 
 SCALES = np.array([1.0, 10.0, 0.3, 4.0])
 TARGET = np.array([0.5, -1.0, 2.0, 0.1])
-"""Where ``bowl`` is least."""
+"""Minimum of ``bowl``."""
 
 
 class Watched(Problem):
-    """A function on a box, which remembers where it was asked.
+    """A function on a box that records its evaluations.
 
     Attributes:
-        asked: The points, in their order.
+        asked: The evaluated points, in order.
     """
 
     def __init__(
@@ -39,12 +39,12 @@ class Watched(Problem):
         self._function = function
 
     def value_and_gradient(self, x: Array) -> tuple[float, Array]:
-        """What the function says."""
+        """Returns value and gradient of the function."""
         self.asked.append(np.array(x))
         return self._function(x)
 
     def normal_equations(self, x: Array) -> tuple[float, Array, Array]:
-        """The Hessian by differences, its negative curvature taken away."""
+        """Returns the Hessian by differences, with its negative curvature removed."""
         value, gradient = self.value_and_gradient(x)
         step = 1e-5
         with np.errstate(invalid="ignore"):
@@ -60,14 +60,14 @@ class Watched(Problem):
 
 
 def bowl(x: Array) -> tuple[float, Array]:
-    """A quadratic, tilted so that the axes are not its own."""
+    """A quadratic, rotated out of the coordinate axes."""
     mix = np.eye(4) + 0.3 * np.ones((4, 4))
     offset = mix @ (x - TARGET)
     return float(0.5 * offset @ (SCALES * offset)), mix.T @ (SCALES * offset)
 
 
 def rosenbrock(x: Array) -> tuple[float, Array]:
-    """The curved valley, least at (1, 1)."""
+    """The curved valley, with its minimum at (1, 1)."""
     a, b = x
     value = (1.0 - a) ** 2 + 100.0 * (b - a * a) ** 2
     slope = [-2.0 * (1.0 - a) - 400.0 * a * (b - a * a), 200.0 * (b - a * a)]
@@ -75,7 +75,7 @@ def rosenbrock(x: Array) -> tuple[float, Array]:
 
 
 def broken_away(x: Array) -> tuple[float, Array]:
-    """NaN, value and gradient, as soon as one leaves the start's neighbourhood."""
+    """A function whose value and gradient are NaN outside a neighbourhood of the start."""
     value, gradient = bowl(x)
     if np.linalg.norm(x) > 0.05:
         return np.nan, np.full(len(x), np.nan)
@@ -89,21 +89,21 @@ def wrong_gradient(x: Array) -> tuple[float, Array]:
 
 
 def bumpy(x: Array) -> tuple[float, Array]:
-    """Full of local minima, and a gradient that knows only the large ones."""
+    """A function with many local minima, and a gradient that ignores the small ones."""
     value, gradient = bowl(x)
     return value + 3.0 * float(np.sin(40.0 * x).sum()), gradient
 
 
 def cliff(x: Array) -> tuple[float, Array]:
-    """The true bowl near the start, and infinite beyond."""
+    """The bowl near the start, infinite beyond."""
     value, gradient = bowl(x)
     return (np.inf if x[0] > 0.2 else value), gradient
 
 
 def constant(x: Array) -> tuple[float, Array]:
-    """No force anywhere."""
+    """A constant, without any force."""
     return -1.5, np.zeros(len(x))
 
 
 HARD: tuple[Function, ...] = (bowl, broken_away, wrong_gradient, bumpy, cliff, constant)
-"""What a solver must come back from with no worse than it was given."""
+"""Functions on which a solver must not return a worse value than the start's."""

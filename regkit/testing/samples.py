@@ -1,4 +1,4 @@
-"""What the laws are tried on: two small bodies, and data about them."""
+"""Samples for the laws: two small bodies, and data near them."""
 
 from __future__ import annotations
 
@@ -22,28 +22,28 @@ from regkit.system.arrays import Array
 
 LINKAGE = Path(__file__).with_name("linkage.yaml")
 CAMERA = Camera(width=176, height=144, fx=230.0, fy=230.0, cx=87.5, cy=71.5)
-"""Its principal point is its middle, so that a half turn about its axis maps pixels on pixels."""
+"""Its principal point is its centre: a half turn about its axis maps pixels to pixels."""
 RINGS, SPOKES = 4, 6
-"""Vertices of a capsule's skin, along the axis and around it."""
+"""Number of vertices of a capsule's skin, along the axis and around it."""
 BLENDED = 0.25
-"""Where the first ring of a child segment's skin follows the parent, by how much it does."""
+"""Blending weight of the parent in the first ring of a child segment's skin."""
 
 
 @lru_cache
 def linkage() -> Body:
-    """A body of six segments with every type of joint, capsules, and a skin about them."""
+    """Returns a body of six segments with every type of joint, capsules, and a skin."""
     body = Document.read(LINKAGE).validated(BodyDescription).body("linkage", 1.2)
     return replace(body, surface=_skin(body))
 
 
 @lru_cache
 def lump() -> Body:
-    """A rigid body of 300 points on a closed surface without symmetry, about 0.4 m long."""
+    """Returns a rigid body of 300 points on a closed, asymmetric surface of about 0.4 m."""
     return cloud_body("lump", lump_points(300))
 
 
 def lump_points(count: int, seed: int = 3) -> Array:
-    """Points on the lump's surface, (count, 3) [m]."""
+    """Returns points on the lump's surface, (count, 3) [m]."""
     directions = np.random.default_rng(seed).normal(size=(count, 3))
     directions /= np.linalg.norm(directions, axis=1, keepdims=True)
     x, y, z = directions.T
@@ -52,7 +52,7 @@ def lump_points(count: int, seed: int = 3) -> Array:
 
 
 def posed(body: Body, random: np.random.Generator, spread: float = 0.4) -> Pose:
-    """A pose before the camera: turned at will, each joint by about ``spread`` [rad]."""
+    """Returns a random pose in front of the camera, with joints of about ``spread`` [rad]."""
     bones = body.skeleton
     root = rigid(vector_to_matrix(random.normal(size=3)), np.array([0.2, -0.1, 2.0]))
     pose = bones.retract(bones.rest(root), spread * random.normal(size=bones.dofs))
@@ -62,9 +62,9 @@ def posed(body: Body, random: np.random.Generator, spread: float = 0.4) -> Pose:
 def data_of(
     body: Body, pose: Pose, random: np.random.Generator, noise: float = 0.02
 ) -> Observation:
-    """What is measured of a body in a pose: uneven weights, two variances, normals and a camera.
+    """Returns data of a posed body: uneven weights, two variances, normals and a camera.
 
-    Nothing in it is the same in all directions, so that a wrong torque cannot hide.
+    Nothing in it is isotropic, so that a wrong torque cannot go unnoticed.
     """
     assert body.surface is not None
     surface = body.surface.place(body.place(pose).transforms)
@@ -73,7 +73,7 @@ def data_of(
     normals = random.normal(size=(140, 3))
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
     depth = np.zeros((CAMERA.height, CAMERA.width))
-    depth[40:100, 90:120] = 2.1  # A silhouette that the body is partly beside, partly before.
+    depth[40:100, 90:120] = 2.1  # A silhouette that partly covers the body.
     return Observation(
         points=points,
         weights=random.uniform(0.5, 2.0, 140),
@@ -85,7 +85,7 @@ def data_of(
 
 
 def surface_data(body: Body, pose: Pose, sigma: float = 0.01) -> Observation:
-    """A body's surface in a pose as data, without noise and seen from all sides."""
+    """Returns a body's surface in a pose as data, without noise and seen from all sides."""
     assert body.surface is not None
     points = body.surface.place(body.place(pose).transforms)
     count = len(points)
@@ -95,18 +95,18 @@ def surface_data(body: Body, pose: Pose, sigma: float = 0.01) -> Observation:
 
 
 def moved_data(data: Observation, motion: Array) -> Observation:
-    """Data after a rigid motion (4, 4); without a depth image, which cannot follow it."""
+    """Returns data after a rigid motion (4, 4), without the depth image, which cannot move."""
     normals = None if data.normals is None else data.normals @ motion[:3, :3].T
     return replace(data, points=transformed(motion, data.points), normals=normals, depth=None)
 
 
 def moved_pose(pose: Pose, motion: Array) -> Pose:
-    """A pose after a rigid motion (4, 4) of the whole body."""
+    """Returns a pose after a rigid motion (4, 4) of the whole body."""
     return Pose(motion @ pose.root, pose.balls, pose.hinges)
 
 
 def _skin(body: Body) -> SkinnedSurface:
-    """Rings about the capsules; where a segment begins, they follow its parent too."""
+    """Returns rings around the capsules; the first ones of a segment also follow its parent."""
     transforms = body.place(body.skeleton.rest()).transforms
     parents = np.where(body.skeleton.parents < 0, 0, body.skeleton.parents)
     capsules = body.capsules.place(transforms)
@@ -143,7 +143,7 @@ def _skin(body: Body) -> SkinnedSurface:
 
 
 def _tube() -> list[tuple[int, int, int]]:
-    """The triangles between the rings of one capsule, outward."""
+    """Returns the triangles between the rings of a capsule, oriented outward."""
     triangles = []
     for ring in range(RINGS - 1):
         for spoke in range(SPOKES):

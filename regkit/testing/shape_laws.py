@@ -18,19 +18,19 @@ from regkit.testing.samples import posed
 from regkit.testing.verdict import copied, require, same
 
 OUTSIDE = 0.05
-"""How far a primitive's centre may be outside of its segment, as a part of the body's size."""
+"""Maximum distance of a centre from its segment's surface, relative to the body's size."""
 TURNED = 1.5
-"""So many times farther outside with the axes that are given than with their inverse is wrong."""
+"""Maximum ratio of the distances outside with the given and with the inverse axes."""
 
 
 def attached(shape: ShapeModel, body: Body) -> Primitives:
-    """The primitives of a body; a shape model that makes none of them fails the test."""
+    """Returns the primitives of a body; fails the test if the shape model makes none."""
     try:
         primitives = shape.bind(body)
     except RegkitError as error:
         require(
             False, shape,
-            f"refuses the sample body ({error}); override the fixture `body` with another",
+            f"refuses the sample body ({error}); override the fixture `body` by another",
             look_at=type(shape).bind,
         )  # fmt: skip
         raise
@@ -46,7 +46,7 @@ class ShapeLaws(Laws):
     """Laws of shape models."""
 
     def test_shape_makes_what_it_says(self, shape: ShapeModel, body: Body) -> None:
-        """``bind`` gives primitives of the type ``makes``, with arrays of the right shapes."""
+        """``bind`` returns primitives of the type ``makes``, with arrays of the right shapes."""
         primitives, make = attached(shape, body), type(shape).bind
         count = len(primitives)
         for name, expected in {
@@ -56,14 +56,14 @@ class ShapeLaws(Laws):
             values = np.asarray(getattr(primitives, name))
             require(
                 values.shape == expected and np.isfinite(values).all(), shape,
-                f"makes {name} of the shape {values.shape}, or not finite; they must be finite, "
+                f"makes {name} of shape {values.shape}, or not finite; they must be finite, "
                 f"{expected}", look_at=make,
             )  # fmt: skip
         off = np.abs(primitives.axes @ np.swapaxes(primitives.axes, 1, 2) - np.eye(3)).max()
         require(
             off < 1e-6 and (np.linalg.det(primitives.axes) > 0.0).all(), shape,
-            f"makes axes that are no rotations, by {off:.2g}; their columns must be unit vectors "
-            "at right angles, right-handed", look_at=make,
+            f"makes axes that are not rotations, by {off:.2g}; their columns must be orthogonal "
+            "unit vectors, right-handed", look_at=make,
         )  # fmt: skip
         require(
             (primitives.weights > 0.0).all() and (primitives.scales >= 0.0).all(), shape,
@@ -71,17 +71,17 @@ class ShapeLaws(Laws):
         )  # fmt: skip
 
     def test_shape_covers_every_segment(self, shape: ShapeModel, body: Body) -> None:
-        """A segment that has a surface is carried by a primitive, or nothing pulls at it."""
+        """Each segment with a surface has a primitive; without one, no force acts on it."""
         primitives, names = attached(shape, body), body.skeleton.names
         fleshy = np.unique(body.capsules.segments)
         bare = [names[segment] for segment in np.setdiff1d(fleshy, primitives.segments)]
         require(
-            not bare, shape, f"leaves segments without a primitive: {', '.join(bare)}",
+            not bare, shape, f"has segments without a primitive: {', '.join(bare)}",
             look_at=type(shape).bind,
         )  # fmt: skip
 
     def test_shape_lies_where_its_segments_are(self, shape: ShapeModel, body: Body) -> None:
-        """Each centre is within its own segment's flesh, or no farther out than a twentieth."""
+        """Each centre is inside its own segment, or outside by at most 5 % of the body's size."""
         primitives, transforms = attached(shape, body), body.place(body.skeleton.rest()).transforms
         centres, flesh = primitives.place(transforms).centres, body.capsules.place(transforms)
         for segment in np.unique(np.intersect1d(primitives.segments, flesh.segments)):
@@ -89,21 +89,21 @@ class ShapeLaws(Laws):
             outside = flesh.selected(flesh.segments == segment).surface_distance(own)
             require(
                 outside.max() < OUTSIDE * body.size, shape, f"has a primitive {outside.max():.2g} "
-                f"m outside of its segment '{body.skeleton.names[segment]}'; centres are given in "
-                "the frame of the segment that carries them", look_at=type(shape).bind,
+                f"m outside its segment '{body.skeleton.names[segment]}'; centres must be in "
+                "the frame of their segment", look_at=type(shape).bind,
             )  # fmt: skip
 
     def test_shape_has_its_axes_as_columns(self, shape: ShapeModel, body: Body) -> None:
-        """What fits the flesh is the rotation to the segment's frame, and not its inverse."""
+        """The axes fit the body as rotations to the segment's frame, not as their inverses."""
         primitives = attached(shape, body)
         if not isinstance(primitives, Volumes):
-            pytest.skip("its primitives have no surface of their own")
+            pytest.skip("its primitives have no surface")
         inverse = replace(primitives, axes=np.swapaxes(primitives.axes, 1, 2))
         given, turned = _outside(primitives, body), _outside(inverse, body)
         require(
             given < TURNED * turned + 1e-3 * body.size, shape, f"has surfaces {given:.2g} m "
-            f"outside of their segments, which were {turned:.2g} m with the axes transposed; the "
-            "columns are a primitive's own axes", look_at=type(shape).bind,
+            f"outside their segments, but {turned:.2g} m with transposed axes; the "
+            "columns must be a primitive's own axes", look_at=type(shape).bind,
         )  # fmt: skip
 
     def test_shape_moves_with_the_body(
@@ -123,29 +123,29 @@ class ShapeLaws(Laws):
         )  # fmt: skip
         by = np.abs(after.axes - motion[:3, :3] @ before.axes).max()
         require(
-            by < 1e-9, shape, f"does not turn with the body: place(G T) differs from G place(T) by "
-            f"{by:.2g} in the axes", look_at=place,
+            by < 1e-9, shape, f"does not rotate with the body: place(G T) differs from G place(T) "
+            f"by {by:.2g} in the axes", look_at=place,
         )  # fmt: skip
 
     def test_shape_is_deterministic_and_leaves_the_body_alone(
         self, shape: ShapeModel, body: Body
     ) -> None:
-        """Attached twice it makes the same, to the last bit, and writes to nothing."""
+        """Bound twice, it makes the same to the last bit, and does not modify the body."""
         before = copied(body.capsules), copied(body.surface), copied(dict(body.shapes))
         first, second = attached(shape, body), attached(shape, body)
         make = type(shape).bind
         require(
-            same(first, second), shape, "makes something else when it is attached again",
+            same(first, second), shape, "makes other primitives when called again",
             look_at=make,
         )  # fmt: skip
         require(
             same(before, (body.capsules, body.surface, dict(body.shapes))), shape,
-            "changes the body to which it is attached; copy the arrays before writing to them",
+            "modifies the body; copy arrays before writing to them",
             look_at=make,
         )  # fmt: skip
 
     def test_shape_stays_in_its_place_when_scaled(self, shape: ShapeModel, body: Body) -> None:
-        """``scaled`` multiplies all lengths: centres, scales, and the surface if there is one."""
+        """``scaled`` multiplies all lengths: centres, scales, and the surface if any."""
         primitives = attached(shape, body)
         transforms = body.place(body.skeleton.rest()).transforms.copy()
         before = primitives.place(transforms).centres
@@ -160,13 +160,13 @@ class ShapeLaws(Laws):
         for name, (after, own) in lengths.items():
             by = np.abs(after - 1.5 * own).max()
             require(
-                by < 1e-9, shape, f"has primitives whose scaled() leaves {name} behind, by "
+                by < 1e-9, shape, f"has primitives whose scaled() does not scale {name}: off by "
                 f"{by:.2g} m", look_at=type(primitives).scaled,
             )  # fmt: skip
 
 
 def _outside(volumes: Volumes, body: Body) -> float:
-    """How far the surfaces are outside of the flesh of their segments, on average [m]."""
+    """Returns the mean distance of the surfaces outside their segments [m]."""
     transforms = body.place(body.skeleton.rest()).transforms
     placed, flesh = volumes.place(transforms), body.capsules.place(transforms)
     surfaces = volumes.surface_points() @ np.swapaxes(placed.axes, 1, 2) + placed.centres[:, None]

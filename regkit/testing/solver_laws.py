@@ -20,21 +20,21 @@ from regkit.testing.problems import HARD, TARGET, Function, Watched, bowl, bumpy
 from regkit.testing.verdict import copied, require, same
 
 BEYOND = 1e-6
-"""By how much a pose may be beyond a limit that is kept [rad]: what rounding makes."""
+"""Tolerance of a limit that is kept [rad], for rounding."""
 
 
 @dataclass(frozen=True)
 class Springs(Similarity):
-    """Draws each primitive to a place of its own.
+    """Pulls each primitive to a point of its own.
 
     Attributes:
-        places: (K, 3) [m].
+        places: The points (K, 3) [m].
     """
 
     places: Array
 
     def __call__(self, placed: Placed[Any], *, curvature: bool = False) -> Response:
-        """Half the squares of the distances."""
+        """Returns half the sum of squared distances."""
         offsets = placed.centres - self.places
         wrenches = np.concatenate([offsets, np.zeros_like(offsets)], axis=1)
         block = np.diag([1.0, 1.0, 1.0, 0.0, 0.0, 0.0])
@@ -50,13 +50,13 @@ class SolverLaws(Laws):
     def test_solver_stays_in_the_box_and_is_never_worse_than_the_start(
         self, solver: Solver, function: Function, box: float
     ) -> None:
-        """Whatever the function does to it."""
+        """Holds for every function."""
         problem, at = Watched(function, np.zeros(4), -box, box), type(solver).minimize
         first, _ = function(problem.start)
         solution = solver.minimize(problem)
         require(
-            solution.value <= first, solver, f"came back from {function.__name__} with "
-            f"{solution.value:.6g}, worse than {first:.6g} at the start; keep the best point seen",
+            solution.value <= first, solver, f"returns {solution.value:.6g} for "
+            f"{function.__name__}, worse than {first:.6g} at the start; keep the best point seen",
             look_at=at,
         )  # fmt: skip
         beyond = np.maximum(problem.lower - solution.x, solution.x - problem.upper).max()
@@ -66,12 +66,12 @@ class SolverLaws(Laws):
         )  # fmt: skip
         require(
             function(solution.x)[0] == solution.value, solver,
-            f"says {solution.value:.6g} of a point where {function.__name__} is "
+            f"returns the value {solution.value:.6g} of a point where {function.__name__} is "
             f"{function(solution.x)[0]:.6g}", look_at=at,
         )  # fmt: skip
         require(
             any(np.array_equal(solution.x, x) for x in problem.asked), solver,
-            f"returns a point at which it never asked for the value of {function.__name__}",
+            f"returns a point at which it never evaluated {function.__name__}",
             look_at=at,
         )  # fmt: skip
         require(
@@ -79,37 +79,37 @@ class SolverLaws(Laws):
         )  # fmt: skip
 
     def test_solver_looks_only_within_the_box(self, solver: Solver) -> None:
-        """A function need not exist beyond its bounds."""
+        """A function need not be defined outside its bounds."""
         problem = Watched(bowl, np.zeros(4), [-0.1, -0.2, -np.inf, 0.0], [0.2, np.inf, 0.3, 0.0])
         solver.minimize(problem)
         asked = np.array(problem.asked)
         beyond = np.maximum(problem.lower - asked, asked - problem.upper).max()
         require(
-            beyond <= 0.0, solver, f"asks for values beyond the bounds, by {beyond:.2g}",
+            beyond <= 0.0, solver, f"evaluates points outside the bounds, by {beyond:.2g}",
             look_at=type(solver).minimize,
         )  # fmt: skip
 
     def test_solver_returns_the_best_point_that_it_saw(self, solver: Solver) -> None:
-        """And counts how often it looked."""
+        """It also counts its evaluations correctly."""
         problem, at = Watched(bumpy, np.zeros(4)), type(solver).minimize
         solution = solver.minimize(problem)
         best = min(bumpy(x)[0] for x in problem.asked)
         require(
-            solution.value == best, solver, f"saw the value {best:.6g} and returns "
+            solution.value == best, solver, f"saw the value {best:.6g} but returns "
             f"{solution.value:.6g}", look_at=at,
         )  # fmt: skip
         require(
-            solution.evaluations == len(problem.asked), solver, f"counts {solution.evaluations} "
+            solution.evaluations == len(problem.asked), solver, f"reports {solution.evaluations} "
             f"evaluations of {len(problem.asked)}", look_at=at,
         )  # fmt: skip
 
     def test_solver_makes_a_quadratic_small(self, solver: Solver) -> None:
-        """With its defaults it comes more than half the way down."""
+        """With its defaults, it reduces the value by more than half."""
         problem = Watched(bowl, np.zeros(4))
         solution, first = solver.minimize(problem), bowl(problem.start)[0]
         require(
-            solution.value < 0.5 * first, solver, f"brings a quadratic from {first:.4g} to "
-            f"{solution.value:.4g} only", look_at=type(solver).minimize,
+            solution.value < 0.5 * first, solver, f"reduces a quadratic only from {first:.4g} to "
+            f"{solution.value:.4g}", look_at=type(solver).minimize,
         )  # fmt: skip
 
     @pytest.mark.parametrize(
@@ -119,7 +119,7 @@ class SolverLaws(Laws):
     def test_solver_stays_at_a_minimum(
         self, solver: Solver, function: Function, start: Array
     ) -> None:
-        """Where there is no force there is no step."""
+        """Without a force there is no step."""
         solution = solver.minimize(Watched(function, start))
         by = np.abs(solution.x - start).max()
         require(
@@ -128,17 +128,17 @@ class SolverLaws(Laws):
         )  # fmt: skip
 
     def test_solver_changes_nothing_and_is_deterministic(self, solver: Solver) -> None:
-        """It writes neither to the start nor to the bounds, and ends twice in the same point."""
+        """Start and bounds stay unmodified, and repeated runs end at the same point."""
         problem, at = Watched(bowl, np.zeros(4), -0.5, 0.8), type(solver).minimize
         before = copied((problem.start, problem.lower, problem.upper))
         first, second = solver.minimize(problem), solver.minimize(problem)
         require(
             same(before, (problem.start, problem.lower, problem.upper)), solver,
-            "writes to the problem's start or bounds; copy them", look_at=at,
+            "modifies the problem's start or bounds; copy them", look_at=at,
         )  # fmt: skip
         require(
             same(first.x, second.x) and first.value == second.value, solver,
-            "ends elsewhere when it is asked again", look_at=at,
+            "ends at another point when called again", look_at=at,
         )  # fmt: skip
 
     @pytest.mark.parametrize(
@@ -147,14 +147,14 @@ class SolverLaws(Laws):
     def test_solver_refuses_a_start_that_is_not_finite(
         self, solver: Solver, value: float, slope: float
     ) -> None:
-        """With a ``DataError``, for the data are at fault."""
+        """Raises ``DataError``, since the data are wrong."""
         refused = False
         try:
             solver.minimize(Watched(lambda x: (value, np.full(len(x), slope)), np.zeros(3)))
         except DataError:
             refused = True
         require(
-            refused, solver, f"takes a start of the value {value} and the slope {slope}; it must "
+            refused, solver, f"accepts a start with value {value} and slope {slope}; it must "
             "raise a DataError", look_at=type(solver).minimize,
         )  # fmt: skip
 
@@ -162,7 +162,7 @@ class SolverLaws(Laws):
     def test_solver_keeps_limits_as_it_declares(
         self, solver: Solver, body: Body, coordinates: CoordinatesName, random: np.random.Generator
     ) -> None:
-        """Hinges by their bounds; ball joints too, if it calls its limits hard."""
+        """Limits of hinges are bounds; those of ball joints must hold if declared hard."""
         bones, limits = body.skeleton, type(solver).limits
         chart = COORDINATES[coordinates](bones, bones.rest())
         count = len(bones.names)
@@ -181,12 +181,12 @@ class SolverLaws(Laws):
         at = type(solver).minimize
         by = bones.limits.violation(hinges).max(initial=0.0)
         require(
-            by <= BEYOND, solver, f"leaves the limits of hinges by {np.degrees(by):.2g} degrees; "
+            by <= BEYOND, solver, f"exceeds the limits of hinges by {np.degrees(by):.2g} degrees; "
             "they are the problem's bounds", look_at=at,
         )  # fmt: skip
         by = bones.limits.violation(found).max(initial=0.0)
         require(
-            by <= BEYOND or not limits.hard, solver, "declares hard limits and leaves those of "
+            by <= BEYOND or not limits.hard, solver, "declares hard limits but exceeds those of "
             f"ball joints by {np.degrees(by):.2g} degrees; keep problem.constraints(), or use "
             "problem.projected()", look_at=at,
         )  # fmt: skip

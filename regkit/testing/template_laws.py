@@ -19,33 +19,33 @@ class TemplateLaws(Laws):
 
     @pytest.fixture
     def grown(self, template: Template) -> Body:
-        """The body at its smallest size."""
+        """Returns the body at its smallest size."""
         return template.body(template.candidate_sizes()[0])
 
     def test_template_gives_a_body_of_each_size(self, template: Template) -> None:
-        """Of those that it would try, in their order, each with the size that was asked for."""
+        """The sizes are positive and ascending, and each body has the requested size."""
         sizes, at = template.candidate_sizes(), type(template).body
         require(
             len(sizes) > 0 and all(size > 0.0 for size in sizes) and list(sizes) == sorted(sizes),
-            template, f"would try the sizes {sizes}; they must be positive and grow",
+            template, f"has the sizes {sizes}; they must be positive and ascending",
             look_at=type(template).candidate_sizes,
         )  # fmt: skip
         for size in (sizes[0], sizes[-1]):
             body = template.body(size)
             require(
-                body.size == size, template, f"gives a body of the size {body.size} for {size}",
+                body.size == size, template, f"returns a body of size {body.size} for {size}",
                 look_at=at,
             )  # fmt: skip
             lengths = [body.capsules.ends, body.capsules.radii, body.markers.points]
             require(
                 all(np.isfinite(each).all() for each in lengths)
                 and bool((body.capsules.radii > 0.0).all()), template,
-                "gives a body with lengths that are not finite, or radii that are not positive",
+                "returns a body with lengths that are not finite, or radii that are not positive",
                 look_at=at,
             )  # fmt: skip
 
     def test_template_has_something_to_register(self, template: Template, grown: Body) -> None:
-        """Capsules, primitives or a surface; each on a segment that there is."""
+        """It has capsules, primitives or a surface, each on an existing segment."""
         flesh = [grown.capsules.segments, *(own.segments for own in grown.shapes.values())]
         flesh += [] if grown.surface is None else [grown.surface.segments.ravel()]
         at = type(template).body
@@ -56,15 +56,15 @@ class TemplateLaws(Laws):
         carried = np.concatenate([*flesh, grown.markers.segments])
         require(
             carried.min() >= 0 and carried.max() < len(grown.skeleton.names), template,
-            f"has flesh on segment {carried.max()} of {len(grown.skeleton.names)}", look_at=at,
+            f"has geometry on segment {carried.max()} of {len(grown.skeleton.names)}", look_at=at,
         )  # fmt: skip
 
     def test_template_stances_are_within_the_limits(self, template: Template, grown: Body) -> None:
-        """The rest pose is the first of them."""
+        """The first stance is the rest pose."""
         at = type(template).description
         require(
             bool(grown.stances) and grown.stances[0].name == "rest", template,
-            "has no rest pose as its first stance", look_at=at,
+            "does not have the rest pose as its first stance", look_at=at,
         )  # fmt: skip
         for stance in grown.stances:
             by = float(np.degrees(grown.skeleton.limits.violation(stance.pose).max(initial=0.0)))
@@ -74,10 +74,10 @@ class TemplateLaws(Laws):
             )  # fmt: skip
 
     def test_template_size_scales_all_lengths(self, template: Template) -> None:
-        """Joints, capsules, markers and surfaces grow together."""
+        """Joints, capsules, markers and surfaces scale together."""
         sizes = template.candidate_sizes()
         if len(sizes) == 1:
-            pytest.skip("it has one size")
+            pytest.skip("it has only one size")
         small, large = template.body(sizes[0]), template.body(sizes[-1])
         factor, at = sizes[-1] / sizes[0], type(template).body
         for index, stance in enumerate(small.stances):
@@ -89,34 +89,34 @@ class TemplateLaws(Laws):
                 for a, b in zip(first, second, strict=True)
             )
             require(
-                by < 1e-9, template, f"does not grow evenly: in the stance '{stance.name}' a place "
-                f"is off by {by:.2g} m", look_at=at,
+                by < 1e-9, template, f"does not scale evenly: in the stance '{stance.name}' a "
+                f"position is off by {by:.2g} m", look_at=at,
             )  # fmt: skip
 
     def test_template_markers_have_names_of_their_own(
         self, template: Template, grown: Body
     ) -> None:
-        """As the columns of every table have."""
+        """Names are unique, as columns of tables must be."""
         names = grown.markers.names
         twice = sorted({name for name in names if names.count(name) > 1})
         require(
-            not twice, template, f"has markers of the same name: {', '.join(twice)}",
+            not twice, template, f"has several markers named {', '.join(twice)}",
             look_at=type(template).description,
         )  # fmt: skip
 
     def test_template_is_deterministic(self, template: Template) -> None:
-        """Twice the same body."""
+        """Repeated calls return the same body."""
         size = template.candidate_sizes()[0]
         first, second = template.body(size), template.body(size)
         require(
             same((first.capsules, first.markers), (second.capsules, second.markers))
             and same(first.surface, second.surface), template,
-            "gives another body when it is asked again", look_at=type(template).body,
+            "returns another body when called again", look_at=type(template).body,
         )  # fmt: skip
 
 
 def _lengths(body: Body, root: np.ndarray) -> list[np.ndarray]:
-    """Places that grow with a body, in its rest pose about the origin."""
+    """Returns positions that scale with a body, in its rest pose about the origin."""
     turned = rigid(root[:3, :3], np.zeros(3))
     transforms = body.place(body.skeleton.rest(turned)).transforms
     capsules = body.capsules.place(transforms)
@@ -128,7 +128,7 @@ def _lengths(body: Body, root: np.ndarray) -> list[np.ndarray]:
 
 
 def _means(listed: ListedShape[Any], transforms: np.ndarray) -> np.ndarray:
-    """Where the middles of primitives are in the world (K, 3) [m]."""
+    """Returns the centres of primitives in the world (K, 3) [m]."""
     means = np.array([one.moments()[0] for one in listed.parameters]).reshape(-1, 3, 1)
     carriers = transforms[listed.segments]
     return np.asarray((carriers[:, :3, :3] @ means)[:, :, 0] + carriers[:, :3, 3])

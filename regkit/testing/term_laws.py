@@ -1,4 +1,4 @@
-"""Laws of terms, with every shape at whose primitives they can look."""
+"""Laws of terms, for every shape that they accept."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ from regkit.testing.verdict import copied, require, same
 
 
 class Nothing(Similarity):
-    """An energy of zero, so that a term of the joints stands alone."""
+    """An energy of zero, to test a term of the joints alone."""
 
     def __call__(self, placed: Placed[Any], *, curvature: bool = False) -> Response:
-        """No energy, no force."""
+        """Returns zero energy and wrenches."""
         count = len(placed)
         return Response(0.0, np.zeros((count, 6)), np.zeros((count, 6, 6)) if curvature else None)
 
@@ -38,12 +38,12 @@ class TermLaws(Laws):
     def scene(
         self, term_pair: Pair, body: Body, random: np.random.Generator
     ) -> tuple[Scene, Primitives]:
-        """A posed body before a camera, whose parts meet, and some joints beyond their limits."""
+        """Returns a body whose parts intersect, with some joints beyond their limits."""
         term = cast(Term, term_pair.plugin)
         try:
             term.check(body)
         except RegkitError as error:
-            pytest.skip(f"it cannot be used with the sample body: {error}")
+            pytest.skip(f"it does not accept the sample body: {error}")
         start = posed(body, random)
         bones = body.skeleton
         joints = np.arange(bones.dofs) >= (6 if bones.free else 0)
@@ -57,20 +57,20 @@ class TermLaws(Laws):
     def test_term_gradient_is_the_derivative_of_its_energy(
         self, term_pair: Pair, scene: tuple[Scene, Primitives], random: np.random.Generator
     ) -> None:
-        """By central differences on the joints of a body."""
+        """It agrees with central differences on the joints of a body."""
         effect = _effect(term_pair, scene)
         problem = _problem(effect, scene)
         x = 0.03 * random.normal(size=len(problem.start))
         slopes = Slopes.of(problem, x)
         require(
             slopes.agree() or slopes.largest < 1e-9, term_pair.plugin,
-            slopes.told(scene[0].body), look_at=type(effect).__call__,
+            slopes.message(scene[0].body), look_at=type(effect).__call__,
         )  # fmt: skip
 
     def test_term_curvature_is_symmetric_and_semidefinite(
         self, term_pair: Pair, scene: tuple[Scene, Primitives], random: np.random.Generator
     ) -> None:
-        """Beside the same energy and gradient."""
+        """Energy and gradient stay the same with it."""
         effect = _effect(term_pair, scene)
         problem = _problem(effect, scene)
         x = 0.03 * random.normal(size=len(problem.start))
@@ -83,26 +83,26 @@ class TermLaws(Laws):
         at = type(effect).__call__
         require(
             again == value and np.allclose(slope, gradient, rtol=1e-9, atol=1e-12 * size),
-            term_pair.plugin, "answers another energy or gradient when asked for curvature",
+            term_pair.plugin, "returns another energy or gradient if curvature is requested",
             look_at=at,
         )  # fmt: skip
         uneven = np.abs(matrix - matrix.T).max() / size
         least = np.linalg.eigvalsh(0.5 * (matrix + matrix.T)).min() / size
         require(
-            uneven < 1e-9 and least > -1e-9, term_pair.plugin, "has a curvature that is uneven by "
-            f"{uneven:.2g} and has the eigenvalue {least:.2g}, in parts of its largest entry; it "
+            uneven < 1e-9 and least > -1e-9, term_pair.plugin, "has a curvature with asymmetry "
+            f"{uneven:.2g} and eigenvalue {least:.2g}, relative to its largest entry; it "
             "must be symmetric and positive semi-definite", look_at=at,
         )  # fmt: skip
 
     def test_term_weighs_from_nothing_to_all_or_is_a_finite_energy(
         self, term_pair: Pair, scene: tuple[Scene, Primitives]
     ) -> None:
-        """One factor from 0 to 1 for each primitive, or a number."""
+        """It returns one factor from 0 to 1 for each primitive, or a number."""
         term = cast(Term, term_pair.plugin)
         effect = term.bind(scene[0])
         require(
             isinstance(effect, VisibilityWeights) == term.weighs, term,
-            f"gives {type(effect).__name__}, but declares weighs = {term.weighs}",
+            f"returns {type(effect).__name__}, but declares weighs = {term.weighs}",
             look_at=type(term),
         )  # fmt: skip
         if not isinstance(effect, VisibilityWeights):
@@ -116,14 +116,14 @@ class TermLaws(Laws):
         factors = effect.factors
         require(
             factors.shape == (len(scene[1]),) and ((factors >= 0.0) & (factors <= 1.0)).all(),
-            term, f"gives shares from {factors.min():.2g} to {factors.max():.2g} in the shape "
+            term, f"returns factors from {factors.min():.2g} to {factors.max():.2g} of shape "
             f"{factors.shape}; they must be 0 to 1, {(len(scene[1]),)}", look_at=type(term).bind,
         )  # fmt: skip
 
     def test_term_is_deterministic_and_changes_nothing(
         self, term_pair: Pair, scene: tuple[Scene, Primitives]
     ) -> None:
-        """Bound twice it does the same, and writes to nothing it is given."""
+        """Bound twice, it returns the same, and it modifies no argument."""
         term, before = cast(Term, term_pair.plugin), copied(scene[0].placed)
         answers: list[tuple[object, ...]] = []
         for _ in range(2):
@@ -134,19 +134,19 @@ class TermLaws(Laws):
                 problem = _problem(effect, scene)
                 answers.append(problem.value_and_gradient(problem.start))
         require(
-            same(*answers), term, "does something else when it is bound again",
+            same(*answers), term, "returns another result when bound again",
             look_at=type(term).bind,
         )  # fmt: skip
         require(
-            same(before, scene[0].placed), term, "changes the primitives that it looks at; copy "
-            "arrays before writing to them", look_at=type(term).bind,
+            same(before, scene[0].placed), term, "modifies the primitives; copy arrays before "
+            "writing to them", look_at=type(term).bind,
         )  # fmt: skip
 
 
 def _effect(pair: Pair, scene: tuple[Scene, Primitives]) -> Similarity | JointEnergy:
     effect = cast(Term, pair.plugin).bind(scene[0])
     if isinstance(effect, VisibilityWeights):
-        pytest.skip("it weighs primitives and has no energy")
+        pytest.skip("it weights primitives and has no energy")
     return effect
 
 

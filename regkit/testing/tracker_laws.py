@@ -20,13 +20,13 @@ from regkit.testing.verdict import copied, require, same
 
 @dataclass
 class Known(Registrar):
-    """A registrar that finds the truth, wherever it sets out, and notes from where that was.
+    """A registrar that finds the truth from any start, and records the starts.
 
     Attributes:
         body: The body.
         primitives: One for each segment.
-        truth: What it finds.
-        asked: The poses from which it set out.
+        truth: The pose to find.
+        asked: Poses from which registrations started.
     """
 
     body: Body
@@ -42,12 +42,12 @@ class Known(Registrar):
         prior: Pose | None = None,
         warm_start: RegistrationResult | None = None,
     ) -> RegistrationResult:
-        """The truth."""
+        """Returns the truth."""
         self.asked += candidates
         return _seen(self.truth)
 
     def evaluate(self, observation: Observation, pose: Pose) -> Evaluation:
-        """All is explained in the truth, and little elsewhere."""
+        """Returns a high inlier probability at the truth, and a low one elsewhere."""
         share = 0.95 if pose is self.truth else 0.2
         return Evaluation(-share, np.full(len(observation.points), share))
 
@@ -63,31 +63,31 @@ class TrackerLaws(Laws):
     def test_tracker_takes_the_pose_that_explains_the_frame(
         self, tracker: Tracker, body: Body, random: np.random.Generator, frames: int
     ) -> None:
-        """With a registrar that finds the truth, from the first frame on."""
+        """With a registrar that finds the truth, it does so from the first frame on."""
         registrar, past = _scene(body, random, frames)
         data = surface_data(body, registrar.truth)
         bound = tracker.bind(registrar)
         at = type(bound).step
         found = bound.step(data, past)
         require(
-            bool(registrar.asked), tracker, "gives a pose without having registered the frame",
+            bool(registrar.asked), tracker, "returns a pose without registering the frame",
             look_at=at,
         )  # fmt: skip
         require(
             same(found.pose, registrar.truth), tracker,
-            "gives another pose than the one that was found and explains the frame", look_at=at,
+            "returns another pose than the one that was found and matches the frame", look_at=at,
         )  # fmt: skip
 
     def test_tracker_sets_out_within_the_joint_limits(
         self, tracker: Tracker, body: Body, random: np.random.Generator
     ) -> None:
-        """Bounds are limits only where the start is within them."""
+        """Solvers keep limits only if the start is within them."""
         registrar, past = _scene(body, random, 4)
         bound = tracker.bind(registrar)
         bound.step(surface_data(body, registrar.truth), past)
         by = max(body.skeleton.limits.violation(pose).max(initial=0.0) for pose in registrar.asked)
         require(
-            by < 1e-6, tracker, f"sets out from a pose beyond a joint limit, by "
+            by < 1e-6, tracker, f"starts from a pose beyond a joint limit, by "
             f"{np.degrees(by):.2g} degrees; use skeleton.limits.projected()",
             look_at=type(bound).step,
         )  # fmt: skip
@@ -95,7 +95,7 @@ class TrackerLaws(Laws):
     def test_tracker_holds_no_state(
         self, tracker: Tracker, body: Body, random: np.random.Generator
     ) -> None:
-        """The past is an argument: asked twice it does the same, and the past stays as it was."""
+        """The past is an argument: repeated calls agree, and the past stays unmodified."""
         registrar, past = _scene(body, random, 3)
         data = surface_data(body, registrar.truth)
         bound, before = tracker.bind(registrar), copied(past)
@@ -105,14 +105,14 @@ class TrackerLaws(Laws):
         second = bound.step(data, past)
         require(
             same(first, second) and same(asked, registrar.asked), tracker,
-            "does something else when it is asked again; what it knows must come from the past",
+            "returns another result when called again; all its memory must be in the past",
             look_at=at,
         )  # fmt: skip
-        require(same(before, past), tracker, "changes the past that it is given", look_at=at)
+        require(same(before, past), tracker, "modifies the past", look_at=at)
 
 
 def _scene(body: Body, random: np.random.Generator, frames: int) -> tuple[Known, Past]:
-    """A registrar, and a past of so many frames after the start, of a body that moves evenly."""
+    """Returns a registrar, and a past of ``frames`` frames of a body in steady motion."""
     segments = len(body.skeleton.names)
     primitives = Primitives(
         segments=np.arange(segments),

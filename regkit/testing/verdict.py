@@ -1,4 +1,4 @@
-"""What a broken law says to the author of a plug-in: by how much, and where to look."""
+"""Messages about violated laws for the author of a plug-in: by how much, and where to look."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from regkit.config.plugin import Plugin
 
 
 def require(kept: bool | np.bool_, plugin: Plugin, broken: str, *, look_at: object) -> None:
-    """Fail the test unless a law is kept.
+    """Fails the test unless a law holds.
 
     Args:
-        kept: Whether it is.
-        plugin: Whose law it is.
-        broken: What is wrong and by how much, to follow the plug-in's name.
-        look_at: The class or method in which it is to be mended.
+        kept: Whether it holds.
+        plugin: The plug-in under test.
+        broken: What is wrong and by how much, worded to follow the plug-in's name.
+        look_at: The class or method to correct.
     """
     if not kept:
         group = plugin.group.removeprefix("regkit.").removesuffix("s")
@@ -31,7 +31,7 @@ def require(kept: bool | np.bool_, plugin: Plugin, broken: str, *, look_at: obje
 
 
 def whereabouts(what: object) -> str:
-    """Name, file and line of a class or a method."""
+    """Returns name, file and line of a class or a method."""
     found = inspect.unwrap(getattr(what, "__func__", what))  # type: ignore[arg-type]
     name = f"{getattr(found, '__module__', '')}.{getattr(found, '__qualname__', found)}"
     try:
@@ -43,12 +43,12 @@ def whereabouts(what: object) -> str:
 
 
 def copied(value: Any) -> Any:
-    """A deep copy, with which ``same`` can tell later whether the value was changed."""
+    """Returns a deep copy, with which ``same`` can detect changes of the value later."""
     return copy.deepcopy(value)
 
 
 def same(first: Any, second: Any) -> bool:
-    """Whether two values are equal to the last bit, through dataclasses, arrays and recordings."""
+    """Whether two values are equal to the last bit, through dataclasses, arrays and sequences."""
     if isinstance(first, np.ndarray):
         real = first.dtype.kind in "fc"
         return isinstance(second, np.ndarray) and np.array_equal(first, second, equal_nan=real)

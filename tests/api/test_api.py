@@ -209,30 +209,30 @@ def _points(depth, camera):
 
 
 WRONG = {
-    "integers": (lambda d, c: (np.uint16(1000 * d), c), "frames[0]: numbers of the type uint16"),
+    "integers": (lambda d, c: (np.uint16(1000 * d), c), "frames[0]: numbers of type uint16"),
     "millimetres": (lambda d, c: (1000 * d, c), "frames[0]: the points are spread over 1686 m"),
-    "kilometres": (lambda d, c: (d / 1000, c), "Bring them to metres"),
+    "kilometres": (lambda d, c: (d / 1000, c), "Convert them to metres"),
     "no camera": (lambda d, c: (d, None), "camera: frames[0] of shape (144, 176)"),
     "camera of another size": (
         lambda d, c: (d[:, 1:], c),
         "frames[0]: the depth image has 176x143",
     ),
-    "no matrix": (lambda d, c: (d, np.eye(2)), "camera: neither a regkit.Camera"),
-    "one image": (lambda d, c: (d[0], c), "regkit.register takes one frame"),
-    "NaN": (lambda d, c: (np.where(d > 0, d, np.nan), c), "0 means that nothing was measured"),
+    "no matrix": (lambda d, c: (d, np.eye(2)), "camera: a camera must be"),
+    "one image": (lambda d, c: (d[0], c), "frames: one array of shape"),
+    "NaN": (lambda d, c: (np.where(d > 0, d, np.nan), c), "frames[0]: 23191 pixels are NaN"),
     "negative": (lambda d, c: (d - 1.0, c), "frames[0]: 23191 depths are negative"),
     "NaN in a cloud": (
         lambda d, c: ([np.full((50, 3), np.nan)], None),
         "frames[0]: 50 of 50 points have a NaN",
     ),
-    "text": (lambda d, c: ([[["a"]]], None), "frames[0]: numbers are wanted"),
+    "text": (lambda d, c: ([[["a"]]], None), "frames[0]: values must be numbers"),
     "ragged": (lambda d, c: ([[[1.0], [2.0, 3.0]]], None), "its rows differ in length"),
     "four dimensions": (lambda d, c: (d[None], c), "frames[0]: an array of shape (4, 144, 176)"),
-    "nothing": (lambda d, c: ([], c), "frames: there is no frame"),
+    "nothing": (lambda d, c: ([], c), "frames: there are no frames"),
     "empty": (lambda d, c: ([np.zeros((0, 3))], c), "frames[0]: the array is empty"),
-    "a number": (lambda d, c: (42, c), "frames: 42 are no frames"),
+    "a number": (lambda d, c: (42, c), "frames: 42 is not"),
     "no folder": (lambda d, c: ("nowhere", None), "there is no such folder"),
-    "folder and camera": (lambda d, c: (WALK, c), "camera: frames that are read have a camera"),
+    "folder and camera": (lambda d, c: (WALK, c), "camera: recordings and folders have a camera"),
     "matrix for a cloud": (lambda d, c: ([_points(d, c)], np.eye(3)), "camera: a matrix does not"),
 }
 
@@ -287,7 +287,7 @@ def test_wrong_truth_and_file_are_named(tracking, tmp_path):
         tracking.error({"nose": np.zeros((FRAMES, 3))})
     with pytest.raises(DataError, match="truth: it has 1 frames, but 4 were tracked"):
         tracking.plot(regkit.Truth(("head",), np.zeros((1, 1, 3))))
-    with pytest.raises(DataError, match="no joint was seen"):
+    with pytest.raises(DataError, match="no joint is visible"):
         tracking.error(np.full(tracking.markers.shape, np.nan))
     with pytest.raises(ConfigError, match=r"path: '.*walk.csv' must end with .npz"):
         tracking.save(tmp_path / "walk.csv")

@@ -67,7 +67,7 @@ def test_calibrate_takes_an_experiments_data_template_and_start(regkit, files, s
         (("--template", "{kind"), "not valid YAML"),
         (("--recording", "frist"), "--recording: no recording 'frist'"),
         ((), "--recording: there are 2 recordings (first, second); name one"),
-        (("--set", "dataset.frames=1"), "only an experiment's values can be changed"),
+        (("--set", "dataset.frames=1"), "--set changes the values of an experiment"),
     ],
 )
 def test_calibrate_refuses_what_it_cannot_use(regkit, files, subject, options, complaint):
@@ -91,7 +91,7 @@ def test_calibrate_overwrites_templates_only(regkit, files):
     ended = regkit("calibrate", files.data / "first", "--out", files.experiment)
     assert ended.code == 1
     assert "--out" in ended.err
-    assert "is no template" in ended.err
+    assert "is not a template" in ended.err
     assert files.experiment.read_text() == before
 
 

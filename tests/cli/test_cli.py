@@ -156,7 +156,7 @@ def test_schema_check_names_the_changed_copies(regkit, tmp_path):
     assert ended.code == 1
     lines = ended.err.splitlines()
     assert [line.split()[0] for line in lines] == [str(file) for file in changed]
-    assert all("not up to date" in line and f"regkit schema {folder}" in line for line in lines)
+    assert all("out of date" in line and f"regkit schema {folder}" in line for line in lines)
     assert [file.read_bytes() for file in changed] == before
 
 
@@ -214,7 +214,7 @@ def test_validate_tells_every_file_and_fails_if_one_is_wrong(regkit, tmp_path, l
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
-        ("name: x\n", "FILE: cannot tell what this is: an experiment has 'methods'"),
+        ("name: x\n", "FILE: unknown type of file: an experiment has 'methods'"),
         ("methods: {}\n", "FILE:1: methods: dictionary should have at least 1 item"),
         ("segments: {}\n", "FILE:1: segments: dictionary should have at least 1 item"),
         ("", "FILE:1: the file must hold a mapping of fields"),

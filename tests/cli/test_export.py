@@ -35,7 +35,7 @@ def test_all_formats_hold_the_tracked_motion(regkit, tmp_path, tracked):
         unit = ("--unit", "cm") if name == "large.bvh" else ()
         ended = regkit("export", tracked, "--to", tmp_path / name, *unit)
         assert ended.code == 0, ended.err
-        assert f"written: {tmp_path / name} (frames: 1, 30 a second; segments: 15)" in ended.out
+        assert f"written: {tmp_path / name} (frames: 1, 30 per second; segments: 15)" in ended.out
     truth = markers(tracked)
     for name, scale in (("motion.bvh", 1.0), ("large.bvh", 0.01)):
         motion = Bvh.read(tmp_path / name, scale=scale)
@@ -92,7 +92,7 @@ def test_poses_of_another_template_are_refused(regkit, tmp_path, tracked):
     config.write_text(text.replace("kind: human\n  build: average\n  height: 1.7", "kind: hand"))
     ended = regkit("export", tracked, "--to", tmp_path / "motion.bvh")
     assert ended.code == 1
-    assert "the template is not the one that these poses were found with" in ended.err
+    assert "the template has changed since these poses" in ended.err
     config.write_text(text.replace("kind: human\n", "kind: humn\n"))
     ended = regkit("export", tracked, "--to", tmp_path / "motion.bvh")
     assert ended.code == 1
@@ -119,7 +119,7 @@ def test_what_is_no_result_is_refused(regkit, tmp_path, tracked):
     assert f"there are: {tracked}" in ended.err
     ended = regkit("export", tracked, "--to", tmp_path / "motion.fbx")
     assert ended.code == 1
-    assert "--to: '.fbx' is no format that is exported (.bvh, .csv, .glb)" in ended.err
+    assert "--to: '.fbx' is not an export format (.bvh, .csv, .glb)" in ended.err
     copy = tmp_path / "other" / "gsog" / "first"
     shutil.copytree(tracked, copy)
     ended = regkit("export", copy, "--to", tmp_path / "motion.bvh")

@@ -83,7 +83,7 @@ def test_body_that_is_not_there_counts_as_lost(regkit, out):
     ended = regkit("track", hand, *HUMAN, "--frames", 1, "--out", out)
     assert ended.code == 1
     assert "error" in ended.err
-    assert "no data near it" in ended.err
+    assert "no data nearby" in ended.err
     assert json.loads((out / "result.json").read_text())["lost"] is True
 
 

@@ -126,7 +126,7 @@ def test_field_without_a_schema_leaves_out_its_plugin_alone(regkit, distribution
     assert ShapeModel.load("odd")().how is abs
     written = regkit("schema", tmp_path / "schemas")
     assert written.code == 0
-    assert "left out: plug-in 'odd' of odd-things 1.0 has a field that no YAML" in written.err
+    assert "left out: plug-in 'odd' of odd-things 1.0 has a field without" in written.err
     schema = json.loads((tmp_path / "schemas" / "experiment.json").read_text())
     assert '"gsog"' in json.dumps(schema)
     assert '"odd"' not in json.dumps(schema)
@@ -138,7 +138,7 @@ def test_name_that_two_distributions_claim_harms_only_those_who_use_it(
     """Neither silently replaces the other, and the rest of the group is there."""
     distribution("[regkit.shapes]\nsog = elsewhere:Thing\n", "rival")
     told = (
-        "plug-in 'sog' of regkit.shapes is brought by regkit "
+        "plug-in 'sog' of regkit.shapes is provided by regkit "
         "(regkit_plugins.shapes.sog:SumOfGaussians) and rival (elsewhere:Thing); uninstall one of "
         "these distributions"
     )

@@ -102,7 +102,7 @@ def test_fault_of_a_plugin_stops_only_its_own_method(regkit, files, tmp_path):
     add_method(files.experiment, "faulty", "faulty")
     ended = regkit("run", files.experiment, "--out", files.out, "--plugin", path, *QUICK)
     assert ended.code == 1
-    assert "KeyError: 'left_wing'; this is a fault of the program or of a plug-in" in ended.err
+    assert "KeyError: 'left_wing'; this is a bug" in ended.err
     assert "left_wing" in (files.out / "faulty" / "first" / "error.txt").read_text()
     assert files.metrics()["gsog"]["recordings"]["first"]["frames"] == 1
 

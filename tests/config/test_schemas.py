@@ -51,7 +51,7 @@ MORE = {
     r"is not taken by IPOPT|is the field .* here": "IPOPT itself knows its options",
     r"each of x, y and z must be named once": "three axes in one list",
     r"not a regular expression|it must have one group": "Python's regular expressions",
-    r"no motion of its own|give either a path or a name": "one of two fields",
+    r"it has no motion|give either a path or a name": "one of two fields",
     r"no .* called '.*' ships|no such joint": "what ships is looked up by name",
     r"there is no such file": "a file that is named must be there",
 }

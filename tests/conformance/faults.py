@@ -49,19 +49,19 @@ SHAPE_FAULTS = {
         "capsules = body.capsules\n",
         "capsules = body.capsules.selected(body.capsules.segments != 1)\n",
         "test_shape_covers_every_segment",
-        "shape 'faulty' leaves segments without a primitive: arm; look at",
+        "shape 'faulty' has segments without a primitive: arm; look at",
     ),
     "place": (
         "centres=capsules.ends.mean(axis=1)",
         "centres=capsules.ends.mean(axis=1)[::-1]",
         "test_shape_lies_where_its_segments_are",
-        "m outside of its segment 'base'; centres are given in the frame of the segment",
+        "m outside its segment 'base'",
     ),
     "random": (
         "centres=capsules.ends.mean(axis=1)",
         "centres=capsules.ends.mean(axis=1) + 0.01 * np.random.default_rng().normal(size=(1, 3))",
         "test_shape_is_deterministic_and_leaves_the_body_alone",
-        "shape 'faulty' makes something else when it is attached again",
+        "shape 'faulty' makes other primitives when called again",
     ),
     "writes": (
         "radii = capsules.radii.mean(axis=1)",
@@ -73,7 +73,7 @@ SHAPE_FAULTS = {
         "np.tile(np.eye(3),",
         "np.tile(np.diag([1.0, 1.0, -1.0]),",
         "test_shape_makes_what_it_says",
-        "shape 'faulty' makes axes that are no rotations",
+        "shape 'faulty' makes axes that are not rotations",
     ),
     "transposed": (
         "axes=np.tile(np.eye(3), (len(radii), 1, 1)),\n"
@@ -81,7 +81,7 @@ SHAPE_FAULTS = {
         "axes=np.array([rotation_between(np.eye(3)[1], b - a).T for a, b in capsules.ends]),\n"
         "            scales=[0.5, 1.5, 0.5] * radii[:, None],",
         "test_shape_has_its_axes_as_columns",
-        "with the axes transposed; the columns are a primitive's own axes",
+        "with transposed axes",
     ),
     "scaled": (
         "@register\nclass Faulty",
@@ -97,13 +97,13 @@ SHAPE_FAULTS = {
 @register
 class Faulty''',
         "test_shape_stays_in_its_place_when_scaled",
-        "shape 'faulty' has primitives whose scaled() leaves scales behind, by",
+        "shape 'faulty' has primitives whose scaled() does not scale scales",
     ),
     "not written": (
         "width: float = 0.5",
         "width: float = 0.5\n    how: Callable[[int], int] = abs",
         "test_plugin_round_trips_through_yaml",
-        "shape 'faulty' has a field that cannot be written as YAML (Unable to serialize",
+        "shape 'faulty' has a field without a YAML form (Unable to serialize",
     ),
     "other type": (
         "return Gaussians(",
@@ -137,7 +137,7 @@ class Faulty''',
 @register
 class Faulty''',
         "test_shape_moves_with_the_body",
-        "shape 'faulty' does not turn with the body: place(G T) differs from G place(T) by",
+        "shape 'faulty' does not rotate with the body: place(G T) differs",
     ),
 }  # fmt: skip
 
@@ -197,12 +197,12 @@ KERNEL_FAULTS = {
         "    def residuals(",
         REMEMBERS,
         "test_kernel_answers_for_the_point_after_a_step_in_place",
-        "cache nothing by the identity of an array",
+        "do not cache by the identity of an array",
     ),
     "torque": (
         *leaving("rows=right.rows * [1, 1, 1, -1, -1, -1]"),
         "test_kernel_gradient_is_the_derivative_of_its_energy",
-        "(the forces are right, so it is the torques)",
+        "(the forces are right, so the torques are wrong)",
     ),
     "sign": (
         *leaving("rows=-right.rows"),
@@ -227,17 +227,16 @@ KERNEL_FAULTS = {
     "where": (
         *answering("energy=answer.energy + placed.centres[0, 0]"),
         "test_kernel_is_left_alone_by_a_common_motion",
-        "when body and data are moved together",
+        "if body and data move together",
     ),
     "unweighted": (
         *leaving("weights=np.full(len(right.weights), 1.0 / len(right.weights))"),
         "test_kernel_takes_a_point_of_twice_the_weight_for_two",
-        "does not weigh the data: of what a second point in the same place does to its forces, "
-        "twice the weight leaves 100 % undone",
+        "ignores the weights of the data",
     ),
     "maximum": (
         *answering("energy=-answer.energy, wrenches=-answer.wrenches"),
         "test_kernel_prefers_the_body_where_the_data_are",
-        "prefers a body 0.1 m beside its data",
+        "prefers a body 0.1 m away from its data",
     ),
 }

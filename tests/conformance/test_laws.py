@@ -133,7 +133,7 @@ def test_problem_that_takes_an_array_for_its_point_breaks_the_law_of_steps(monke
 
     monkeypatch.setattr(RegistrationProblem, "_placed", remembered)
     pair = Pair(Correlation(), GeneralizedSumOfGaussians(), "correlation-gsog")
-    with pytest.raises(pytest.fail.Exception, match="before a step in place"):
+    with pytest.raises(pytest.fail.Exception, match="after a step in place"):
         KernelLaws().test_kernel_answers_for_the_point_after_a_step_in_place(
             Bound.near(pair, linkage(), random()), random()
         )
@@ -163,7 +163,7 @@ def test_plugin_with_required_fields_is_skipped_with_the_reason():
 
 
 def test_unknown_distribution_is_told_with_those_that_there_are():
-    with pytest.raises(PluginError, match=r"'regkit-supper' brings a plug-in \(there are: regkit"):
+    with pytest.raises(PluginError, match=r"'regkit-supper' provides a plug-in \(there are"):
         conformance("regkit-supper")
 
 
@@ -186,12 +186,12 @@ def test_partner_whose_defaults_do_not_fit_does_not_end_the_tests_of_others(tmp_
     suite = conformance("regkit-superquadric")
     assert [case.name for case in suite.parameters["shape"]] == ["superquadric"]
     (case,) = conformance(registered._REGISTERED["regkit.shapes"]["faulty"]).parameters["plugin"]
-    with pytest.raises(pytest.fail.Exception, match=r"do not fit \(width: Input should"):
+    with pytest.raises(pytest.fail.Exception, match=r"are invalid \(width: Input should"):
         PluginLaws().test_plugin_can_be_loaded(case)
 
 
 def test_example_that_does_not_fit_is_told():
-    with pytest.raises(PluginError, match=r"the example of solvers.lbfgs does not fit"):
+    with pytest.raises(PluginError, match=r"the example of solvers.lbfgs is invalid"):
         conformance("regkit", examples={"lbfgs": {"max_iterations": -1}})
 
 

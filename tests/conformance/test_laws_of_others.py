@@ -54,13 +54,13 @@ def refusal(law: Callable[[], None], expected: str) -> None:
          "saw the value"),
         ("            evaluations += 1\n", "",
          lambda laws, made: laws.test_solver_returns_the_best_point_that_it_saw(made),
-         "counts 1 evaluations of"),
+         "reports 1 evaluations of"),
         ("if not (np.isfinite(value) and np.isfinite(gradient).all())", "if False",
          lambda laws, made: laws.test_solver_refuses_a_start_that_is_not_finite(made, np.nan, 1.0),
          "it must raise a DataError"),
         ("x - length / size * gradient", "x + length / size * gradient",
          lambda laws, made: laws.test_solver_makes_a_quadratic_small(made),
-         "brings a quadratic from"),
+         "reduces a quadratic only from"),
     ],
     ids=["box", "best", "count", "finite", "uphill"],
 )  # fmt: skip
@@ -78,15 +78,15 @@ def test_faulty_solver_breaks_its_law(faulty, old, new, law, expected):
         ("len(files), files)", "7, files)",
          lambda laws, made, found:
             laws.test_dataset_frames_are_finite_and_as_many_as_it_says(made, found),
-         f"says that 'lump' has 7 frames and gives {FRAMES}"),
+         f"states that 'lump' has 7 frames but yields {FRAMES}"),
         ("np.loadtxt(file, ndmin=2)", "1000.0 * np.loadtxt(file, ndmin=2)",
          lambda laws, made, found:
             laws.test_dataset_frames_are_finite_and_as_many_as_it_says(made, found),
-         "points are in metres"),
+         "points must be in metres"),
         ("        return None\n", '        return Truth(("a", "a"), np.zeros((2, 2, 3)))\n',
          lambda laws, made, found:
             laws.test_dataset_truth_has_a_row_for_each_frame(made, found),
-         "has two reference joints of one name in 'lump'"),
+         "has two reference joints with the same name in 'lump'"),
     ],
     ids=["frames", "length", "millimetres", "joints"],
 )  # fmt: skip
@@ -109,7 +109,7 @@ def test_faulty_dataset_breaks_its_law(faulty, tmp_path, old, new, law, expected
         return self.description().body(self.kind, 1.01 * size)
 
     def given_size''', "test_template_gives_a_body_of_each_size",
-         "gives a body of the size 0.505 for 0.5"),
+         "returns a body of size 0.505 for 0.5"),
     ],
     ids=["stance", "size"],
 )  # fmt: skip

@@ -119,7 +119,7 @@ def test_interrupted_run_is_completed_later(regkit, files, interrupt):
     ended = regkit(*arguments)
     assert ended.code == 130
     assert ended.err.endswith(
-        f"interrupted; what was finished is kept: repeat with --out {files.out}\n"
+        f"interrupted; finished work is kept: continue with --out {files.out}\n"
     )
     assert {name.rsplit("/", 1)[0] for name in files.written()} == {"gsog/first"}
     begun = len(steps)
@@ -135,7 +135,7 @@ def test_damaged_measure_is_told_and_the_rest_is_kept(regkit, files):
     ended = regkit("run", files.experiment, "--out", files.out, "--no-figures")
     assert ended.code == 1
     assert f"gsog on first failed: {damaged}: damaged" in ended.err
-    assert "delete the file to have the recording done again" in ended.err
+    assert "delete the file to track" in ended.err
     second = json.loads((files.out / "gsog" / "second" / "measure.json").read_text())
     assert files.metrics()["gsog"]["mean"] == pytest.approx(second)
 
@@ -235,7 +235,7 @@ def test_two_runs_in_one_folder_are_refused(regkit, files):
         ended = regkit("run", files.experiment, "--out", files.out, "--no-figures")
         assert ended.code == 1
         assert f"another run (process {os.getpid()} on " in ended.err
-        assert "is writing there" in ended.err
+        assert "writes to this folder" in ended.err
     assert regkit("run", files.experiment, "--out", files.out, *QUICK).code == 0
 
 

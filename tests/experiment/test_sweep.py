@@ -137,7 +137,7 @@ def test_another_sweep_does_not_go_into_the_same_folder(regkit, files):
             "sweep: {preprocessor.voxel: MANY, preprocessor.sigma: MANY}".replace(
                 "MANY", str(list(range(1, 52)))
             ),
-            "FILE:8: sweep: 51 x 51 = 2601 combinations; at most 1000 are made",
+            "FILE:8: sweep: 51 x 51 = 2601 combinations; the maximum is 1000",
         ),
     ],
 )
@@ -147,7 +147,7 @@ def test_sweep_that_cannot_be_is_told_with_its_line(files, sweep, expected):
 
 def test_one_experiment_is_not_read_from_a_sweep(files):
     append(files, SIGMAS)
-    with pytest.raises(ConfigError, match=r"small.yaml:8: sweep: .*many experiments"):
+    with pytest.raises(ConfigError, match=r"small.yaml:8: sweep: .*several experiments"):
         Experiment.read(files.experiment)
     assert list(Experiment.read(files.experiment, ["sweep={}"]).methods) == ["gsog"]
 
@@ -161,7 +161,7 @@ def test_items_of_a_presets_list_are_swept(files):
     text = files.experiment.read_text()
     for wrong, expected in (
         ("terms.0.lest", "small.yaml:9: methods.best,lest=0.1.terms.0.lest: no such field"),
-        ("terms.9.least", "terms is a list of 4, whose items are named by numbers"),
+        ("terms.9.least", "terms is a list of 4"),
     ):
         files.experiment.write_text(text.replace("terms.0.least", wrong))
         with pytest.raises(ConfigError, match=re.escape(expected)):
@@ -195,7 +195,7 @@ def test_subject_that_nobody_is_is_refused(regkit, files):
     ended = regkit("run", files.experiment, "--out", files.out, "--no-figures")
     assert ended.code == 1
     assert ended.err.startswith(
-        "error: subjects: no recording shows a subject 'anna' (there are: none)"
+        "error: subjects: no recording has the subject 'anna' (there are: none)"
     )
     assert not files.out.exists()
 

@@ -22,18 +22,18 @@ SUFFIXES = (".ply", ".pcd", ".xyz", ".npz")
 
 
 class CloudFolders(Dataset):
-    """One folder of point clouds, or a folder of such folders.
+    """A folder of point clouds, or a folder of such folders.
 
-    A ``.npz`` holds the array ``points`` (N, 3) [m]; the other formats are read by Open3D.
+    A ``.npz`` file holds the array ``points`` (N, 3) [m]; Open3D reads the other formats.
     """
 
     kind: Literal["clouds"] = "clouds"
 
     root: InputPath
-    """The recording's folder, or one that holds several."""
+    """Folder of a recording, or of several recordings."""
 
     def found(self) -> list[Recording]:
-        """A recording for each folder that has ``clouds/``."""
+        """Returns a recording for each folder that contains ``clouds/``."""
         return recordings_in(self.root, "clouds", self._recording, self.wanted)
 
     def _recording(self, folder: Path) -> CloudRecording:
@@ -50,27 +50,27 @@ class CloudFolders(Dataset):
 
 @dataclass(frozen=True)
 class CloudRecording(Recording):
-    """One folder of clouds.
+    """A recording of point clouds.
 
     Attributes:
-        folder: Where it lies.
-        files: The clouds.
+        folder: Its folder.
+        files: The clouds' files.
     """
 
     folder: Path
     files: tuple[Path, ...]
 
     def frames(self) -> Iterator[Frame]:
-        """The clouds, in the camera's frame (x right, y down, z forward)."""
+        """Yields the clouds in the camera's frame (x right, y down, z forward)."""
         for _, frame in self.some(range(self.length)):
             yield frame
 
     def some(self, indices: Iterable[int]) -> Iterator[tuple[int, Frame]]:
-        """Only these clouds are read."""
+        """Yields and reads only the clouds of ``indices``."""
         for index in sorted(set(indices)):
             path = self.files[index]
             yield index, Frame(read_cloud(path), place=str(path))
 
     def truth(self) -> Truth | None:
-        """The joints of ``truth.csv``."""
+        """Returns the joints of ``truth.csv``, or None without it."""
         return read_truth(self.folder / "truth.csv", self.length)

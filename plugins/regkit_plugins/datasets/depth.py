@@ -22,15 +22,15 @@ from regkit_plugins.datasets.formats.recording_folders import (
 
 
 class DepthFolders(Dataset):
-    """One folder of 16-bit PNG depth images with its camera, or a folder of such folders."""
+    """A folder of 16-bit PNG depth images with its camera, or a folder of such folders."""
 
     kind: Literal["depth"] = "depth"
 
     root: InputPath
-    """The recording's folder, or one that holds several."""
+    """Folder of a recording, or of several recordings."""
 
     def found(self) -> list[Recording]:
-        """A recording for each folder that has ``depth/``."""
+        """Returns a recording for each folder that contains ``depth/``."""
         return recordings_in(self.root, "depth", self._recording, self.wanted)
 
     def _recording(self, folder: Path) -> DepthRecording:
@@ -48,11 +48,11 @@ class DepthFolders(Dataset):
 
 @dataclass(frozen=True)
 class DepthRecording(Recording):
-    """One folder of depth images.
+    """A recording of depth images.
 
     Attributes:
-        folder: Where it lies.
-        files: The images.
+        folder: Its folder.
+        files: The images' files.
         depth_scale: Units per metre.
     """
 
@@ -61,12 +61,12 @@ class DepthRecording(Recording):
     depth_scale: float
 
     def frames(self) -> Iterator[Frame]:
-        """The images, back-projected."""
+        """Yields the back-projected images."""
         for _, frame in self.some(range(self.length)):
             yield frame
 
     def some(self, indices: Iterable[int]) -> Iterator[tuple[int, Frame]]:
-        """Only these images are read."""
+        """Yields and reads only the images of ``indices``."""
         camera = Camera.read(self.folder / "camera.json")
         for index in sorted(set(indices)):
             path = self.files[index]
@@ -78,5 +78,5 @@ class DepthRecording(Recording):
             yield index, Frame(points, camera, depth, place=str(path))
 
     def truth(self) -> Truth | None:
-        """The joints of ``truth.csv``."""
+        """Returns the joints of ``truth.csv``, or None without it."""
         return read_truth(self.folder / "truth.csv", self.length)

@@ -1,4 +1,4 @@
-"""PDT-13: Kinect depth of people who were marked, in MATLAB's files."""
+"""PDT-13: Kinect depth of people with motion-capture markers, in MATLAB files."""
 
 from __future__ import annotations
 
@@ -23,58 +23,58 @@ Positive = Annotated[float, Field(gt=0.0)]
 
 
 class Intrinsics(Model):
-    """A pinhole camera; without other numbers, the nominal one of a Kinect."""
+    """A pinhole camera; the defaults are the nominal values of a Kinect."""
 
     focal_px: Positive = 571.4
     """Focal length [px]."""
     centre_px: tuple[float, float] = (319.5, 239.5)
-    """Principal point [px]: column and row, from the centre of the first."""
+    """Principal point [px], column and row; the first pixel has its centre at 0."""
 
 
 class Pdt13(Dataset):
     """PDT-13 (Helten, Baak, Bharaj, Müller, Seidel and Theobalt, 3DV 2013).
 
-    The data set's page (https://gvvperfcapeva.mpi-inf.mpg.de/public/PersonalizedDepthTracker) says
-    that people called M1 to M3 and F1 to F3 were seen by a Kinect, and the paper that a system with
-    markers saw them too. How the files of the tracking part are arranged could *not* be found out
-    from public sources. MATLAB's files are *assumed*, for each recording one with the depth images
-    (rows, columns, T) and one with the reference positions (J, 3, T). Their names, arrays,
-    units and directions can all be set, and what is held in another form can be
-    brought into this one, or into the folder format (``depth``). The images are taken as they are:
-    cut the background away with the preprocessor's ``crop``.
+    According to the data set's page
+    (https://gvvperfcapeva.mpi-inf.mpg.de/public/PersonalizedDepthTracker) a Kinect recorded people
+    named M1 to M3 and F1 to F3, and according to the paper a marker-based system did too. The
+    layout of the tracking files is not documented publicly. This plug-in *assumes* two MATLAB files
+    for each recording: depth images (rows, columns, T) and reference positions (J, 3, T). Their
+    names, arrays, units and axes are configurable; convert other layouts to this one, or to the
+    folder format (``depth``). The images are used as they are: remove the background with the
+    preprocessor's ``crop``.
     """
 
     kind: Literal["pdt13"] = "pdt13"
 
     root: InputPath
-    """The folder that holds the files."""
+    """Folder of the files."""
     depth_suffix: str = "_depth.mat"
-    """How the depth images' files end; what precedes it names the recording."""
+    """Suffix of the depth images' files; the rest of the name is the recording's name."""
     depth_array: str = "depth"
-    """The array of the depth images in them."""
+    """Name of the array of depth images in them."""
     depth_scale: Positive = 1000.0
     """Depth image units per metre."""
     intrinsics: Intrinsics = Intrinsics()
-    """Of the depth camera."""
+    """Intrinsics of the depth camera."""
     mirrored: bool = False
-    """Whether the images are stored as in a mirror, and must be turned round."""
+    """Whether the images are stored mirrored, and must be flipped."""
     joint_suffix: str = "_joints.mat"
-    """How the reference positions' files end."""
+    """Suffix of the reference positions' files."""
     joint_array: str = "joints"
-    """The array of the reference positions in them."""
+    """Name of the array of reference positions in them."""
     joint_names: tuple[str, ...] | None = None
-    """Names of the reference positions in their order; ``joint_0``, ``joint_1``, ... without it."""
+    """Names of the reference positions in order; ``joint_0``, ``joint_1``, ... by default."""
     joint_scale: Positive = 1000.0
     """Units of the reference positions per metre."""
     joint_axes: Axes = ("x", "y", "z")
-    """The axes of the reference positions that point right, down and forward from the camera."""
+    """Axes of the reference positions that point right, down and forward from the camera."""
     subjects: SubjectPattern | None = "([MF][1-3])"
-    """A regular expression whose one group finds the subject in a recording's name."""
+    """Regular expression whose only group is the subject in a recording's name."""
     fps: Positive = 30.0
     """Frames per second."""
 
     def found(self) -> list[Recording]:
-        """A recording for each file of depth images."""
+        """Returns a recording for each file of depth images."""
         files = {
             path.name.removesuffix(self.depth_suffix): path
             for path in sorted(self.root.glob(f"*{self.depth_suffix}"))
@@ -86,7 +86,7 @@ class Pdt13(Dataset):
                 place=str(self.root),
             )
         wanted = [name for name in files if self.wanted(name)]
-        # If none is wanted, all are returned: the answer to a misspelt name lists them.
+        # If no requested recording exists, return all, so that the error can list their names.
         return [self._recording(name, files[name]) for name in wanted or files]
 
     def _recording(self, name: str, path: Path) -> Recording:
@@ -106,13 +106,13 @@ class Pdt13(Dataset):
 
 @dataclass(frozen=True)
 class Pdt13Recording(Recording):
-    """One recording.
+    """A recording of PDT-13.
 
     Attributes:
-        layout: What the files are like.
+        layout: Layout of the files.
         depth_file: Depth images (H, W, T).
-        joint_file: Reference positions (J, 3, T), if it is there.
-        camera: Of the images as they are stored.
+        joint_file: Reference positions (J, 3, T); it may be missing.
+        camera: Camera of the stored images.
     """
 
     layout: Pdt13
@@ -121,7 +121,7 @@ class Pdt13Recording(Recording):
     camera: Camera
 
     def frames(self) -> Iterator[Frame]:
-        """The depth images, back-projected."""
+        """Yields the back-projected depth images."""
         camera = self.camera
         if self.layout.mirrored:
             cx = camera.width - 1.0 - camera.cx
@@ -136,7 +136,7 @@ class Pdt13Recording(Recording):
             yield Frame(camera.back_projected(depth), camera, depth, place=place)
 
     def truth(self) -> Truth | None:
-        """The reference positions; one that is not finite, or zero throughout, was not seen."""
+        """Returns the reference positions; non-finite or all-zero ones count as unseen."""
         if not self.joint_file.exists():
             return None
         stored = np.moveaxis(read_array(self.joint_file, self.layout.joint_array), 2, 0)

@@ -1,4 +1,4 @@
-"""Depth images of bodies that are moved and rendered."""
+"""Rendered depth images of moving bodies."""
 
 from __future__ import annotations
 
@@ -32,31 +32,31 @@ Name = Annotated[str, Field(pattern=r"^\w[\w. -]*$")]
 class Synthetic(Dataset):
     """Rigged bodies moved by recorded motion, ray-cast into depth, with exact joints.
 
-    Each take becomes a recording. It is rendered when it is first needed, and kept in the user's
-    cache folder, which ``regkit doctor`` names, until that is deleted. The noise of a frame depends
-    on the seed, the take's name or ``noise_stream``, and the frame's number only.
+    Each take becomes a recording. It is rendered on first use and stored in the user's cache
+    folder, which ``regkit doctor`` names. The noise of a frame depends only on the seed, the take's
+    name or ``noise_stream``, and the frame's number.
     """
 
     kind: Literal["synthetic"] = "synthetic"
 
     camera: CameraChoice = "sr4000"
-    """What looks at the bodies: a known camera by its name, ``{file: camera.json}``, or numbers."""
+    """The camera: a known one by its name, ``{file: camera.json}``, or its numbers."""
     noise: NoiseChoice | None = None
-    """What the camera makes of the depth: the noise of a known camera by its name, ``none``, a
-    standard deviation [m], or its parts. Without it, that of the camera if it is known, or none."""
+    """Depth noise: that of a known camera by its name, ``none``, a standard deviation [m], or its
+    parts. By default that of ``camera`` if it is a known one, otherwise none."""
     seed: Annotated[int, Field(ge=0)] = 0
-    """Seed of the noise; another one changes nothing else."""
+    """Seed of the noise, which changes nothing else."""
     fps: Annotated[float, Field(gt=0.0)] = 30.0
     """Frames per second."""
     defaults: Take = Take()
-    """What all takes have in common."""
+    """Fields that all takes share."""
     takes: dict[Name, Take] = Field(min_length=1)
-    """The recordings by name, each with what it has of its own."""
+    """The recordings by name, with the fields that differ from ``defaults``."""
 
     @model_validator(mode="before")
     @classmethod
     def _complete(cls, value: Any) -> Any:
-        """Give each take what it leaves to the defaults."""
+        """Completes each take with the defaults."""
         if not isinstance(value, dict):
             return value
         defaults, takes = value.get("defaults"), value.get("takes")
@@ -72,15 +72,15 @@ class Synthetic(Dataset):
     def _all_move(self) -> Self:
         for name, take in self.takes.items():
             if take.motion is None:
-                message = "it has no motion of its own, and there is none among the defaults"
+                message = "it has no motion, and the defaults have none either"
                 raise misplaced(type(self), message, "takes", name)
             if isinstance(take.body, ShippedHand) != isinstance(take.motion, GesturesConfig):
-                message = "gestures are the motion of a hand, and of nothing else"
+                message = "gestures are motions of a hand only"
                 raise misplaced(type(self), message, "takes", name)
         return self
 
     def found(self) -> list[Recording]:
-        """A recording for each take; nothing is rendered yet."""
+        """Returns a recording for each take, without rendering it."""
         return [self._recording(name, take) for name, take in self.takes.items()]
 
     def _recording(self, name: str, take: Take) -> SyntheticRecording:
@@ -95,10 +95,10 @@ class Synthetic(Dataset):
         )
 
     def sensor(self) -> Sensor:
-        """The camera with its noise.
+        """Returns the camera with its noise.
 
         Raises:
-            DataError: If the camera's file is missing or wrong.
+            DataError: If the camera's file is missing or invalid.
         """
         given = camera_of(self.camera)
         return Sensor(given.camera(), self._noise(), given.depth_scale)
@@ -114,29 +114,29 @@ class SyntheticRecording(Recording):
     """One take.
 
     Attributes:
-        take: Who moves how.
-        dataset: What looks at it.
+        take: Body, motion and view.
+        dataset: The dataset, with its camera.
     """
 
     take: Take
     dataset: Synthetic
 
     def prepare(self) -> None:
-        """Render the images, unless they are in the cache."""
+        """Renders the images, unless they are in the cache."""
         self.folder()
 
     def frames(self) -> Iterator[Frame]:
-        """The images of the cache, which are rendered if they are not there."""
+        """Yields the images from the cache, rendered on first use."""
         (recorded,) = DepthFolders(root=self.folder()).found()
         yield from recorded.frames()
 
     def truth(self) -> Truth:
-        """Where joints and markers are, without any rounding."""
+        """Returns the exact positions of joints and markers."""
         scene = self._scene()
         return Truth(scene.joints, scene.truth())
 
     def folder(self) -> Path:
-        """The depth folder of the cache, which is rendered if it is not there."""
+        """Returns the depth folder in the cache, rendered on first use."""
         scene, seed = self._scene(), self.dataset.seed
         try:
             key = digest(scene, seed, self.take.noise_stream)
@@ -154,17 +154,17 @@ class SyntheticRecording(Recording):
             raise self._located(error) from None
 
     def _rendered(self, scene: Scene) -> DepthRecording:
-        """The rendered scene.
+        """Returns the rendered scene.
 
         Raises:
-            DataError: If a frame shows nothing.
+            DataError: If a frame does not show the body.
         """
         recording = scene.rendered(self.take.random(self.name, self.dataset.seed))
         empty = np.flatnonzero(~recording.depth.any(axis=(1, 2)))
         if len(empty):
             raise DataError(
-                f"nothing of the body is in the image of frame {empty[0]}; give another "
-                "view.distance, or none"
+                f"the image of frame {empty[0]} does not show the body; change view.distance, or "
+                "leave it out",
             )
         return recording
 
@@ -175,19 +175,19 @@ class SyntheticRecording(Recording):
 
 
 _SOURCES = frozenset({"name", "path", "frames"})
-"""Fields that say which body or motion is meant, each alone."""
+"""Alternative fields that select a body or motion."""
 
 
 def _over(defaults: Mapping[str, Any], take: Mapping[str, Any]) -> dict[str, Any]:
-    """A take as it was written, with what it leaves to the defaults."""
+    """Returns a take completed with the defaults."""
     common, own = dict(defaults), dict(take)
     for field, kind in (("body", "shipped"), ("motion", "clip")):
         if isinstance(common.get(field), dict) and field in own:
             if isinstance(own[field], str):
                 own[field] = {"kind": kind, "name": own[field]}
             if isinstance(own[field], dict) and not _SOURCES.isdisjoint(own[field]):
-                # Only one of them can say where it comes from.
+                # These fields exclude each other.
                 common[field] = {k: v for k, v in common[field].items() if k not in _SOURCES}
-    # A preset's name has no place in a take, and is kept here only to be refused.
+    # A preset's name is invalid in a take; it is kept here to be refused by validation.
     preset = {"preset": own["preset"]} if "preset" in own else {}
     return {**with_changes(common, own), **preset}

@@ -1,4 +1,4 @@
-"""The published layout of UTD-MHAD: Kinect depth of one person, and the Kinect's own skeleton."""
+"""UTD-MHAD in its published layout: Kinect depth of one person, and the Kinect's skeleton."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from regkit_plugins.datasets.formats.matlab import array_shape, read_array, read
 from regkit_plugins.datasets.formats.subjects import subject_of
 
 CAMERA = Camera(width=320, height=240, fx=285.63, fy=285.63, cx=159.0, cy=120.0)
-"""The Kinect's depth camera at half resolution, for images that are turned round as below."""
+"""The Kinect's depth camera at half resolution, for flipped images."""
 
 _SIDES = [
     f"{side}_{joint}"
@@ -29,28 +29,28 @@ _SIDES = [
     for joint in limb
 ]
 JOINTS = ("head", "neck", "spine", "pelvis", *_SIDES)
-"""The 20 joints of the Kinect's skeleton in their order, by our names."""
+"""The 20 joints of the Kinect's skeleton in order, by regkit's names."""
 
 
 class UtdMhad(Dataset):
     """UTD-MHAD (Chen, Jafari and Kehtarnavaz, ICIP 2015).
 
-    The images are stored as in a mirror, and the joints with them; both are turned round, for
-    otherwise the left hand would be a right one. The reference joints are the Kinect SDK's own
-    guess, not markers: they are good to about 10 cm.
+    Images and joints are stored mirrored; both are flipped, since the left hand would otherwise
+    appear as the right one. The reference joints are estimates of the Kinect SDK, not markers, with
+    an accuracy of about 10 cm.
     """
 
     kind: Literal["utd_mhad"] = "utd_mhad"
 
     root: InputPath
-    """The folder that holds ``Depth/`` and ``Skeleton/``."""
+    """Folder that contains ``Depth/`` and ``Skeleton/``."""
     skeleton_lead: Annotated[float, Field(ge=0.0)] = 1.5
-    """By how many frames the skeletons are ahead of the images. Held against the images alone, the
-    joints of moving arms fit those that come one to two frames later, in every recording looked at,
-    whoever moves."""
+    """Number of frames by which the skeletons are ahead of the images. Compared with the images
+    alone, the joints of moving arms match images one to two frames later, in every recording
+    examined, for every person."""
 
     def found(self) -> list[Recording]:
-        """A recording for each file of ``Depth/``."""
+        """Returns a recording for each file in ``Depth/``."""
         files = sorted((self.root / "Depth").glob("*_depth.mat"), key=_by_numbers)
         if not files:
             raise DataError(
@@ -59,7 +59,7 @@ class UtdMhad(Dataset):
             )
         names = {path: path.stem.removesuffix("_depth") for path in files}
         wanted = [path for path, name in names.items() if self.wanted(name)]
-        # If none is wanted, all are returned: the answer to a misspelt name lists them.
+        # If no requested recording exists, return all, so that the error can list their names.
         return [self._recording(path, names[path]) for path in wanted or files]
 
     def _recording(self, path: Path, name: str) -> UtdRecording:
@@ -81,9 +81,8 @@ class UtdRecording(Recording):
 
     Attributes:
         depth_file: Depth images (240, 320, T) [mm].
-        skeleton_file: Joints (20, 3, T) [m], x to the mirrored image's right and
-            y up.
-        skeleton_lead: How many frames these are ahead of the images.
+        skeleton_file: Joints (20, 3, T) [m], x to the right of the mirrored image and y up.
+        skeleton_lead: Number of frames by which the joints are ahead of the images.
     """
 
     depth_file: Path
@@ -91,7 +90,7 @@ class UtdRecording(Recording):
     skeleton_lead: float
 
     def frames(self) -> Iterator[Frame]:
-        """The depth images, back-projected."""
+        """Yields the back-projected depth images."""
         images = read_frames(self.depth_file, "d_depth")
         for index, image in zip(range(self.length), images, strict=False):
             depth = image[:, ::-1] / 1000.0
@@ -102,9 +101,9 @@ class UtdRecording(Recording):
                 raise error.at(place) from None
 
     def truth(self) -> Truth | None:
-        """The Kinect's joints in the camera's frame: x turned round as the images are, y down.
+        """Returns the Kinect's joints in the camera's frame, with x flipped like the images.
 
-        They are interpolated to the time of the images; the first one stands for what was before.
+        They are interpolated to the times of the images; the first one stands for earlier times.
         """
         if not self.skeleton_file.exists():
             return None
@@ -120,7 +119,7 @@ class UtdRecording(Recording):
 
 
 def _delayed(joints: Array, frames: float) -> Array:
-    """Joints (T, J, 3) so many frames later, linearly interpolated; at rest before the first."""
+    """Returns joints (T, J, 3) delayed by ``frames``, linearly interpolated; at rest at first."""
     times = np.maximum(np.arange(len(joints)) - frames, 0.0)
     before = times.astype(np.intp)
     share = (times - before)[:, None, None]
@@ -129,6 +128,6 @@ def _delayed(joints: Array, frames: float) -> Array:
 
 
 def _by_numbers(path: Path) -> list[int]:
-    """Sort a9 before a19."""
+    """Returns a sort key that puts a9 before a19."""
     digits = "".join(letter if letter.isdigit() else " " for letter in path.stem)
     return [int(number) for number in digits.split()]

@@ -1,4 +1,4 @@
-"""Names of what a sweep makes: short, readable, and fit for folders."""
+"""Names of a sweep's experiments and methods: short, readable, and valid as folders."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 LONGEST = 80
-"""A longer name is replaced by a number: folders of folders have to fit, too."""
+"""Maximum length of a name; longer ones are replaced by numbers to keep paths short."""
 
 
 def variants(head: str, values: Mapping[tuple[str, ...], Sequence[Any]]) -> list[str]:
-    """The names of all combinations of values, the last field's changing fastest.
+    """Returns the names of all combinations of values, the last field varying fastest.
 
     Args:
-        head: What every name begins with, such as a method's name, or nothing.
-        values: Lists by the way to the field, which is empty if the whole is swept.
+        head: Prefix of every name, such as a method's name; may be empty.
+        values: Lists by the path to the field, which is empty if the whole value is swept.
     """
     names = [head] if head else [""]
     for way, texts in zip(_shortest(list(values)), map(_texts, values.values()), strict=True):
@@ -27,12 +27,12 @@ def variants(head: str, values: Mapping[tuple[str, ...], Sequence[Any]]) -> list
 
 
 def _shortest(ways: list[tuple[str, ...]]) -> list[str]:
-    """The shortest ends of the ways that tell them apart, as ``sigma`` of ``kernel.sigma``."""
+    """Returns the shortest unique suffixes of the paths, such as ``sigma`` of ``kernel.sigma``."""
     ends = []
     for way in ways:
         others = [other for other in ways if other != way]
         length = 1
-        # A bare number would name an item of nothing.
+        # The index of an item alone would be meaningless.
         while length < len(way) and (
             way[-length].isdecimal() or any(other[-length:] == way[-length:] for other in others)
         ):
@@ -44,7 +44,7 @@ def _shortest(ways: list[tuple[str, ...]]) -> list[str]:
 
 
 def _texts(values: Sequence[Any]) -> list[str]:
-    """A text for each value; its number in the list where it has none of its own."""
+    """Returns a text for each value: its index in the list if it has no short form."""
     texts = [_text(value) for value in values]
     numbers = [f"v{number}" for number in range(1, len(texts) + 1)]
     found = [

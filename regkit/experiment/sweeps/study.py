@@ -1,4 +1,4 @@
-"""An experiment's YAML with its sweep: one experiment, or many."""
+"""An experiment's YAML with its sweep: one experiment or many."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from regkit.experiment.resolved import resolved
 from regkit.experiment.sweeps.sweep import combinations
 from regkit.system.errors import ConfigError
 
-TOLD = 5
-"""At most this many errors of a sweep are listed, in which one error can have many copies."""
+SHOWN = 5
+"""Maximum number of listed errors; a sweep repeats the same error many times."""
 
 
 @dataclass(frozen=True)
 class Study:
-    """The experiments that a YAML file makes, by names that are fit for folders.
+    """The experiments of a YAML file, by names that are valid as folders.
 
     Attributes:
-        experiments: In the order of the sweep's lists. One experiment alone has no name; its
+        experiments: In the order of the sweep's lists. A single experiment has an empty name; its
             methods may be variants.
-        lists: What the fields are in which the experiments differ, in their order.
+        lists: Values of the fields in which the experiments differ, in the same order.
     """
 
     experiments: dict[str, Experiment]
@@ -32,12 +32,12 @@ class Study:
 
     @property
     def name(self) -> str:
-        """What the results folder is called."""
+        """Name of the results folder."""
         return self._first.name
 
     @property
     def methods(self) -> list[str]:
-        """The names of the methods, which are the same in all experiments."""
+        """Names of the methods, which are the same in all experiments."""
         return list(self._first.methods)
 
     @property
@@ -46,24 +46,29 @@ class Study:
 
     @classmethod
     def of_one(cls, experiment: Experiment) -> Study:
-        """A study that is one experiment."""
+        """Returns a study of a single experiment."""
         return cls({"": experiment}, {})
 
     @classmethod
     def read(cls, path: Path, settings: Iterable[str] = (), *, called: str = "setting") -> Study:
-        """An experiment's YAML, after ``a.b.c=value`` settings; messages call each one ``called``.
+        """Reads an experiment's YAML, and applies ``a.b.c=value`` settings.
+
+        Args:
+            path: The file.
+            settings: The settings, applied in order.
+            called: Name of a setting in messages.
 
         Raises:
-            ConfigError: One line for each thing that is wrong, with its file, line and field.
+            ConfigError: One line for each mistake, with its file, line and field.
         """
         return cls.of(Document.read(path).overridden(settings, called=called))
 
     @classmethod
     def of(cls, document: Document) -> Study:
-        """The experiments of a document, each of which is valid.
+        """Returns the validated experiments of a document.
 
         Raises:
-            ConfigError: One line for each thing that is wrong.
+            ConfigError: One line for each mistake.
         """
         made = combinations(document)
         experiments = {}
@@ -72,9 +77,9 @@ class Study:
                 experiments[one.name] = one.document.validated(Experiment)
             except ConfigError as error:
                 lines = str(error).splitlines()
-                more = len(lines) - TOLD
-                told = [*lines[:TOLD], f"and {more} more"] if more > 0 else lines
-                raise ConfigError("\n".join(told)) from None
+                more = len(lines) - SHOWN
+                shown = [*lines[:SHOWN], f"and {more} more"] if more > 0 else lines
+                raise ConfigError("\n".join(shown)) from None
         lists: dict[str, list[Any]] = {".".join(keys): [] for keys in made[0].fields}
         for one in made:
             for keys in one.fields:
@@ -84,7 +89,7 @@ class Study:
         return cls(experiments, lists)
 
     def config(self) -> dict[str, Any]:
-        """What can be run again, as JSON: the first experiment, and the lists of all of them."""
+        """Returns a configuration to run again, as JSON: the first experiment with all lists."""
         return resolved(self._first) | ({"sweep": self.lists} if self.lists else {})
 
 

@@ -1,4 +1,4 @@
-"""Lists in an experiment's YAML, and the experiments that they make."""
+"""Expansion of lists in an experiment's YAML to several experiments."""
 
 from __future__ import annotations
 
@@ -17,19 +17,20 @@ from regkit.experiment.sweeps.labels import variants
 from regkit.system.errors import ConfigError
 
 MOST = 1000
-"""A sweep of more combinations is taken for a mistake."""
+"""Maximum number of combinations; more are assumed to be a mistake."""
 
 Lists = dict[str, Annotated[list[Any], Field(min_length=1)]]
 
 
 class SweptExperiment(Experiment):
-    """An experiment, or many of them, of which every one has one value of each list."""
+    """An experiment with lists of values; each combination of values is run."""
 
     model_config = ConfigDict(title="Experiment")
 
     sweep: Lists = Field(default_factory=dict)
-    """Lists of values by the way to a field, such as ``methods.best.kernel.sigma``. Below a method
-    they make variants of it in one table; elsewhere, whole settings, each in its own folder."""
+    """Lists of values by the path to a field, such as ``methods.best.kernel.sigma``. Lists below a
+    method make variants of it in one table; other lists make experiments in folders of their
+    own."""
 
 
 class _Sweep(Model):
@@ -41,8 +42,8 @@ class Axis:
     """One list of a sweep.
 
     Attributes:
-        keys: The way to the field.
-        values: What it is to be.
+        keys: Path to the field.
+        values: Values of the field.
         places: Where each value was written.
     """
 
@@ -53,12 +54,12 @@ class Axis:
 
 @dataclass(frozen=True)
 class Combination:
-    """One of the documents that a sweep makes.
+    """One of the documents of a sweep.
 
     Attributes:
-        name: Fit for a folder; empty if there are no others.
-        fields: The ways to the fields that tell it from the others.
-        document: The experiment, in which every method that is swept became several.
+        name: Valid as a folder's name; empty if it is the only one.
+        fields: Paths to the swept fields outside methods.
+        document: The experiment, with swept methods replaced by their variants.
     """
 
     name: str
@@ -67,17 +68,18 @@ class Combination:
 
 
 def combinations(document: Document) -> list[Combination]:
-    """The experiments of a document, in the order of its lists, the last one changing fastest.
+    """Returns the experiments of a document, in the order of its lists, the last varying fastest.
 
     Raises:
-        ConfigError: If a list is none or empty, names no field, or there are too many combinations.
+        ConfigError: If a list is empty or not a list, its field is unknown, or there are too many
+            combinations.
     """
     axes = list(_axes(document))
     count = prod(len(axis.values) for axis in axes)
     if count > MOST:
         raise ConfigError(
-            f"{' x '.join(str(len(axis.values)) for axis in axes)} = {count} combinations; at most "
-            f"{MOST} are made",
+            f"{' x '.join(str(len(axis.values)) for axis in axes)} = {count} combinations; the "
+            f"maximum is {MOST}",
             place=document.place(("sweep",)),
         )
     base = _with_variants(document.without("sweep"), axes)
@@ -107,13 +109,13 @@ def _axes(document: Document) -> Iterator[Axis]:
             )
         for index, value in enumerate(values):
             if value in values[:index]:
-                raise ConfigError(f"{value} stands there twice", place=place)
+                raise ConfigError(f"{value} is listed twice", place=place)
         places = [document.places.get(("sweep", way, index), place) for index in range(len(values))]
         yield Axis(keys, values, places)
 
 
 def _with_variants(document: Document, axes: list[Axis]) -> Document:
-    """The document in which every method that is swept became several."""
+    """Returns the document with swept methods replaced by their variants."""
     if not isinstance(document.data.get("methods"), dict):
         return document
     methods: dict[str, Any] = {}

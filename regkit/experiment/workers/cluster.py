@@ -21,10 +21,10 @@ from regkit.system.errors import ConfigError, DataError, RegkitError
 from regkit.system.optional import load_library
 
 REACHED_WITHIN = 10.0
-"""So long [s] a scheduler and its first worker may take to answer."""
+"""Maximum time [s] until a scheduler and its first worker answer."""
 
 ALONE_FOR = 120.0
-"""So long [s] a run waits when all workers are lost: they may be about to be replaced."""
+"""Maximum time [s] to wait without workers, which may be restarting."""
 
 
 @dataclass(frozen=True)
@@ -39,12 +39,12 @@ class DaskCluster(Workers):
 
     @property
     def described(self) -> str:
-        """Where the scheduler is."""
+        """Description with the scheduler's address."""
         return f"the Dask cluster at {self.address}"
 
     @property
     def remote(self) -> bool:
-        """In other processes."""
+        """True: tasks run in other processes."""
         return True
 
     @property
@@ -54,7 +54,7 @@ class DaskCluster(Workers):
 
     @contextmanager
     def team(self) -> Iterator[Team]:
-        """The workers there are, and those that come later.
+        """Connects to the workers; those that start later are used too.
 
         Raises:
             DependencyError: If Dask is not installed.
@@ -63,7 +63,7 @@ class DaskCluster(Workers):
         distributed = load_library("distributed")
         with _quiet():
             try:
-                # A client that is given a wrong address prints a traceback when it is collected.
+                # A client with a wrong address prints a traceback when it is garbage-collected.
                 distributed.comm.resolve_address(self.address)
                 client = distributed.Client(
                     self.address, timeout=REACHED_WITHIN, set_as_default=False
@@ -91,7 +91,7 @@ class DaskCluster(Workers):
 
 @contextmanager
 def _quiet() -> Iterator[None]:
-    """What Dask's parts tell each other of lost connections, the run tells in its own words."""
+    """Silences Dask's messages about lost connections, which the run reports itself."""
     loggers = [
         logging.getLogger(name)
         for name in list(logging.Logger.manager.loggerDict)
@@ -108,7 +108,7 @@ def _quiet() -> Iterator[None]:
 
 
 def _answer(lock: FolderLock, version: str) -> str | None:
-    """In a worker: why it cannot serve, or None."""
+    """Runs on a worker: returns why it cannot serve, or None."""
     try:
         check_worker(lock, version)
     except RegkitError as error:
@@ -117,7 +117,7 @@ def _answer(lock: FolderLock, version: str) -> str | None:
 
 
 class _DaskTeam(Team):
-    """No more tasks are sent than there are workers; one that loses its worker Dask sends again."""
+    """Sends at most one task per worker; Dask resends the task of a lost worker."""
 
     def __init__(self, client: Any, place: str) -> None:
         self._client, self._place = client, place
@@ -125,7 +125,7 @@ class _DaskTeam(Team):
         self._ended: SimpleQueue[tuple[Task, Any]] = SimpleQueue()
 
     def serve(self, lock: FolderLock) -> None:
-        """See whether every worker can, before hours are spent."""
+        """Checks every worker before any work begins."""
         self._lock = lock
         answers = self._client.run(_answer, lock, __version__, on_error="return")
         for worker, answer in answers.items():
@@ -133,17 +133,17 @@ class _DaskTeam(Team):
                 raise ConfigError(f"the worker {worker} cannot serve: {answer}", place=self._place)
 
     def count(self) -> int:
-        """The workers there are now, whatever number of threads each has."""
+        """Returns the current number of workers, regardless of their threads."""
         return self._workers()
 
     def begin(self, task: Task) -> None:
-        """Send it to the scheduler."""
+        """Sends a task to the scheduler."""
         assert self._lock is not None
         future = self._client.submit(performed, Packed.of(task, self._lock), pure=False)
         future.add_done_callback(lambda done: self._ended.put((task, done)))
 
     def ended(self, progress: Progress) -> tuple[Task, Result]:
-        """The next task to end."""
+        """Returns the next finished task."""
         alone_since: float | None = None
         while True:
             try:
@@ -166,7 +166,7 @@ class _DaskTeam(Team):
         error = future.exception()
         killed = load_library("distributed").KilledWorker
         if isinstance(error, killed):
-            return RegkitError(f"its worker died {TRIES} times, as if killed; it may lack memory")
+            return RegkitError(f"its worker died {TRIES} times, perhaps for lack of memory")
         return RegkitError(f"a worker failed: {type(error).__name__}: {error}")
 
     def _workers(self) -> int:

@@ -1,4 +1,4 @@
-"""A task as it is sent to a worker: by what its YAML says, so that no object has to travel."""
+"""The serialised form of a task: plain configuration data, without Python objects."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ from regkit.experiment.task import Result, Task
 from regkit.system.errors import ConfigError, DataError, DependencyError, RegkitError
 
 CHECKED_EVERY = 1.0
-"""So often [s] a worker looks whether the run still wants its work."""
+"""Interval [s] at which a worker checks that the run still holds its folder."""
 
 _ALONE = Lock()
-"""A worker of several threads does one thing at a time: the number of threads of the matrix
-products, which the last bits of results depend on, is one for the whole process."""
+"""Makes a worker with several threads run one task at a time: the last bits of results depend on
+the number of threads of matrix products, which is one setting for the whole process."""
 
 
 @dataclass(frozen=True)
@@ -37,9 +37,9 @@ class Packed:
 
     Attributes:
         config: The experiment as JSON.
-        plugins: Files with plug-ins, to be run first.
-        lock: The run that wants the work.
-        version: Of the regkit that asks.
+        plugins: Plug-in files to run first.
+        lock: Lock of the run that sent the task.
+        version: Version of regkit in the run.
         folder, recording, method, setting: As in the task.
     """
 
@@ -54,7 +54,7 @@ class Packed:
 
     @classmethod
     def of(cls, task: Task, lock: FolderLock) -> Packed:
-        """A task of the run that holds the results folder."""
+        """Returns the serialised form of a task."""
         return cls(
             resolved(task.experiment),
             plugin_files(),
@@ -67,10 +67,10 @@ class Packed:
         )
 
     def task(self) -> Task:
-        """The task again.
+        """Returns the task.
 
         Raises:
-            RegkitError: If this worker cannot do it.
+            RegkitError: If this worker cannot run it.
         """
         check_worker(self.lock, self.version)
         for path in self.plugins:
@@ -82,7 +82,7 @@ class Packed:
 
 
 def performed(packed: Packed) -> Result:
-    """What a worker does; all that goes wrong is its result."""
+    """Runs a task on a worker; errors of any kind become its result."""
     with _ALONE:
         try:
             task = packed.task()
@@ -91,15 +91,15 @@ def performed(packed: Packed) -> Result:
         try:
             return task.result(_Wanted(packed.lock).check)
         except _NotWanted:
-            return DataError("the run that wanted this is over")
+            return DataError("the run of this task is over")
 
 
 def check_worker(lock: FolderLock, version: str) -> None:
-    """See whether this worker can serve a run.
+    """Checks that this worker can serve a run.
 
     Raises:
         DependencyError: If it has another version of regkit.
-        DataError: If it does not see the results folder.
+        DataError: If it cannot see the results folder.
     """
     if version != __version__:
         raise DependencyError(f"the worker has regkit {__version__}, and the run has {version}")
@@ -112,10 +112,10 @@ def check_worker(lock: FolderLock, version: str) -> None:
 
 
 def check_shared(experiment: Experiment) -> None:
-    """See whether workers can find all plug-ins of an experiment.
+    """Checks that workers can find all plug-ins of an experiment.
 
     Raises:
-        ConfigError: If one is known in this process only.
+        ConfigError: If one exists in this process only.
     """
     for plugin in _plugins_in(experiment):
         origin = type(plugin).available().get(plugin.kind)
@@ -123,7 +123,7 @@ def check_shared(experiment: Experiment) -> None:
         if not installed and not from_file(type(plugin)):
             raise ConfigError(
                 f"the plug-in '{plugin.kind}' was registered in this process, and workers do not "
-                "know it; put it into a plug-in file or an installed package, or use no workers"
+                "know it; move it to a plug-in file or an installed package, or run without workers"
             )
 
 
@@ -145,24 +145,24 @@ def _digest(path: Path) -> str:
 
 @lru_cache(maxsize=1)
 def _run_files(files: tuple[tuple[Path, str], ...]) -> None:
-    """Run plug-in files, unless the very same were the last to be run in this worker."""
+    """Runs plug-in files, unless this worker ran the same ones last."""
     for path, _ in files:
         run_plugin_file(path)
 
 
 class _NotWanted(BaseException):
-    """The run is over; no handler of errors may take this for one."""
+    """The run is over; a ``BaseException``, so that no error handler catches it."""
 
 
 class _Wanted:
-    """Looks now and then whether the run that wanted the work still holds its folder."""
+    """Checks now and then that the run still holds its folder."""
 
     def __init__(self, lock: FolderLock) -> None:
         self._lock = lock
         self._next = time.monotonic() + CHECKED_EVERY
 
     def check(self) -> None:
-        """Stop the work if nobody wants it any more: its run was killed, or interrupted."""
+        """Raises ``_NotWanted`` if the run was killed or interrupted."""
         if time.monotonic() < self._next:
             return
         self._next = time.monotonic() + CHECKED_EVERY

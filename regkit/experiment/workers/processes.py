@@ -1,4 +1,4 @@
-"""Workers that are processes of this machine, by joblib's loky."""
+"""Worker processes on this machine, by joblib's loky."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from regkit.system.errors import RegkitError
 from regkit.system.optional import load_library
 
 PATIENCE = 0.2
-"""So long [s] is waited for a task to end before who watches is asked."""
+"""Interval [s] at which the progress is updated while waiting for a task."""
 
 ONE_THREAD = {
     f"{name}_NUM_THREADS": "1" for name in ("OMP", "OPENBLAS", "MKL", "NUMBA", "VECLIB_MAXIMUM")
@@ -32,27 +32,27 @@ ONE_THREAD = {
 
 @dataclass(frozen=True)
 class Processes(Workers):
-    """So many processes.
+    """Worker processes on this machine.
 
     Attributes:
-        jobs: How many.
+        jobs: Number of processes.
     """
 
     jobs: int
 
     @property
     def described(self) -> str:
-        """How many processes."""
+        """Description with the number of processes."""
         return f"{self.jobs} processes"
 
     @property
     def remote(self) -> bool:
-        """In other processes."""
+        """True: tasks run in other processes."""
         return True
 
     @contextmanager
     def team(self) -> Iterator[Team]:
-        """The processes, which are killed in the end, busy or not: what counts is on the disk."""
+        """Starts the processes, and kills them at the end: all finished work is on disk."""
         team = _ProcessTeam(self.jobs)
         try:
             yield team
@@ -61,7 +61,7 @@ class Processes(Workers):
 
 
 class _ProcessTeam(Team):
-    """Each worker is a pool of one process, so that it is known whose task killed it."""
+    """Each worker is a pool of one process, so that a dead process identifies its task."""
 
     def __init__(self, jobs: int) -> None:
         self._lock: FolderLock | None = None
@@ -72,15 +72,15 @@ class _ProcessTeam(Team):
         self._jobs = jobs
 
     def serve(self, lock: FolderLock) -> None:
-        """They see what this process sees."""
+        """Needs no check: local processes see the same files."""
         self._lock = lock
 
     def count(self) -> int:
-        """As many as there are processes."""
+        """Returns the number of processes."""
         return self._jobs
 
     def begin(self, task: Task) -> None:
-        """Send it to an idle process, which starts when it is first needed."""
+        """Sends a task to an idle process, which starts on first use."""
         assert self._lock is not None
         pool = self._busy[task] = self._idle.pop()
         with _deaf_children():
@@ -88,7 +88,7 @@ class _ProcessTeam(Team):
         future.add_done_callback(lambda done: self._ended.put((task, done)))
 
     def ended(self, progress: Progress) -> tuple[Task, Result]:
-        """The next task to end; one whose process died is given to a new one, a few times."""
+        """Returns the next finished task; the task of a dead process is retried a few times."""
         while True:
             try:
                 task, future = self._ended.get(timeout=PATIENCE)
@@ -102,17 +102,17 @@ class _ProcessTeam(Team):
             pool.shutdown(wait=False, kill_workers=True)
             self._idle.append(_pool())
             if not isinstance(error, _loky().BrokenProcessPool):
-                return task, RegkitError(f"its result could not be had: {error}")
+                return task, RegkitError(f"its result cannot be received: {error}")
             self._deaths[task] += 1
             if self._deaths[task] == TRIES:
                 return task, RegkitError(
-                    f"its process died {TRIES} times, as if killed; if it lacked memory, take "
-                    "fewer processes"
+                    f"its process died {TRIES} times, perhaps for lack of memory; if so, use fewer "
+                    "processes"
                 )
             self.begin(task)
 
     def leave(self) -> None:
-        """Kill all processes."""
+        """Kills all processes."""
         for pool in [*self._idle, *self._busy.values()]:
             pool.shutdown(wait=True, kill_workers=True)
 
@@ -128,11 +128,11 @@ def _pool() -> Any:
 
 
 def _follow_parent(parent: int) -> None:
-    """In a worker: end with the parent, however that ends, and leave Ctrl-C to it."""
+    """Runs on a worker: ends it with its parent, and leaves Ctrl-C to the parent."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
     def follow() -> None:
-        # Windows tells the same number for ever; there a worker ends with its task.
+        # Windows always reports the same number; there a worker ends with its task.
         while os.getppid() == parent:
             time.sleep(1.0)
         os._exit(1)
@@ -142,9 +142,9 @@ def _follow_parent(parent: int) -> None:
 
 @contextmanager
 def _deaf_children() -> Iterator[None]:
-    """Let processes that are started here not hear Ctrl-C, not even while they import.
+    """Context manager: processes started in it ignore Ctrl-C, even while they import.
 
-    What is blocked here is blocked there; here it is only put off.
+    They inherit the blocked signal; in this process it is only delayed.
     """
     if sys.platform == "win32":
         yield

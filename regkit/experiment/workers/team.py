@@ -1,4 +1,4 @@
-"""Who does the tasks of a run: this process, or workers that this module does not know."""
+"""The interface of workers, and this process as the only one."""
 
 from __future__ import annotations
 
@@ -11,31 +11,31 @@ from regkit.experiment.progress import Progress
 from regkit.experiment.task import Result, Task
 
 TRIES = 3
-"""So often a task may cost a worker its life before it counts as failed."""
+"""Number of worker deaths after which a task counts as failed."""
 
 
 class Team(ABC):
-    """Workers that are there for one run."""
+    """Workers of one run."""
 
     @abstractmethod
     def serve(self, lock: FolderLock) -> None:
-        """Work for the run that holds a results folder.
+        """Prepares the workers for the run that holds a results folder.
 
         Raises:
-            RegkitError: If they cannot.
+            RegkitError: If a worker cannot serve it.
         """
 
     @abstractmethod
     def count(self) -> int:
-        """How many tasks can be in hand at once, as things stand."""
+        """Returns the number of tasks that can run at once at the moment."""
 
     @abstractmethod
     def begin(self, task: Task) -> None:
-        """Give a task to a worker that has none."""
+        """Gives a task to an idle worker."""
 
     @abstractmethod
     def ended(self, progress: Progress) -> tuple[Task, Result]:
-        """Wait for the next task that ends; meanwhile who watches is asked now and then.
+        """Waits for the next task to end, and returns it; ``progress`` is updated meanwhile.
 
         Raises:
             RegkitError: If all workers are lost.
@@ -43,36 +43,36 @@ class Team(ABC):
 
 
 class Workers(ABC):
-    """A choice of who does the tasks."""
+    """A choice of workers."""
 
     @abstractmethod
     def team(self) -> AbstractContextManager[Team]:
-        """Workers for a run, that leave when the context is left.
+        """Context manager of the workers of a run, released at its end.
 
         Raises:
-            RegkitError: If they cannot be had.
+            RegkitError: If they are not available.
         """
 
     @property
     @abstractmethod
     def described(self) -> str:
-        """How ``environment.json`` names them."""
+        """Description in ``environment.json``."""
 
     @property
     @abstractmethod
     def remote(self) -> bool:
-        """Whether tasks are done in other processes."""
+        """Whether tasks run in other processes."""
 
 
 class ThisProcess(Workers, Team):
-    """No workers: one task after the other is done here."""
+    """No workers: tasks run in this process, one after the other."""
 
     def __init__(self) -> None:
         self._task: Task | None = None
 
     @property
     def described(self) -> str:
-        """This process."""
+        """Description as one process."""
         return "1 process"
 
     @property
@@ -81,11 +81,11 @@ class ThisProcess(Workers, Team):
         return False
 
     def team(self) -> AbstractContextManager[Team]:
-        """This very object."""
+        """Returns itself."""
         return self
 
     def __enter__(self) -> Team:
-        """Nothing to prepare."""
+        """Needs no preparation."""
         return self
 
     def __exit__(
@@ -94,21 +94,21 @@ class ThisProcess(Workers, Team):
         error: BaseException | None,
         traceback: TracebackType | None,
     ) -> None:
-        """Nothing to leave."""
+        """Needs no release."""
 
     def serve(self, lock: FolderLock) -> None:
-        """Nothing stands in the way."""
+        """Needs no check."""
 
     def count(self) -> int:
         """One."""
         return 1
 
     def begin(self, task: Task) -> None:
-        """Note it."""
+        """Stores the task for ``ended``."""
         self._task = task
 
     def ended(self, progress: Progress) -> tuple[Task, Result]:
-        """Do it."""
+        """Runs the stored task."""
         task, self._task = self._task, None
         assert task is not None
         return task, task.result(progress.advance)

@@ -1,4 +1,4 @@
-"""The work of a run: tasks are given out, and what becomes of them is taken in."""
+"""Distribution of tasks to workers, and collection of their results."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from regkit.system.errors import RegkitError
 
 
 def work(ledgers: list[Ledger], team: Team, progress: Progress) -> None:
-    """Do all that is missing in some experiments' folders.
+    """Runs all unfinished tasks of some experiments.
 
     Raises:
         RegkitError: If all workers are lost.
@@ -38,7 +38,7 @@ def work(ledgers: list[Ledger], team: Team, progress: Progress) -> None:
 
 
 def _taken_in(task: Task, result: Result, ledger: Ledger, schedule: Schedule) -> int:
-    """How many tracks have ended with a task, after what became of it is noted."""
+    """Records a task's result, and returns the number of tracks that ended with it."""
     if result is None:
         schedule.opened(task)
         return 0

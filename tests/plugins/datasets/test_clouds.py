@@ -79,7 +79,7 @@ NO_ARRAY = f"ROOT/{CLOUD}: not a .npz with an array 'points' (N, 3): "
         (write(CLOUD, "hello"), NO_ARRAY),
         (cut(CLOUD, 0.5), NO_ARRAY),
         (bare_array, NO_ARRAY),
-        (remove("clouds"), "ROOT: no recording here: neither the folder nor one in it has a folder "
+        (remove("clouds"), "ROOT: no recording here: neither this folder nor one in it contains "
          "'clouds/'"),
         (remove("clouds", "000000.npz"), "ROOT/clouds: files must be numbered from 000000"),
     ],

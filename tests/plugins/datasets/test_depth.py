@@ -156,7 +156,7 @@ SECOND = "depth/000001.png"
     ("damage", "expected"),
     [
         (remove(), "ROOT: there is no such folder"),
-        (remove("depth"), "ROOT: no recording here: neither the folder nor one in it has a folder "
+        (remove("depth"), "ROOT: no recording here: neither this folder nor one in it contains "
          "'depth/' beside a sequence.yaml"),
         (remove("sequence.yaml"), "ROOT/sequence.yaml: there is no such file"),
         (remove(SECOND), "ROOT/depth: files must be numbered from 000000 without gaps; 000001 is "
@@ -205,7 +205,7 @@ SECOND = "depth/000001.png"
         (write("truth.csv", HEADER + "-1,a,1,2,3\n"), "ROOT/truth.csv:2: not a row of "
          "frame,joint,x,y,z: -1,a,1,2,3"),
         (write("truth.csv", HEADER + "0,a,1,nan,3\n"), "ROOT/truth.csv:2: a position is NaN or "
-         "infinite; leave the row out where a joint was not seen"),
+         "infinite; omit the row"),
         (write("truth.csv", HEADER + "0,a,1,2,inf\n"), "ROOT/truth.csv:2: a position is NaN"),
     ],
 )  # fmt: skip

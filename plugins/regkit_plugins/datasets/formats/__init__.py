@@ -1,7 +1,7 @@
-"""Formats of files that several datasets share.
+"""File formats that several datasets share.
 
 - ``recording_folders``: regkit's own folders of depth images or clouds.
 - ``organized_clouds``: binary files of one organized cloud, with markers and joints, per frame.
-- ``matlab`` and ``hdf5``: arrays in the files of others.
-- ``axes`` and ``subjects``: which way their axes point, and whose recording a name is.
+- ``matlab`` and ``hdf5``: arrays in MATLAB and HDF5 files.
+- ``axes`` and ``subjects``: axes of the data, and subjects in recordings' names.
 """

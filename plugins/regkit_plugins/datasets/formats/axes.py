@@ -1,4 +1,4 @@
-"""Which way a data set's axes point, where that differs from the camera's frame."""
+"""Axes of data that differ from those of the camera's frame."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ def _each_once(axes: tuple[Axis, Axis, Axis]) -> tuple[Axis, Axis, Axis]:
 
 
 Axes = Annotated[tuple[Axis, Axis, Axis], AfterValidator(_each_once)]
-"""The data's axes that are the camera's x (right), y (down) and z (forward), with their signs."""
+"""The data's axes along the camera's x (right), y (down) and z (forward), with their signs."""
 
 
 def in_camera(points: Array, axes: Axes) -> Array:
-    """Points (..., 3) of the data in the camera's frame (x right, y down, z forward)."""
+    """Returns points (..., 3) of the data in the camera's frame (x right, y down, z forward)."""
     order = ["xyz".index(axis[-1]) for axis in axes]
     signs = np.array([-1.0 if axis[0] == "-" else 1.0 for axis in axes])
     turned: Array = np.asarray(points, dtype=np.float64)[..., order] * signs

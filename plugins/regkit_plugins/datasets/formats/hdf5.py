@@ -1,4 +1,4 @@
-"""HDF5 files, opened for one reading."""
+"""Reading of HDF5 files."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from regkit.system.optional import load_library
 
 @contextmanager
 def opened(path: Path) -> Iterator[Any]:
-    """An HDF5 file, for reading.
+    """Context manager of an HDF5 file opened for reading.
 
     Raises:
-        DataError: If it is missing, damaged, or something else.
+        DataError: If it is missing, damaged, or not an HDF5 file.
         DependencyError: If h5py is not installed.
     """
     h5py = load_library("h5py", install="pip install 'regkit[hdf5]'")
@@ -31,10 +31,10 @@ def opened(path: Path) -> Iterator[Any]:
 
 
 def stored(file: Any, name: str) -> Any:
-    """The array ``name`` of an open file, of which nothing is read yet.
+    """Returns the array ``name`` of an open file, without reading its values.
 
     Raises:
-        DataError: If there is none.
+        DataError: If there is no such array.
     """
     found = file.get(name)
     if found is None or not isinstance(getattr(found, "shape", None), tuple):
@@ -46,7 +46,7 @@ def stored(file: Any, name: str) -> Any:
 
 
 def read(array: Any, where: Any = ()) -> Any:
-    """What is ``where`` in an array of an open file.
+    """Returns the part ``where`` of an array of an open file.
 
     Raises:
         DataError: If that part is damaged.

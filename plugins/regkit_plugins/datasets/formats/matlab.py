@@ -1,4 +1,4 @@
-"""Arrays of three axes in MATLAB's files, of which the last counts the frames."""
+"""Arrays with three axes in MATLAB files; the last axis counts the frames."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from regkit.system.errors import DataError
 from regkit_plugins.datasets.formats import hdf5
 
 HDF5_MARK = b"MATLAB 7.3"
-"""How the files begin that are HDF5 inside; their axes are stored in the reverse order."""
+"""Magic bytes of MATLAB files in HDF5 format, whose axes are stored in reverse order."""
 
 
 def array_shape(path: Path, name: str) -> tuple[int, ...]:
-    """The shape of an array, of which nothing else is read.
+    """Returns the shape of an array, without reading its values.
 
     Raises:
-        DataError: If the file or the array is missing, damaged, or has other axes.
+        DataError: If the file or the array is missing, damaged, or does not have three axes.
     """
     if _is_hdf5(path):
         with hdf5.opened(path) as file:
@@ -36,22 +36,22 @@ def array_shape(path: Path, name: str) -> tuple[int, ...]:
 
 
 def read_array(path: Path, name: str) -> Array:
-    """An array (A, B, T) as a whole.
+    """Returns a whole array (A, B, T).
 
     Raises:
-        DataError: If the file or the array is missing, damaged, or has other axes.
+        DataError: If the file or the array is missing, damaged, or does not have three axes.
     """
     return np.stack(list(read_frames(path, name)), axis=2)
 
 
 def read_frames(path: Path, name: str) -> Iterator[Array]:
-    """The frames (A, B) of an array (A, B, T), one by one.
+    """Yields the frames (A, B) of an array (A, B, T).
 
-    Of a file of version 7.3 only one frame is in memory at a time. An older one can only be
-    unpacked as a whole; it is held in the type in which it is stored.
+    For a file of version 7.3 only one frame is in memory at a time. Older files must be unpacked as
+    a whole, and are held in their stored type.
 
     Raises:
-        DataError: If the file or the array is missing, damaged, or has other axes.
+        DataError: If the file or the array is missing, damaged, or does not have three axes.
     """
     if _is_hdf5(path):
         with hdf5.opened(path) as file:
@@ -70,13 +70,13 @@ def _unpacked(path: Path, name: str) -> np.ndarray[Any, Any]:
     with _blaming(path, name):
         values = loadmat(path, variable_names=[name])[name]
         if values.dtype.kind not in "biuf":
-            raise TypeError(f"it holds {values.dtype}, which are no numbers")
+            raise TypeError(f"it holds {values.dtype}, which are not numbers")
         return np.asarray(values)
 
 
 @contextmanager
 def _blaming(path: Path, name: str) -> Iterator[None]:
-    """What SciPy raises at a damaged file, as an error that names it."""
+    """Context manager that turns SciPy's errors on a damaged file into ones that name the file."""
     from scipy.io.matlab import MatReadError
 
     broken = (OSError, ValueError, KeyError, TypeError, NotImplementedError, zlib.error)

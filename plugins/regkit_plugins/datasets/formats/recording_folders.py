@@ -1,4 +1,4 @@
-"""The folder format of recorded recordings, common to depth images and clouds.
+"""The folder format of recordings, common to depth images and clouds.
 
 my_recording/
 sequence.yaml      name, fps, depth_scale, source, licence
@@ -27,27 +27,27 @@ Positive = Annotated[float, Field(gt=0.0)]
 
 
 class RecordingDescription(Model):
-    """What ``sequence.yaml`` holds."""
+    """The content of ``sequence.yaml``."""
 
     name: Annotated[str, Field(pattern=r"^\w[\w. -]*$")] | None = None
-    """Name of the recording; that of its folder without it."""
+    """Name of the recording; by default that of its folder."""
     fps: Positive = 30.0
     """Frames per second."""
     depth_scale: Positive = 1000.0
     """Depth image units per metre: 1000 for millimetres."""
     source: str = ""
-    """Where the data come from."""
+    """Origin of the data."""
     licence: str = ""
-    """What may be done with them."""
+    """Licence of the data."""
 
     @classmethod
     def read(cls, folder: Path) -> RecordingDescription:
-        """The description of a recording's folder."""
+        """Returns the description of a recording's folder."""
         return Document.read(folder / "sequence.yaml").validated(cls)
 
 
 def recording_folders(root: Path, content: str) -> list[Path]:
-    """``root`` itself if it is a recording, or the recordings in it; each has a ``content`` folder.
+    """Returns ``root`` if it is a recording, or the recordings in it, with a folder ``content``.
 
     Raises:
         DataError: If there is none.
@@ -59,7 +59,7 @@ def recording_folders(root: Path, content: str) -> list[Path]:
     folders = sorted(folder.parent for folder in root.glob(f"*/{content}") if folder.is_dir())
     if not folders:
         raise DataError(
-            f"no recording here: neither the folder nor one in it has a folder '{content}/' "
+            f"no recording here: neither this folder nor one in it contains '{content}/' "
             "beside a sequence.yaml",
             place=str(root),
         )
@@ -72,10 +72,10 @@ def recordings_in(
     read: Callable[[Path], Recording],
     wanted: Callable[[str], bool],
 ) -> list[Recording]:
-    """What ``read`` makes of each recording's folder; a damaged one counts only if it is wanted.
+    """Returns the result of ``read`` for each folder; damaged ones matter only if requested.
 
     Raises:
-        DataError: If there is none, or one that is wanted is damaged.
+        DataError: If there is none, or a requested one is damaged.
     """
     found = []
     for folder in recording_folders(root, content):
@@ -88,7 +88,7 @@ def recordings_in(
 
 
 def numbered_files(folder: Path, suffixes: tuple[str, ...]) -> list[Path]:
-    """The files 000000, 000001, ... of a folder.
+    """Returns the files 000000, 000001, ... of a folder.
 
     Raises:
         DataError: If there is none, or a number is missing.
@@ -107,7 +107,7 @@ def numbered_files(folder: Path, suffixes: tuple[str, ...]) -> list[Path]:
 
 
 def read_truth(path: Path, length: int) -> Truth | None:
-    """The reference joints of the first ``length`` frames; None if the file is not there.
+    """Returns the reference joints of the first ``length`` frames; None if the file is missing.
 
     Raises:
         DataError: If a row cannot be read, or a number is not finite.
@@ -115,9 +115,9 @@ def read_truth(path: Path, length: int) -> Truth | None:
     if not path.exists():
         return None
     if not path.is_file():
-        raise DataError("this must be a file", place=str(path))
+        raise DataError("this is not a file", place=str(path))
     rows: dict[tuple[int, str], list[float]] = {}
-    # A spreadsheet begins UTF-8 with a mark; bytes that are no text make a row that is refused.
+    # Spreadsheets mark UTF-8 at the start; bytes that are not text make a row invalid.
     with path.open(newline="", encoding="utf-8-sig", errors="replace") as stream:
         reader = csv.DictReader(stream)
         if reader.fieldnames != ["frame", "joint", "x", "y", "z"]:
@@ -137,12 +137,12 @@ def read_truth(path: Path, length: int) -> Truth | None:
                 ) from None
             if not np.isfinite(position).all():
                 raise DataError(
-                    "a position is NaN or infinite; leave the row out where a joint was not seen",
+                    "a position is NaN or infinite; omit the row of an unseen joint",
                     place=f"{path}:{reader.line_num}",
                 )
             if (frame, row["joint"]) in rows:
                 raise DataError(
-                    f"joint '{row['joint']}' of frame {frame} is given a second time",
+                    f"joint '{row['joint']}' of frame {frame} is listed twice",
                     place=f"{path}:{reader.line_num}",
                 )
             if frame < length:

@@ -1,4 +1,4 @@
-"""Who is seen in a recording, as its name tells."""
+"""Subjects of recordings, from their names."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ def _of_one_group(pattern: str) -> str:
     except re.error as error:
         raise ValueError(f"not a regular expression: {error}") from None
     if groups != 1:
-        raise ValueError(f"it must have one group, which is the subject's name; it has {groups}")
+        raise ValueError(f"it must have one group, for the subject's name; it has {groups}")
     return pattern
 
 
 SubjectPattern = Annotated[str, AfterValidator(_of_one_group)]
-"""A regular expression whose only group is the subject's name within a recording's."""
+"""Regular expression whose only group is the subject's name within a recording's."""
 
 
 def subject_of(name: str, pattern: SubjectPattern | None) -> str | None:
-    """Who is seen in the recording ``name``; None if the pattern is not found in it."""
+    """Returns the subject of the recording ``name``; None if the pattern does not match."""
     found = re.search(pattern, name) if pattern else None
     return found[1] if found else None

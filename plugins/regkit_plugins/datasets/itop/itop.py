@@ -13,46 +13,45 @@ from regkit.interfaces import Dataset, Recording
 from regkit_plugins.datasets.itop.recording import ItopFiles, ItopRecording
 
 CAMERA = Camera(width=320, height=240, fx=1 / 0.0035, fy=1 / 0.0035, cx=160.0, cy=120.0)
-"""The nominal camera that relates the joints in metres to those in pixels."""
+"""The nominal camera, which relates joints in metres to joints in pixels."""
 
 
 class Itop(Dataset):
     """ITOP (Haque, Peng, Luo, Alahi, Yeung and Fei-Fei, ECCV 2016).
 
-    ``ITOP_side_test_depth_map.h5`` holds ``data`` (N, 240, 320) [m] and ``id`` (N,), in which
+    ``ITOP_side_test_depth_map.h5`` holds ``data`` (N, 240, 320) [m] and ``id`` (N,), where
     ``02_00143`` is frame 143 of person 2; ``ITOP_side_test_labels.h5`` holds for the same frames
     ``real_world_coordinates`` (N, 15, 3) [m], ``is_valid`` (N,) and ``segmentation``
-    (N, 240, 320), -1 for the background. As several public loaders agree, a joint (x, y, z) is seen
-    at the pixel (160 + x / 0.0035 z, 120 - y / 0.0035 z) from the side and from above: x points
-    right, y *up*, z forward. Right and left are the person's own. Not verified is that
-    the images are no mirror images (``mirrored``), and the rate (``fps``).
+    (N, 240, 320), -1 for the background. According to several public loaders, a joint (x, y, z)
+    appears at the pixel (160 + x / 0.0035 z, 120 - y / 0.0035 z) in both views: x points right,
+    y *up*, z forward. Right and left are the person's own. Not verified are: images that are not
+    mirrored (``mirrored``), and the frame rate (``fps``).
 
-    The frames of all people follow each other in one file; a recording is a run of one person's
-    frames whose numbers follow each other, and is called after the person and its first frame:
-    ``02_00143``.
+    One file contains the frames of all people; a recording is a run of one person's consecutive
+    frames, named after the person and the first frame: ``02_00143``.
     """
 
     kind: Literal["itop"] = "itop"
 
     root: InputPath
-    """The folder that holds the unpacked files."""
+    """Folder of the unpacked files."""
     view: Literal["side", "top"] = "side"
-    """From where the camera looks."""
+    """View of the camera."""
     split: Literal["train", "test"] = "test"
-    """Which of the two parts."""
+    """Part of the data set."""
     background: Literal["dropped", "kept"] = "dropped"
-    """Whether only those pixels are used that the labels count to the person. The labels hold in
-    frames that people approved (``is_valid``), and the others are then left out; with the
-    background kept they are in, and their joints are not scored."""
+    """Whether to use only the pixels that the labels assign to the person. The labels are valid
+    only in manually approved frames (``is_valid``), and all other frames are then left out; with
+    the background kept they are included, but their joints are not evaluated."""
     gap: Annotated[int, Field(ge=1)] = 1
-    """By how much the frames' numbers may grow within a recording."""
+    """Maximum increment of the frame number within a recording."""
     mirrored: bool = False
-    """Whether images and joints are stored as in a mirror, and must be turned round."""
+    """Whether images and joints are stored mirrored, and must be flipped."""
     fps: Annotated[float, Field(gt=0.0)] = 30.0
     """Frames per second."""
 
     def found(self) -> list[Recording]:
-        """A recording for each run of frames of one person."""
+        """Returns a recording for each run of frames of one person."""
         stem = f"ITOP_{self.view}_{self.split}"
         files = ItopFiles(self._file(f"{stem}_depth_map.h5"), self._file(f"{stem}_labels.h5"))
         runs = files.runs(valid_only=self.background == "dropped", gap=self.gap)

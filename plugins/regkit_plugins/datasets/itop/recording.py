@@ -1,4 +1,4 @@
-"""The files of ITOP, and the runs of frames in them."""
+"""The files of ITOP, and their runs of frames."""
 
 from __future__ import annotations
 
@@ -22,17 +22,17 @@ JOINTS = (
     "right_hand", "left_hand", "torso", "right_hip", "left_hip", "right_knee", "left_knee",
     "right_foot", "left_foot",
 )  # fmt: skip
-"""The 15 joints in their order."""
+"""The 15 joints in order."""
 
 
 @dataclass(frozen=True)
 class Run:
-    """Frames of one person that follow each other.
+    """Consecutive frames of one person.
 
     Attributes:
-        person: The person's number, as it is written.
+        person: The person's number as a string.
         number: Number of the first frame.
-        indices: Where they are in the files.
+        indices: Indices of the frames in the files.
     """
 
     person: str
@@ -45,18 +45,18 @@ class ItopFiles:
     """The depth images of one view and part, and their labels.
 
     Attributes:
-        images: With ``data`` and ``id``.
-        labels: With ``real_world_coordinates``, ``is_valid`` and ``segmentation``.
+        images: File with ``data`` and ``id``.
+        labels: File with ``real_world_coordinates``, ``is_valid`` and ``segmentation``.
     """
 
     images: Path
     labels: Path
 
     def runs(self, *, valid_only: bool, gap: int) -> list[Run]:
-        """The frames, or the valid ones among them, as runs whose numbers grow by at most ``gap``.
+        """Returns all or all valid frames, as runs with number increments of at most ``gap``.
 
         Raises:
-            DataError: If an array is missing, or an identifier is not a person's and a frame's.
+            DataError: If an array is missing, or an identifier is invalid.
         """
         with hdf5.opened(self.images) as file:
             identifiers = hdf5.read(hdf5.stored(file, "id"))
@@ -88,7 +88,7 @@ class ItopFiles:
         match = re.fullmatch(r"(\d+)_(\d+)", str(text))
         if match is None:
             raise DataError(
-                f"id[{index}] is '{text}'; it must be like 02_00143: a person, a frame",
+                f"id[{index}] is '{text}'; it must consist of person and frame, as in 02_00143",
                 place=str(self.images),
             )
         return match[1], int(match[2])
@@ -99,11 +99,11 @@ class ItopRecording(Recording):
     """One run of frames.
 
     Attributes:
-        files: Where they are.
-        indices: Which they are.
-        segmented: Whether only the pixels of the person are used.
-        mirrored: Whether images and joints are turned round.
-        camera: Of the images.
+        files: The files.
+        indices: Indices of the frames in the files.
+        segmented: Whether to use only the pixels of the person.
+        mirrored: Whether to flip images and joints.
+        camera: Camera of the images.
     """
 
     files: ItopFiles
@@ -113,7 +113,7 @@ class ItopRecording(Recording):
     camera: Camera
 
     def frames(self) -> Iterator[Frame]:
-        """The depth images, back-projected, read one by one."""
+        """Yields the back-projected depth images, read one by one."""
         camera = self.camera
         if self.mirrored:
             camera = replace(camera, cx=camera.width - 1.0 - camera.cx)
@@ -131,7 +131,7 @@ class ItopRecording(Recording):
                 yield Frame(camera.back_projected(depth), camera, depth, place=place)
 
     def truth(self) -> Truth | None:
-        """The joints of the valid frames; those of the others are NaN."""
+        """Returns the joints of the valid frames; the others are NaN."""
         indices = list(self.indices[: self.length])
         with hdf5.opened(self.files.labels) as labels:
             stored = hdf5.stored(labels, "real_world_coordinates")
@@ -141,7 +141,7 @@ class ItopRecording(Recording):
                     f"(N, {len(JOINTS)}, 3)",
                     place=str(self.files.labels),
                 )
-            # HDF5 wants indices that grow, which those of a run do.
+            # HDF5 requires ascending indices, as those of a run are.
             joints = np.asarray(hdf5.read(stored, indices), dtype=np.float64)
             valid = np.asarray(hdf5.read(hdf5.stored(labels, "is_valid"), indices)).astype(bool)
         joints = joints * np.array([-1.0 if self.mirrored else 1.0, -1.0, 1.0])

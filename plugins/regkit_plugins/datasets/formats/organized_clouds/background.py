@@ -1,4 +1,4 @@
-"""What a camera that stands still sees behind those who move."""
+"""Background of a static camera."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from numpy.typing import NDArray
 from regkit.system.arrays import Array
 
 SAMPLES = 60
-"""How many frames of a recording tell its background."""
+"""Number of frames that determine the background."""
 
 
 @dataclass(frozen=True)
 class StaticBackground:
-    """The farthest that each pixel measured.
+    """The largest depth that each pixel measured.
 
     Attributes:
-        depth: (H, W) [m]; zero where nothing ever was.
-        margin: What is at least so much nearer is the foreground [m].
+        depth: (H, W) [m]; zero for pixels that never measured.
+        margin: Minimum distance of the foreground to the background [m].
     """
 
     depth: Array
@@ -28,12 +28,12 @@ class StaticBackground:
 
     @classmethod
     def of(cls, depth_of: Callable[[int], Array], length: int, margin: float) -> StaticBackground:
-        """The background of a recording.
+        """Returns the background of a recording.
 
         Args:
-            depth_of: The depth image (H, W) [m] of a frame.
+            depth_of: Returns the depth image (H, W) [m] of a frame.
             length: Number of frames.
-            margin: What is at least so much nearer is the foreground [m].
+            margin: Minimum distance of the foreground to the background [m].
         """
         samples = np.unique(np.linspace(0, length - 1, SAMPLES).round().astype(int))
         farthest = depth_of(int(samples[0]))
@@ -42,5 +42,5 @@ class StaticBackground:
         return cls(farthest, margin)
 
     def before(self, depth: Array) -> NDArray[np.bool_]:
-        """Which pixels of a depth image (H, W) [m] show what stands before the background."""
+        """Returns the mask (H, W) of the foreground in a depth image (H, W) [m]."""
         return np.asarray((depth > 0.0) & (depth <= self.depth - self.margin))

@@ -1,6 +1,6 @@
-"""Datasets in binary files: each record is a frame's organized cloud, markers and joints.
+"""Datasets in binary files of records: a frame's organized cloud, markers and joints.
 
-An organized cloud has a point for each pixel of the image. This is how EVAL is stored, as read by
+An organized cloud has a point for each pixel of the image. EVAL is stored like this, as read by
 the public loader of pyKinectTools (https://github.com/colincsl/pyKinectTools,
 ``dataset_readers/EVALPlayer.py``):
 
@@ -29,36 +29,36 @@ from regkit_plugins.datasets.formats.subjects import SubjectPattern, subject_of
 
 
 class OrganizedClouds(Dataset, ABC):
-    """Files of organized clouds, each a recording."""
+    """Files of organized clouds, one for each recording."""
 
     root: InputPath
-    """The folder that holds the files."""
+    """Folder of the files."""
     files: str
-    """Which files of the folder are recordings, as a pattern with ``*``."""
+    """Pattern of the recordings' file names, with ``*`` as wildcard."""
     subjects: SubjectPattern | None
-    """A regular expression whose one group finds the subject in a file's name."""
+    """Regular expression whose only group is the subject in a file's name."""
     record: RecordLayout
-    """How large the parts of a record are."""
+    """Sizes of the parts of a record."""
     axes: Axes = ("x", "-y", "-z")
-    """The data's axes that point right, down and forward from the camera."""
+    """Axes of the data that point right, down and forward from the camera."""
     fps: Annotated[float, Field(gt=0.0)]
     """Frames per second."""
     camera: bool = True
-    """Fit a pinhole camera to the grid of points; without it the frames are clouds alone."""
+    """Fit a pinhole camera to the grid of points; otherwise frames are clouds only."""
     foreground: Annotated[float, Field(gt=0.0)] | None = None
-    """Keep only what is so much nearer [m] than the farthest that its pixel saw in the recording.
-    It needs people who leave every place where they stood; everything is kept without it."""
+    """Keep only points that are closer than the largest depth of their pixel by at least this [m].
+    People must leave every place where they stood; by default everything is kept."""
 
     def found(self) -> list[Recording]:
-        """A recording for each file."""
+        """Returns a recording for each file."""
         files = sorted(path for path in self.root.glob(self.files) if path.is_file())
         if not files:
             raise DataError(
-                f"no recording here: no file is called like '{self.files}' (dataset.files)",
+                f"no recording here: no file matches '{self.files}' (dataset.files)",
                 place=str(self.root),
             )
         wanted = [path for path in files if self.wanted(path.stem)]
-        # If none is wanted, all are returned: the answer to a misspelt name lists them.
+        # If no requested recording exists, return all, so that the error can list their names.
         return [self._recording(path) for path in wanted or files]
 
     def _recording(self, path: Path) -> Recording:

@@ -1,4 +1,4 @@
-"""Depth images that are stored as a grid of points, one for each pixel."""
+"""Depth images stored as a grid of points, one for each pixel."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from regkit.system.arrays import Array
 from regkit.system.errors import DataError
 
 MAX_RESIDUAL = 0.5
-"""How far a pinhole camera may miss the pixels of a grid [px], as a root mean square."""
+"""Maximum root mean square error [px] of a pinhole camera fitted to a grid."""
 
 
 @dataclass(frozen=True)
 class Grid:
-    """A camera, and how the stored rows and columns are turned so that x and y grow along them.
+    """A camera, and the flips of stored rows and columns that make x and y grow along them.
 
     Attributes:
-        camera: Fitted to the points.
-        turned: What selects rows and columns in the right order.
+        camera: Camera fitted to the points.
+        turned: Slices that put rows and columns in order.
     """
 
     camera: Camera
@@ -29,21 +29,22 @@ class Grid:
 
     @classmethod
     def fitted(cls, points: Array, *, place: str) -> Grid:
-        """The pinhole camera that sees a frame's points at their pixels, by least squares.
+        """Fits a pinhole camera to the pixels of a frame's points, by least squares.
 
         Args:
-            points: (H, W, 3) in the camera's frame [m]; what ``measured`` refuses does not count.
-            place: Of the frame, for messages.
+            points: (H, W, 3) in the camera's frame [m]; points that ``measured`` excludes are
+                ignored.
+            place: Name of the frame, for messages.
 
         Raises:
-            DataError: If the points are too few, or no pinhole camera sees them at their pixels.
+            DataError: If there are too few points, or no pinhole camera fits.
         """
         height, width = points.shape[:2]
         rows, columns = np.nonzero(measured(points))
         if len(np.unique(rows)) < 2 or len(np.unique(columns)) < 2:
             raise DataError(
-                f"{len(rows)} points lie before the camera: too few to tell the camera from; are "
-                "the signs of 'axes' right?",
+                f"only {len(rows)} points lie in front of the camera, too few to fit it; check the "
+                "signs of 'axes'",
                 place=place,
             )
         x, y, z = points[rows, columns].T
@@ -52,11 +53,11 @@ class Grid:
         residual = float(np.hypot(miss_x, miss_y))
         if not residual <= MAX_RESIDUAL:
             raise DataError(
-                f"no pinhole camera sees the points at their pixels (it misses by {residual:.1f} "
-                "pixels); set camera: false to take the frames as clouds, or mend 'axes'",
+                f"no pinhole camera fits the grid of points (error {residual:.1f} pixels); set "
+                "camera: false to use the frames as clouds, or correct 'axes'",
                 place=place,
             )
-        # A focal length below zero says that the axis falls along the rows or columns.
+        # A negative focal length means that the axis points against the rows or columns.
         across = slice(None, None, 1 if fx > 0.0 else -1)
         down = slice(None, None, 1 if fy > 0.0 else -1)
         cx = cx if fx > 0.0 else width - 1.0 - cx
@@ -65,12 +66,12 @@ class Grid:
 
 
 def measured(points: Array) -> NDArray[np.bool_]:
-    """Which points (..., 3) were measured: all numbers finite, and before the camera."""
+    """Returns the mask of measured points (..., 3): finite, and in front of the camera."""
     return np.asarray(np.isfinite(points).all(axis=-1) & (points[..., 2] > 0.0))
 
 
 def _line(ratios: Array, pixels: NDArray[np.intp]) -> tuple[float, float, float]:
-    """Slope, offset and root mean square residual of pixels over ratios."""
+    """Returns slope, offset and root mean square residual of pixels over ratios."""
     matrix = np.column_stack([ratios, np.ones(len(ratios))])
     (slope, offset), *_ = np.linalg.lstsq(matrix, pixels.astype(np.float64), rcond=None)
     miss = matrix @ np.array([slope, offset]) - pixels

@@ -1,4 +1,4 @@
-"""A recording that one file of organized clouds holds."""
+"""A recording in one file of organized clouds."""
 
 from __future__ import annotations
 
@@ -24,10 +24,9 @@ class OrganizedRecording(Recording):
 
     Attributes:
         file: The file.
-        axes: Of the data.
-        with_camera: Whether a camera is fitted to the grid of points.
-        foreground: By how much the foreground is nearer than what is behind it [m], if only that is
-            kept.
+        axes: Axes of the data.
+        with_camera: Whether to fit a camera to the grid of points.
+        foreground: Minimum distance of the foreground to the background [m]; None keeps both.
     """
 
     file: RecordFile
@@ -36,10 +35,10 @@ class OrganizedRecording(Recording):
     foreground: float | None
 
     def frames(self) -> Iterator[Frame]:
-        """The grids of points, as depth images with a camera, or as clouds.
+        """Yields the grids of points, as depth images with a camera, or as clouds.
 
-        The images are turned so that the camera's x grows along their columns and y down their
-        rows, whichever way they are stored.
+        The images are flipped so that the camera's x grows along their columns and y down their
+        rows, regardless of their storage.
         """
         records = self.file.records()
         background = self._background(records)
@@ -60,9 +59,9 @@ class OrganizedRecording(Recording):
             yield Frame(points[seen], grid.camera, depth, place=place)
 
     def truth(self) -> Truth | None:
-        """The markers by their names, and the joints as ``joint_0``, ``joint_1``, ...
+        """Returns the markers by their names, and the joints as ``joint_0``, ``joint_1``, ...
 
-        A position that is not finite, or zero throughout, stands for one that was not seen.
+        Non-finite or all-zero positions count as unseen.
         """
         records = self.file.records()
         positions: dict[str, Array] = {}
@@ -80,7 +79,7 @@ class OrganizedRecording(Recording):
     def _note(self, positions: dict[str, Array], index: int, name: str, position: Array) -> None:
         track = positions.setdefault(name, np.full((self.length, 3), np.nan))
         if not np.isnan(track[index]).all():
-            raise DataError(f"two positions are called '{name}'", place=self.file.place(index))
+            raise DataError(f"two positions have the name '{name}'", place=self.file.place(index))
         if np.isfinite(position).all() and position.any():
             track[index] = in_camera(position, self.axes)
 

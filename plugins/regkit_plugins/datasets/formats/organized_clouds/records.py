@@ -1,4 +1,4 @@
-"""The records of a file of organized clouds, read from the disk as they are needed."""
+"""Records of a file of organized clouds, read from disk on demand."""
 
 from __future__ import annotations
 
@@ -17,22 +17,22 @@ Slots = Annotated[int, Field(ge=0)]
 
 
 class RecordLayout(Model):
-    """The sizes of a record's parts, in the order that ``OrganizedClouds`` gives."""
+    """Sizes of a record's parts, in the order of ``OrganizedClouds``."""
 
     width: Size
     """Columns of the grid of points."""
     height: Size
     """Rows of the grid of points."""
     marker_slots: Slots = 32
-    """Room for so many markers, used or not."""
+    """Number of slots for markers, used or not."""
     name_bytes: Size = 256
-    """Room for a marker's name."""
+    """Number of bytes of a marker's name."""
     joint_slots: Slots = 32
-    """Room for so many joints, used or not."""
+    """Number of slots for joints, used or not."""
 
     @property
     def dtype(self) -> np.dtype[Any]:
-        """A record as NumPy reads it."""
+        """The NumPy data type of a record."""
         marker = [("name", f"S{self.name_bytes}"), ("position", "<f4", 3)]
         joint = [("number", "<i4"), ("position", "<f4", 3)]
         return np.dtype([
@@ -51,8 +51,8 @@ class RecordFile:
     """One file.
 
     Attributes:
-        path: Where it lies.
-        record: The sizes of its parts.
+        path: Its path.
+        record: Sizes of its records' parts.
         length: Number of records.
     """
 
@@ -62,7 +62,7 @@ class RecordFile:
 
     @classmethod
     def of(cls, path: Path, record: RecordLayout) -> RecordFile:
-        """A file whose size is that of whole records.
+        """Returns a file whose size is a multiple of the record's.
 
         Raises:
             DataError: If it is not.
@@ -70,22 +70,22 @@ class RecordFile:
         size, one = path.stat().st_size, record.dtype.itemsize
         if size == 0 or size % one:
             raise DataError(
-                f"the file's {size} bytes are not whole records of {one} bytes "
+                f"the file's {size} bytes are not a multiple of the record's {one} bytes "
                 f"({record.width}x{record.height} points, {record.marker_slots} markers, "
-                f"{record.joint_slots} joints); it is cut short, or dataset.record is not right",
+                f"{record.joint_slots} joints); it is truncated, or dataset.record is wrong",
                 place=str(path),
             )
         return cls(path, record, size // one)
 
     def place(self, index: int) -> str:
-        """Of a frame, for messages."""
+        """Returns the place of a frame, for messages."""
         return f"{self.path}: frame {index}"
 
     def records(self) -> np.memmap[Any, Any]:
-        """All records (T,), of which only what is used is read from the disk.
+        """Returns all records (T,), memory-mapped.
 
         Raises:
-            DataError: If what the records say of themselves cannot be.
+            DataError: If the counts of a record are invalid.
         """
         records = np.memmap(self.path, self.record.dtype, mode="r")
         for part, slots in (
@@ -96,8 +96,8 @@ class RecordFile:
             wrong = np.flatnonzero((counts < 0) | (counts > slots))
             if len(wrong):
                 raise DataError(
-                    f"{part}_count is {counts[wrong[0]]}, but there is room for {slots} {part}s; "
-                    "dataset.record is not right, or the file is damaged",
+                    f"{part}_count is {counts[wrong[0]]}, for {slots} slots; "
+                    "dataset.record is wrong, or the file is damaged",
                     place=self.place(int(wrong[0])),
                 )
         return records
