@@ -34,7 +34,7 @@ _UPRIGHT = "In the first frame y points up and the front faces the camera."
 _SHAPES = """\
 Primitives of shape models; sigma is a standard deviation [m], and the surface lies at about two."""
 
-_BESIDE = "Skinned mesh: vertices that follow the segments, in a file in the same folder."
+_BESIDE = "The skin: vertices that follow the segments, in a file in the same folder."
 
 
 def template_text(body: BodyDescription, opening: str, comments: Mapping[str, str]) -> str:

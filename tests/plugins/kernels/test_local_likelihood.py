@@ -90,5 +90,5 @@ def test_flat_gaussians_lie_in_the_surface(random):
 
 
 def test_body_without_a_surface_is_refused(linkage):
-    with pytest.raises(ConfigError, match="'linkage' has none; take a template of kind cloud"):
+    with pytest.raises(ConfigError, match=r"shape 'cloud_sog'.*'linkage' has none"):
         CloudSumOfGaussians().bind(linkage)
