@@ -124,7 +124,7 @@ def test_another_sweep_does_not_go_into_the_same_folder(regkit, files):
         ),
         (
             "sweep: {preprocessor.voxel: [0.1, 0.1]}",
-            "FILE:8: sweep.preprocessor.voxel: 0.1 stands there",
+            "FILE:8: sweep.preprocessor.voxel: 0.1 is listed twice",
         ),
         ("sweep: {name: [a, b]}", "FILE:8: sweep.name: 'name' cannot be swept"),
         ("sweep: {methods: [a, b]}", "FILE:8: sweep.methods: 'methods' cannot be swept"),
