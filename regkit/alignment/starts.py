@@ -84,11 +84,11 @@ def nearest(source: Array, target: Array) -> InitialAlignment:
     if unmoved <= moved:
         return InitialAlignment(
             identity,
-            f"identity (median distance {unmoved:.3g} m, {moved:.3g} m with aligned centroids)",
+            f"identity (median distance {unmoved:.3g}, {moved:.3g} with aligned centroids)",
         )
     return InitialAlignment(
         centroids,
-        f"alignment of the centroids (median distance {moved:.3g} m, {unmoved:.3g} m without)",
+        f"alignment of the centroids (median distance {moved:.3g}, {unmoved:.3g} without)",
     )
 
 

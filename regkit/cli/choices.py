@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import Any, ClassVar
 
 from regkit.api.choices import name_of
 from regkit.config.changes import Location
@@ -18,6 +18,8 @@ from regkit.system.errors import ConfigError
 
 class Choices(Model):
     """Choices of ``regkit register`` and ``regkit track``."""
+
+    renamed: ClassVar[dict[str, str]] = {"observer": "preprocessor"}
 
     template: Template = slot_default(Template)
     """The template to register."""

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from regkit.cli.console import output
-from regkit.scaffold import Scaffold
+from regkit.scaffold import PLACEHOLDER, Scaffold
 
 
 def new(
@@ -28,7 +28,9 @@ def new(
     """Create a package for a plug-in of your own, which passes conformance from the start."""
     scaffold = Scaffold.checked(what, name)
     folder = scaffold.write(out)
-    recorded = " --set dataset.root=FOLDER" if what == "template" else ""
+    # Without a source checkout the example names no recording.
+    placeholder = PLACEHOLDER in (folder / "example.yaml").read_text(encoding="utf-8")
+    recorded = " --set dataset.root=FOLDER" if placeholder else ""
     lines = [
         f"written: {folder}",
         f"the {what} is in {folder / 'src' / scaffold.module / f'{what}.py'}; next:",

@@ -18,6 +18,8 @@ from regkit.interfaces import Dataset, Kernel, ShapeModel, Solver, Template
 from regkit.system.errors import ConfigError, DataError
 
 FOLDER = Path(__file__).parent
+PLACEHOLDER = "path/to/a/recording"
+"""Dataset of an example for which there is no sample recording."""
 SUFFIX = ".jinja"
 KINDS: dict[str, type[Plugin]] = {
     "shape": ShapeModel,
@@ -137,4 +139,4 @@ class Scaffold:
 def _sample_recording() -> str:
     """Returns the sample recording of a source checkout, or else a placeholder."""
     sample = FOLDER.parents[1] / "docs" / "examples" / "data" / "human_walk"
-    return str(sample) if sample.is_dir() else "path/to/a/recording"
+    return str(sample) if sample.is_dir() else PLACEHOLDER

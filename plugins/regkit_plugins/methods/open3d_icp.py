@@ -63,5 +63,5 @@ class Open3DICP(RigidMethod):
                 estimation = pipeline.TransformationEstimationPointToPoint()
             result = pipeline.registration_icp(*clouds, distance, start, estimation, criteria)
         near = len(result.correspondence_set)
-        message = f"{near} pairs within {distance:.3g} m"
+        message = f"{near} pairs within {distance:.3g}"
         return Aligned(np.asarray(result.transformation), near > 0, 0, message)

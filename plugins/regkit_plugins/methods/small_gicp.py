@@ -49,7 +49,7 @@ class SmallGICP(RigidMethod):
             max_iterations=self.max_iterations,
             translation_epsilon=self.translation_tolerance * size,
         )
-        message = f"{result.num_inliers} pairs within {self.distance * size:.3g} m"
+        message = f"{result.num_inliers} pairs within {self.distance * size:.3g}"
         return Aligned(
             np.asarray(result.T_target_source), result.converged, result.iterations, message
         )

@@ -52,6 +52,10 @@ def recording_folders(root: Path, content: str) -> list[Path]:
     Raises:
         DataError: If there is none.
     """
+    if root.is_file():
+        raise DataError(
+            "this is a file; a dataset reads the folder of a recording", place=str(root)
+        )
     if not root.is_dir():
         raise DataError("there is no such folder", place=str(root))
     if (root / content).is_dir():
