@@ -5,7 +5,8 @@ from regkit.api.choices import load_template
 from regkit.api.frame_files import load_frame
 from regkit.api.frames import load_recording
 from regkit.api.registering import register, track
-from regkit.api.results import Registration, Tracking
+from regkit.api.registration import Registration
+from regkit.api.tracking import Tracking
 from regkit.geometry.camera import Camera
 from regkit.observation import Truth
 

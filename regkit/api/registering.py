@@ -8,7 +8,8 @@ from typing import Any
 from regkit.api.choices import Choice, load_template, name_of
 from regkit.api.frames import Frames, GivenFrames, Intrinsics, Measured, frame_of, recording_of
 from regkit.api.numbers import check_metres
-from regkit.api.results import Registration, Tracking
+from regkit.api.registration import Registration
+from regkit.api.tracking import Tracking
 from regkit.clouds import spacing, voxel_for
 from regkit.config.document import Document
 from regkit.interfaces import Method, Preprocessor, Recording, Template, Tracker

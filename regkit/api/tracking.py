@@ -1,17 +1,17 @@
-"""Results of registration and tracking for notebooks: arrays, figures, tables and images."""
+"""The result of tracking, for notebooks: arrays, metrics, a table and a picture."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from regkit.api.reference import Reference, truth_of
+from regkit.api.registration import Registration
 from regkit.api.tables import Summary
 from regkit.body import Body
 from regkit.interfaces import Registrar
@@ -224,98 +224,21 @@ class Tracking(Summary):
         measure = self.measure()
         return {
             "recording": f"{self.name}, {len(self)} frames",
-            **_rows(self, measure),
+            **self.summary(measure),
             "converged": f"{len(self) - int(measure.unconverged_frames or 0)} of {len(self)}",
             "speed": f"{measure.fps:.3g} frames per second",
-            **_warning(self),
+            **self.warning(),
         }
 
-
-@dataclass(frozen=True, repr=False)
-class Registration(Summary):
-    """A body's pose in one frame.
-
-    Attributes:
-        tracking: The same result as a recording of one frame.
-    """
-
-    tracking: Tracking
-
-    @property
-    def body(self) -> Body:
-        """The body at its given or estimated size."""
-        return self.tracking.body
-
-    @property
-    def size(self) -> float:
-        """Size of the body [m]: its height, length, or another size that the template defines."""
-        return self.body.size
-
-    @property
-    def pose(self) -> Pose:
-        """The pose of root and joints."""
-        return self.tracking.poses[0]
-
-    @property
-    def joint_names(self) -> tuple[str, ...]:
-        """The names of the M markers."""
-        return self.tracking.joint_names
-
-    @property
-    def markers(self) -> Array:
-        """Positions of the markers in the camera's frame, (M, 3) [m]."""
-        return np.asarray(self.tracking.markers[0])
-
-    @property
-    def segments(self) -> Array:
-        """T_camera_segment of each segment, (S, 4, 4) [m]."""
-        return np.asarray(self.tracking.segments[0])
-
-    @property
-    def points(self) -> Array:
-        """Points of the frame, after preprocessing, (N, 3) [m]."""
-        return self.tracking.snapshot(0).points
-
-    def error(self, truth: Mapping[str, ArrayLike] | ArrayLike) -> float:
-        """Returns the mean distance [m] of the markers to reference joints.
-
-        Args:
-            truth: Positions (3,) [m] by name, or (M, 3) [m] of all markers; NaN for unseen joints.
-
-        Raises:
-            RegkitError: If they do not match the markers.
-        """
-        if isinstance(truth, Mapping):
-            return self.tracking.error({name: np.asarray(at)[None] for name, at in truth.items()})
-        return self.tracking.error(np.asarray(truth)[None])
-
-    def plot(self) -> Figure:
-        """Returns a figure of the frame from the front and from the side."""
-        return self.tracking.plot()
-
-    def save(self, path: str | Path) -> None:
-        """Writes the pose in the format of ``Tracking.save``, with T = 1."""
-        self.tracking.save(path)
-
-    def rows(self) -> dict[str, str]:
-        """Returns the rows of a table: frame, method, body, surface distance and convergence."""
-        converged = "yes" if self.tracking.track.converged[0] else "no"
+    def summary(self, measure: Measure) -> dict[str, str]:
+        """Returns the rows that a frame and a recording share: method, body and distance."""
+        surface = measure.surface_distance_mm
         return {
-            "frame": self.tracking.name,
-            **_rows(self.tracking, self.tracking.measure()),
-            "converged": f"{converged}: {self.tracking.message(0)}",
-            **_warning(self.tracking),
+            "method": self.method,
+            "body": f"{self.body.name}, {self.size:.3g} m",
+            "surface": "-" if surface is None else f"half of the data within {surface:.3g} mm",
         }
 
-
-def _rows(tracking: Tracking, measure: Measure) -> dict[str, str]:
-    surface = measure.surface_distance_mm
-    return {
-        "method": tracking.method,
-        "body": f"{tracking.body.name}, {tracking.size:.3g} m",
-        "surface": "-" if surface is None else f"half of the data within {surface:.3g} mm",
-    }
-
-
-def _warning(tracking: Tracking) -> dict[str, str]:
-    return {} if tracking.doubt is None else {"warning": tracking.doubt}
+    def warning(self) -> dict[str, str]:
+        """Returns the row that says why the result is doubtful, or none."""
+        return {} if self.doubt is None else {"warning": self.doubt}
