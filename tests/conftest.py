@@ -16,7 +16,6 @@ from places import REFERENCE
 from small_experiment import Files, Started, small
 
 from regkit.body import Body, BodyDescription
-from regkit.cli import main
 from regkit.config import registry as registered
 from regkit.config.document import Document
 from regkit.testing.samples import LINKAGE
@@ -30,8 +29,10 @@ settings.register_profile("short", max_examples=30, deadline=None, derandomize=T
 settings.register_profile("long", max_examples=500, deadline=None)
 settings.load_profile("short")
 
-# A console keeps the width that it is told when it is made; without it, it asks each time.
+# A console keeps the width of the environment in which it is made, and asks each time without one:
+# the command line is imported after this.
 os.environ.pop("COLUMNS", None)
+main = importlib.import_module("regkit.cli").main
 
 
 @pytest.fixture(scope="session")

@@ -47,7 +47,7 @@ class Robust(Model):
 
 
 def median_scale(residuals: Array) -> float:
-    """Returns the standard deviation of zero-mean normal residuals (N,) from the median |r|.
+    """Returns the standard deviation of zero-mean normal residuals (N,) from their median size.
 
     This is the median absolute deviation (MAD) from zero, the model's prediction. It tolerates up
     to half of the residuals as outliers.

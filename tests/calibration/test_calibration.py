@@ -263,6 +263,7 @@ def test_hidden_parts_are_not_missed():
     assert weights @ distances.lengths < 0.5 * even @ everywhere.lengths
 
 
+@pytest.mark.long
 def test_known_proportions_are_found(random):
     shape = Shape(HUMAN)
     truth = unlike(shape, random)

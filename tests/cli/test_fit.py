@@ -70,6 +70,7 @@ def test_another_shape_of_the_mesh_gives_another_template(regkit, tmp_path, out)
     assert np.median(np.abs(gaps)) < 0.012
 
 
+@pytest.mark.long
 def test_a_fitted_hand_is_like_the_shipped_one_however_the_mesh_stands(regkit, tmp_path, out):
     assert regkit("fit", HAND, "--template", "hand", "--map", HAND_MAP, "--out", out).code == 0
     straight = read(out)

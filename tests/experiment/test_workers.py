@@ -102,6 +102,7 @@ def test_killed_process_loses_nothing(regkit, files, serial, deadly):
     assert figures_but_times(files.out) == serial
 
 
+@pytest.mark.long
 def test_track_that_kills_every_process_fails_alone(regkit, files, deadly):
     ended = regkit("run", files.experiment, "--out", files.out, "--jobs", 2, *QUICK, *deadly(99))
     assert ended.code == 1

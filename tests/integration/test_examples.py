@@ -10,7 +10,17 @@ SOME = {"paper": "[02_walk]", "paper_why": "[05_bow]"}
 """One of their 28 recordings for each, of two of the three people."""
 
 
-@pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.yaml")), ids=lambda path: path.stem)
+LONG = ("paper_why",)
+"""Examples that only a release runs; the others use the same plug-ins."""
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        pytest.param(path, id=path.stem, marks=[pytest.mark.long] if path.stem in LONG else [])
+        for path in sorted(EXAMPLES.glob("*.yaml"))
+    ],
+)
 def test_example_runs_on_two_frames(regkit, tmp_path, request, path):
     """Every one whose data are shipped, or are among the reference data."""
     settings = ["--set", f"dataset.frames={FRAMES}"]

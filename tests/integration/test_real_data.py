@@ -31,6 +31,7 @@ def median_to_surface(body: Body, pose: Pose, observation: Observation) -> float
     return float(np.median(np.abs(placed.surface_distance(observation.points))))
 
 
+@pytest.mark.long
 def test_start_of_people_is_found_within_the_reference_accuracy(reference_data: Path):
     """In 14 recordings of 2 people, standing and sitting: the reference is good to about 10 cm."""
     dataset = UtdMhad(root=reference_data / "utd_mhad", frames=1)

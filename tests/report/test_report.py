@@ -129,6 +129,7 @@ def test_names_are_taken_for_what_they_are_and_not_for_markup(tmp_path):
     assert r"b\|c" in (tmp_path / "report.md").read_text()
 
 
+@pytest.mark.long
 def test_report_without_references_is_of_the_surface(tmp_path):
     write_report(made_run(2, compared=False), tmp_path)
     names = {path.stem for path in (tmp_path / "figures").glob("*.png")}
@@ -302,6 +303,7 @@ def test_colours_tell_shape_models_and_shades_their_methods():
     assert found["c"].dash != found["b"].dash
 
 
+@pytest.mark.long
 def test_methods_of_a_sweep_share_the_colours_of_their_shape_models(tmp_path):
     """The methods of which settings are made are not drawn, and take no colour from those."""
     methods = {f"voxel={v}/{name}": METHODS[name] for v in (1, 2, 3) for name in ("sog", "gsog")}

@@ -141,6 +141,7 @@ def regkit(*arguments: object) -> subprocess.CompletedProcess[str]:
     return subprocess.run(command, capture_output=True, text=True, check=False)
 
 
+@pytest.mark.long
 def test_template_with_fitted_solids_is_calibrated(tmp_path):
     out = tmp_path / "subject.yaml"
     template = f"{{kind: file, path: {PERSON}, size: 1.7}}"
