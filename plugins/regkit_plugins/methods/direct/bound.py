@@ -16,13 +16,15 @@ from regkit.interfaces import (
     RegistrationResult,
     Scene,
     Similarity,
+    Term,
     VisibilityWeights,
 )
+from regkit.interfaces.term import Effect
 from regkit.observation import Observation
 from regkit.primitives import Placed, Primitives
 from regkit.registration import COORDINATES
 from regkit.skeleton import Pose
-from regkit.system.errors import DataError
+from regkit.system.errors import DataError, PluginError
 from regkit_plugins.methods.direct.energy import FrameEnergy
 
 if TYPE_CHECKING:
@@ -141,7 +143,8 @@ class BoundDirect(Registrar):
         for term in self.method.terms:
             if term.weighs:
                 effect = term.bind(scene)
-                assert isinstance(effect, VisibilityWeights)
+                if not isinstance(effect, VisibilityWeights):
+                    raise _undeclared(term, effect)
                 primitives = replace(primitives, weights=primitives.weights * effect.factors)
         placed = replace(placed, primitives=primitives)
         kernel = self.method.kernel.bind(observation, placed, smoothing=smoothing)
@@ -155,12 +158,21 @@ class BoundDirect(Registrar):
             if term.weighs:
                 continue
             effect = term.bind(scene)
+            if isinstance(effect, VisibilityWeights):
+                raise _undeclared(term, effect)
             if isinstance(effect, JointEnergy):
                 joints.append(effect)
             else:
-                assert isinstance(effect, Similarity)
                 terms[f"terms[{index}] ({term.kind})"] = effect
         return FrameEnergy(self.body, primitives, kernel, terms, tuple(joints))
 
     def _placed(self, primitives: Primitives, pose: Pose) -> Placed[Primitives]:
         return primitives.place(self.body.place(pose).transforms)
+
+
+def _undeclared(term: Term, effect: Effect) -> PluginError:
+    """Returns the error of a term whose effect is not the one that its class declares."""
+    return PluginError(
+        f"term '{term.kind}' returns {type(effect).__name__}, but its class declares "
+        f"weighs = {term.weighs}; set it to {not term.weighs}"
+    )
