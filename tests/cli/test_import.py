@@ -108,6 +108,7 @@ def test_what_cannot_be_imported_is_refused(regkit, out, arguments, complaint):
     assert not out.exists()
 
 
+@pytest.mark.long
 def test_a_foreign_hand_becomes_a_template(regkit, reference_data, out):
     hand = reference_data / "webxr_generic_hand_mit" / "left.glb"
     bones = EXAMPLES / "maps" / "webxr_hand.yaml"

@@ -85,6 +85,7 @@ def deadly(files, tmp_path):
     return options
 
 
+@pytest.mark.long
 def test_figures_of_two_processes_are_those_of_one(regkit, files, serial):
     ended = regkit("run", files.experiment, "--out", files.out, "--no-figures", "--jobs", 2)
     assert (ended.code, ended.err) == (0, "")

@@ -10,7 +10,7 @@ SOME = {"paper": "[02_walk]", "paper_why": "[05_bow]"}
 """One of their 28 recordings for each, of two of the three people."""
 
 
-LONG = ("paper_why",)
+LONG = ("paper_why", "limits")
 """Examples that only a release runs; the others use the same plug-ins."""
 
 
