@@ -10,7 +10,8 @@ from typing import Any
 import typer
 from typer.core import TyperCommand, TyperGroup
 
-from regkit.cli.console import print_error, tell_compiling
+from regkit.cli.console import print_error, show_warnings, tell_compiling
+from regkit.cli.exit_codes import ERROR
 from regkit.system.compiled import when_compiling
 from regkit.system.errors import RegkitError
 
@@ -87,8 +88,9 @@ def regkit() -> None:
 def main() -> None:
     """Runs the command line; prints an error that a user can correct and exits with code 1."""
     when_compiling(tell_compiling)
+    show_warnings()
     try:
         app()
     except RegkitError as error:
         print_error(error)
-        sys.exit(1)
+        sys.exit(ERROR)

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import warnings
+from typing import Any
+
 from rich.console import Console
 
 from regkit.system.errors import RegkitError
+from regkit.system.notes import RegkitWarning
 
 # Text of users between two colons, as in :a:, must not turn into an emoji.
 output = Console(emoji=False)
@@ -21,3 +25,24 @@ def tell_compiling() -> None:
     """Explains on a terminal why the first run on a machine starts late."""
     if errors.is_terminal:
         errors.print("compiling numerical loops (once on this machine) ...", highlight=False)
+
+
+def print_warning(text: str) -> None:
+    """Prints a warning with the prefix "warning" on each of its lines."""
+    for line in text.splitlines():
+        errors.print(
+            f"warning: {line}", style="yellow", markup=False, highlight=False, soft_wrap=True
+        )
+
+
+def show_warnings() -> None:
+    """Shows regkit's own warnings as lines for users; those of others stay as they are."""
+    usual = warnings.showwarning
+
+    def shown(message: Warning | str, category: type[Warning], *place: Any, **more: Any) -> None:
+        if issubclass(category, RegkitWarning):
+            print_warning(str(message))
+        else:
+            usual(message, category, *place, **more)
+
+    warnings.showwarning = shown

@@ -1,0 +1,53 @@
+"""The one guard between a reader and the bytes of others."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from regkit.system.errors import DataError, RegkitError
+
+LONGEST = 200
+"""Number of characters of a foreign message that are shown."""
+
+
+@contextmanager
+def reading(path: Path | str, what: str) -> Iterator[None]:
+    """Context manager: whatever a reader raises on damaged bytes becomes a DataError.
+
+    A library that parses foreign bytes may raise anything, from ``struct.error`` to
+    ``RecursionError``. A list of its exceptions is never complete, so none is listed.
+
+    Args:
+        path: The file, for the place of the error.
+        what: What the file should be, such as ``"a glTF file"``.
+
+    Raises:
+        DataError: If the body raises anything but a RegkitError, which gets the place if it has
+            none.
+    """
+    try:
+        yield
+    except RegkitError as error:
+        raise error.at(str(path)) from None
+    except FileNotFoundError:
+        raise DataError("there is no such file", place=str(path)) from None
+    except IsADirectoryError:
+        raise DataError("this is a folder, not a file", place=str(path)) from None
+    except OSError as error:
+        reason = error.strerror or foreign(error)
+        raise DataError(f"cannot be read: {reason}", place=str(path)) from None
+    except MemoryError:
+        raise DataError(
+            f"not {what}: it asks for more memory than there is", place=str(path)
+        ) from None
+    except Exception as error:
+        raise DataError(f"not {what}: {foreign(error)}", place=str(path)) from None
+
+
+def foreign(error: BaseException) -> str:
+    """Returns the first line of a foreign exception's message, cut, or its kind without one."""
+    lines = str(error).strip().splitlines()
+    text = lines[0] if lines else type(error).__name__
+    return text if len(text) <= LONGEST else f"{text[:LONGEST]} ..."

@@ -1,0 +1,24 @@
+"""Notes: what a reader passed over, assumed or repaired, told without stopping."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+
+
+class RegkitWarning(UserWarning):
+    """Something that a user should know of a result; the CLI prints it on standard error."""
+
+
+def note(message: str, *, place: Path | str | None = None) -> None:
+    """Tells a user what was passed over, assumed or repaired, as a ``RegkitWarning``.
+
+    Python shows the same text once per process; ``warnings.filterwarnings`` turns it into an error
+    or hides it.
+
+    Args:
+        message: What was done with which value, and what it means for the result.
+        place: The place, as in a ``RegkitError``.
+    """
+    text = f"{place}: {message}" if place is not None else message
+    warnings.warn(RegkitWarning(text), stacklevel=2)
