@@ -7,7 +7,6 @@ from typing import Any
 
 from regkit.api.choices import Choice, load_template, name_of
 from regkit.api.frames import Frames, GivenFrames, Intrinsics, Measured, frame_of, recording_of
-from regkit.api.numbers import check_metres
 from regkit.api.registration import Registration
 from regkit.api.tracking import Tracking
 from regkit.clouds import spacing, voxel_for
@@ -16,10 +15,10 @@ from regkit.interfaces import Method, Preprocessor, Recording, Template, Tracker
 from regkit.observation import Frame
 from regkit.skeleton import Pose, PoseDescription
 from regkit.start import Start
-from regkit.system.errors import DataError, RegkitError
+from regkit.system.errors import NoDataError, RegkitError
 from regkit.system.optional import one_thread
 from regkit.system.renamed import renamed_arguments
-from regkit.tracking import Session, TrackedFrame, TrackRecorder
+from regkit.tracking import Session, TrackedFrame, TrackRecorder, check_unit
 
 POINTS = 900
 """Approximate number of points per frame without a preprocessor."""
@@ -123,7 +122,7 @@ def _tracked(
         preprocessor = Preprocessor.parse(preprocessor, place=place, field="preprocessor")
     recording.prepare()
     first = _first(recording)
-    check_metres(first.points, loaded.candidate_sizes(), place=first.place or recording.name)
+    check_unit(first.points, loaded, place=first.place or recording.name)
     observes = preprocessor or _preprocessor_for(first)
     session = Session(recording, loaded, observes, _described(start, place))
     with one_thread():
@@ -144,9 +143,11 @@ def _tracked(
 
 
 def _first(recording: Recording) -> Frame:
-    for _, frame in recording.some([0]):
-        return frame
-    raise DataError("the recording has no frames", place=recording.name)
+    """Returns the first frame with points."""
+    for frame in recording.frames():
+        if len(frame.points):
+            return frame
+    raise NoDataError("no frame has a measurement", place=recording.name)
 
 
 def _described(start: Beginning | None, place: str) -> Pose | PoseDescription | None:

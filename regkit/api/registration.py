@@ -14,6 +14,7 @@ from regkit.api.tables import Summary
 from regkit.body import Body
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
+from regkit.tracking import Verdict
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -65,6 +66,16 @@ class Registration(Summary):
     def points(self) -> Array:
         """Points of the frame, after preprocessing, (N, 3) [m]."""
         return self.tracking.snapshot(0).points
+
+    @property
+    def verdict(self) -> Verdict:
+        """Whether the body was found in this frame: found, doubtful or lost."""
+        return self.tracking.verdict
+
+    @property
+    def inlier_share(self) -> float:
+        """Fraction of the points that lie on the body, from 0 to 1."""
+        return float(self.tracking.inlier_shares[0])
 
     def error(self, truth: Mapping[str, ArrayLike] | ArrayLike) -> float:
         """Returns the mean distance [m] of the markers to reference joints.

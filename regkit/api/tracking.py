@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, overload
 
 import numpy as np
-from numpy.typing import NDArray
 
 from regkit.api.reference import Reference, truth_of
 from regkit.api.registration import Registration
@@ -20,13 +19,10 @@ from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError, DataError
 from regkit.system.files import write_arrays
-from regkit.tracking import Snapshot, Track, TrackRecorder, doubtful, unseen
+from regkit.tracking import Snapshot, Track, TrackRecorder, TrackVerdict, Verdict
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-MOST = 0.5
-"""Fraction of doubtful frames above which the body counts as lost."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -85,39 +81,29 @@ class Tracking(Summary):
         return np.array([self.body.place(pose).transforms for pose in self.poses])
 
     @cached_property
-    def doubtful(self) -> NDArray[np.bool_]:
-        """Whether each frame is doubtful, (T,): few inliers, or a large surface distance."""
-        return doubtful(self.track, self.size)
+    def judged(self) -> TrackVerdict:
+        """Whether the body was found in these frames, and the reason if not."""
+        return TrackVerdict.of(self.track, self.indices)
 
     @property
-    def lost(self) -> bool:
-        """Whether the body is lost: in the last frame, or in most frames."""
-        return bool(self.unseen or self.doubtful[-1] or self.doubtful.mean() > MOST)
-
-    @cached_property
-    def unseen(self) -> bool:
-        """Whether most of the body has no data nearby in the last frame."""
-        last = self.snapshot(len(self) - 1)
-        return unseen(self.body, last.pose, last.points)
+    def verdict(self) -> Verdict:
+        """Whether the body was found in these frames: found, doubtful or lost."""
+        return self.judged.verdict
 
     @property
-    def doubt(self) -> str | None:
-        """Why the result is doubtful; None if it is not."""
-        frames = np.flatnonzero(self.doubtful)
-        if self.unseen:
-            return "most of the body has no data nearby; check the template and its size"
-        if not len(frames):
-            return None
-        where = "" if len(self) == 1 else f"{len(frames)} of {len(self)} frames are doubtful: "
-        worst = max(frames, key=lambda at: self.track.surface_distances[at])
-        gap = 1000.0 * self.track.surface_distances[worst]
-        share = 100.0 * self.track.inlier_shares[worst]
-        in_frame = "" if len(self) == 1 else f" in frame {self.indices[worst]}"
-        return (
-            f"{where}half of the points are more than {gap:.0f} mm from the surface{in_frame}, and "
-            f"{share:.0f} % are inliers; check the template, its size, and the crop of the "
-            "surroundings"
-        )
+    def verdicts(self) -> tuple[Verdict, ...]:
+        """Whether the body was found in each frame, (T,): found, doubtful, lost or no data."""
+        return self.track.verdicts
+
+    @property
+    def inlier_shares(self) -> Array:
+        """Fraction of each frame's points that lie on the body, (T,); NaN without data."""
+        return self.track.inlier_shares
+
+    @property
+    def coverages(self) -> Array:
+        """Fraction of the body that has data nearby in each frame, (T,); NaN without data."""
+        return self.track.coverages
 
     def measure(self, truth: Reference | None = None) -> Measure:
         """Returns the metrics of an experiment's report.
@@ -231,14 +217,16 @@ class Tracking(Summary):
         }
 
     def summary(self, measure: Measure) -> dict[str, str]:
-        """Returns the rows that a frame and a recording share: method, body and distance."""
-        surface = measure.surface_distance_mm
+        """Returns the rows that a frame and a recording share: method, body, distance, verdict."""
+        surface, inliers = measure.surface_distance_mm, measure.inlier_percent
         return {
             "method": self.method,
             "body": f"{self.body.name}, {self.size:.3g} m",
             "surface": "-" if surface is None else f"half of the data within {surface:.3g} mm",
+            "inliers": "-" if inliers is None else f"{inliers:.0f} % of the points",
+            "verdict": str(self.verdict),
         }
 
     def warning(self) -> dict[str, str]:
         """Returns the row that says why the result is doubtful, or none."""
-        return {} if self.doubt is None else {"warning": self.doubt}
+        return {"warning": self.judged.reason} if self.judged.reason else {}

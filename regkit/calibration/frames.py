@@ -11,7 +11,7 @@ from regkit.body import Body
 from regkit.calibration.cloud import Cloud
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
-from regkit.system.errors import DataError
+from regkit.system.errors import NoDataError
 from regkit.tracking import TrackedFrame
 
 
@@ -20,7 +20,7 @@ class Looks:
     """A body seen in several frames.
 
     Attributes:
-        first: Pose in the recording's first frame.
+        first: Pose in the recording's first frame with data.
         clouds: Data of the selected frames.
         poses: Poses of the body in these frames.
     """
@@ -50,19 +50,21 @@ def spread(track: Iterable[TrackedFrame], length: int, count: int) -> Looks:
         count: Number of frames to select, at most ``length``.
 
     Raises:
-        DataError: If the track is empty.
+        NoDataError: If no frame has data.
     """
     count = min(count, length)
     best: dict[int, _Look] = {}
     first: Pose | None = None
     for index, frame in enumerate(track):
         found, part = frame.registered, index * count // length
+        if frame.observation is None:
+            continue
         first = found.pose if first is None else first
         # A method without inlier probabilities reports NaN, which never exceeds anything.
         if part not in best or found.inlier_share > best[part].inlier_share:
             best[part] = _Look(Cloud.of(frame.observation), found.pose, found.inlier_share)
     if first is None:
-        raise DataError("the recording has no frame")
+        raise NoDataError("no frame of the recording has data")
     looks = best.values()
     return Looks(first, tuple(look.cloud for look in looks), tuple(look.pose for look in looks))
 

@@ -15,11 +15,13 @@ from regkit.alignment import Alignment
 from regkit.alignment import align as align_clouds
 from regkit.cli.choices import method_named
 from regkit.cli.console import errors, output
-from regkit.cli.options import PluginFiles, options, run_plugin_files
+from regkit.cli.options import PluginFiles, Strict, options, run_plugin_files
+from regkit.cli.verdicts import conclude
 from regkit.clouds import check_writable, read_cloud, write_cloud
 from regkit.config.defaults import default_name
 from regkit.geometry.rigid import transformed
 from regkit.interfaces import Method
+from regkit.tracking import Verdict
 
 
 def align(
@@ -77,6 +79,7 @@ def align(
         ),
     ] = 0.3,
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
+    strict: Strict = False,
     plugin: PluginFiles = None,
 ) -> None:
     """Align a rigid cloud or mesh to another: T_target_source, and how well they match."""
@@ -91,41 +94,40 @@ def align(
         found = align_clouds(
             points, resting, chosen, voxel=voxel, start=start, places=(str(source), str(target))
         )
-    aligned = found.agreement.fitness >= min_fitness
+    verdict, reason = _verdict(found, min_fitness)
     if as_json:
-        typer.echo(json.dumps(_figures(found, name, aligned), indent=2, allow_nan=False))
+        typer.echo(json.dumps(_figures(found, name, verdict), indent=2, allow_nan=False))
     else:
         output.print(_table(found, name))
-    if found.hidden is not None:
-        errors.print(
-            f"warning: {found.hidden} of the source slides its surface along itself: that part of "
-            "the transform is not determined by the data",
-            style="yellow",
-            highlight=False,
-            soft_wrap=True,
-        )
-    if not aligned:
-        errors.print(
-            f"error: no alignment was found: {100.0 * found.agreement.fitness:.0f} % of the source "
-            f"lies within {found.agreement.distance:.3g} of the target, and --min-fitness is "
-            f"{min_fitness:g}; try --start rotations or --start features, and check that both "
-            "clouds show the same object",
-            style="red",
-            highlight=False,
-            soft_wrap=True,
-        )
-        raise typer.Exit(1)
-    if out is not None:
+    if out is not None and verdict is not Verdict.LOST:
         write_cloud(out, transformed(found.transform, points))
         errors.print(f"written: {out}", highlight=False, soft_wrap=True)
+    conclude(verdict, reason, strict=strict)
 
 
-def _figures(found: Alignment, method: str, aligned: bool) -> dict[str, Any]:
+def _verdict(found: Alignment, min_fitness: float) -> tuple[Verdict, str]:
+    """Returns whether the clouds were aligned, and the reason if that is not certain."""
+    agreement = found.agreement
+    if agreement.fitness < min_fitness:
+        return Verdict.LOST, (
+            f"no alignment was found: {100.0 * agreement.fitness:.0f} % of the source lies within "
+            f"{agreement.distance:.3g} of the target, and --min-fitness is {min_fitness:g}; try "
+            "--start rotations or --start features, and check that both clouds show the same object"
+        )
+    if found.hidden is not None:
+        return Verdict.DOUBTFUL, (
+            f"{found.hidden} of the source slides its surface along itself: that part of the "
+            "transform is not determined by the data"
+        )
+    return Verdict.FOUND, ""
+
+
+def _figures(found: Alignment, method: str, verdict: Verdict) -> dict[str, Any]:
     agreement = found.agreement
     rmse = agreement.inlier_rmse
     return {
         "T_target_source": found.transform.tolist(),
-        "aligned": aligned,
+        "verdict": verdict,
         "fitness": agreement.fitness,
         "inlier_rmse": rmse if math.isfinite(rmse) else None,
         "overlap": agreement.overlap,

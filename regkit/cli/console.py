@@ -36,7 +36,8 @@ def print_warning(text: str) -> None:
 
 
 def show_warnings() -> None:
-    """Shows regkit's own warnings as lines for users; those of others stay as they are."""
+    """Shows regkit's own warnings as lines for users, each text once; others stay as they are."""
+    warnings.simplefilter("default", RegkitWarning)
     usual = warnings.showwarning
 
     def shown(message: Warning | str, category: type[Warning], *place: Any, **more: Any) -> None:

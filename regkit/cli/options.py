@@ -58,9 +58,15 @@ Out = Annotated[
     Path | None,
     typer.Option(
         metavar="FOLDER",
-        help="Write result.json, markers.csv, poses.npz and picture.png to this folder.",
+        help="Write result.json, markers.csv, frames.csv, poses.npz and picture.png "
+        "to this folder.",
         show_default=False,
     ),
+]
+
+Strict = Annotated[
+    bool,
+    typer.Option("--strict", help="Exit with 3 if the result is doubtful, not only if it is lost."),
 ]
 
 PluginFiles = Annotated[

@@ -9,16 +9,17 @@ from io import StringIO
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import typer
 from rich.markup import escape
 from rich.table import Table
 
 from regkit.api import Tracking
 from regkit.cli.console import errors, output
+from regkit.cli.verdicts import conclude
 from regkit.report.png import png
 from regkit.system.errors import ConfigError
 from regkit.system.files import replacing, write_json, write_text
+from regkit.tracking import Verdict
 
 DPI = 110
 
@@ -33,12 +34,12 @@ def check_out(out: Path | None) -> None:
         raise ConfigError("this is a file; name a folder", place=f"--out {out}")
 
 
-def finish(tracking: Tracking, out: Path | None, *, as_json: bool) -> None:
-    """Prints the result, writes it to a folder, and fails if the body was lost.
+def finish(tracking: Tracking, out: Path | None, *, as_json: bool, strict: bool) -> None:
+    """Prints the result, writes it to a folder, and tells whether the body was found.
 
     Raises:
         RegkitError: If a file cannot be written.
-        Exit: With code 1, if the body was lost.
+        Exit: With ``NOT_FOUND``, if the body was lost, or is doubtful and ``strict`` is set.
     """
     figures = _figures(tracking)
     if as_json:
@@ -48,33 +49,30 @@ def finish(tracking: Tracking, out: Path | None, *, as_json: bool) -> None:
     if out is not None:
         _write(tracking, figures, out)
         errors.print(f"written: {out}", highlight=False, soft_wrap=True)
-    if tracking.doubt is not None:
-        errors.print(
-            f"{'error' if tracking.lost else 'warning'}: {tracking.doubt}",
-            style="red" if tracking.lost else "yellow",
-            markup=False,
-            highlight=False,
-            soft_wrap=True,
-        )
-    if tracking.lost:
-        raise typer.Exit(1)
+    judged = tracking.judged
+    conclude(judged.verdict, judged.reason, strict=strict)
 
 
 def _figures(tracking: Tracking) -> dict[str, Any]:
     """Returns the content of ``result.json``, with the pose for a single frame."""
-    track = tracking.track
+    track, judged = tracking.track, tracking.judged
+    measure = tracking.measure()
     figures: dict[str, Any] = {
-        "lost": tracking.lost,
-        "doubt": tracking.doubt,
+        "verdict": judged.verdict,
+        "reason": judged.reason or None,
         "frames": len(tracking),
-        "doubtful_frames": int(tracking.doubtful.sum()),
+        **{
+            f"{verdict.replace(' ', '_')}_frames": track.verdicts.count(verdict)
+            for verdict in Verdict
+        },
         "converged_frames": int(track.converged.sum()),
         "template": tracking.body.name,
         "size": tracking.size,
         "method": tracking.method,
-        "surface_distance_mm": _finite(1000.0 * np.median(track.surface_distances)),
-        "inlier_share": _finite(np.mean(track.inlier_shares)),
-        "frames_per_second": len(tracking) / float(track.seconds.sum()),
+        "surface_distance_mm": measure.surface_distance_mm,
+        "inlier_share": _share(measure.inlier_percent),
+        "coverage": _share(measure.coverage_percent),
+        "frames_per_second": measure.fps,
         "marker_names": list(tracking.joint_names),
     }
     if len(tracking) == 1:
@@ -87,8 +85,10 @@ def _figures(tracking: Tracking) -> dict[str, Any]:
 
 
 def _table(tracking: Tracking, figures: dict[str, Any]) -> Table:
-    distance, share = figures["surface_distance_mm"], figures["inlier_share"]
-    doubts = f"{figures['doubtful_frames']} of {len(tracking)}"
+    distance, fps = figures["surface_distance_mm"], figures["frames_per_second"]
+    verdict = str(figures["verdict"])
+    if len(tracking) > 1:
+        verdict += f"; found in {figures['found_frames']} of {len(tracking)} frames"
     table = Table(show_header=False)
     for name, value in (
         ("frames", f"{tracking.name}, {len(tracking)}"),
@@ -96,19 +96,22 @@ def _table(tracking: Tracking, figures: dict[str, Any]) -> Table:
         ("body", f"{tracking.body.name}, {tracking.size:.4g} m"),
         ("markers", str(len(tracking.joint_names))),
         ("surface distance", "-" if distance is None else f"{distance:.1f} mm (median)"),
-        ("inliers", "-" if share is None else f"{100.0 * share:.0f} % of the points"),
+        ("inliers", _percent(figures["inlier_share"], "the points")),
+        ("covered", _percent(figures["coverage"], "the body has data")),
         ("converged", f"{figures['converged_frames']} of {len(tracking)}"),
-        ("doubtful", doubts),
-        ("lost", "yes" if tracking.lost else "no"),
-        ("speed", f"{figures['frames_per_second']:.3g} frames per second"),
+        ("verdict", verdict),
+        # The first frame includes the loading of data, so its speed says little.
+        ("speed", "" if fps is None else f"{fps:.3g} frames per second"),
     ):
-        table.add_row(name, escape(value))
+        if value and (name != "speed" or len(tracking) > 1):
+            table.add_row(name, escape(value))
     return table
 
 
 def _write(tracking: Tracking, figures: dict[str, Any], out: Path) -> None:
     write_json(out / "result.json", figures)
     write_text(out / "markers.csv", _markers(tracking))
+    write_text(out / "frames.csv", _frames(tracking))
     tracking.save(out / "poses.npz")
     picture = png(tracking.plot(), DPI)
     with replacing(out / "picture.png") as temporary:
@@ -126,5 +129,39 @@ def _markers(tracking: Tracking) -> str:
     return text.getvalue()
 
 
-def _finite(value: float | np.floating[Any]) -> float | None:
-    return float(value) if math.isfinite(value) else None
+def _frames(tracking: Tracking) -> str:
+    """Returns a table of the frames: verdict, agreement with the data, and cost."""
+    text, track = StringIO(), tracking.track
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(
+        ("frame", "time", "verdict", "points", "inlier_share", "coverage", "surface_distance_mm",
+         "converged", "seconds")
+    )  # fmt: skip
+    for at, frame in enumerate(tracking.indices):
+        writer.writerow(
+            (
+                frame,
+                f"{frame / tracking.fps:.6f}",
+                track.verdicts[at],
+                int(track.points[at]),
+                *(
+                    f"{value:.4f}" if math.isfinite(value) else ""
+                    for value in (
+                        track.inlier_shares[at],
+                        track.coverages[at],
+                        1000.0 * track.surface_distances[at],
+                    )
+                ),
+                int(track.converged[at]),
+                f"{track.seconds[at]:.6f}",
+            )
+        )
+    return text.getvalue()
+
+
+def _share(percent: float | None) -> float | None:
+    return None if percent is None else percent / 100.0
+
+
+def _percent(share: float | None, of: str) -> str:
+    return "-" if share is None else f"{100.0 * share:.0f} % of {of}"

@@ -17,6 +17,7 @@ from regkit.cli.options import (
     PluginFiles,
     PreprocessorName,
     Settings,
+    Strict,
     TemplateName,
     run_plugin_files,
 )
@@ -48,6 +49,7 @@ def register(
     settings: Settings = None,
     out: Out = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
+    strict: Strict = False,
     plugin: PluginFiles = None,
 ) -> None:
     """Register a template to one frame: body size, pose, and quality of the fit."""
@@ -68,4 +70,6 @@ def register(
         preprocessor=choices.preprocessor,
         start=choices.start,
     )
-    finish(replace(found.tracking, name=file.stem, method=name), out, as_json=as_json)
+    finish(
+        replace(found.tracking, name=file.stem, method=name), out, as_json=as_json, strict=strict
+    )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from datetime import datetime
 from pathlib import Path
 from typing import Annotated
@@ -11,16 +12,21 @@ from rich.box import SIMPLE_HEAD
 from rich.markup import escape
 from rich.table import Table
 
-from regkit.cli.console import errors, output
+from regkit.cli.console import errors, output, print_warning
+from regkit.cli.exit_codes import DONE, ERROR, INTERRUPTED, NOT_FOUND
 from regkit.cli.interrupt import Interrupt
-from regkit.cli.options import PluginFiles, options, run_plugin_files
+from regkit.cli.options import PluginFiles, Strict, options, run_plugin_files
 from regkit.cli.run_progress import RunProgress
+from regkit.cli.verdicts import exit_code
 from regkit.cli.workers import chosen_workers
-from regkit.experiment import Study
+from regkit.experiment import Outcome, Study
 from regkit.experiment import run as run_experiment
 from regkit.metrics import Measure
 from regkit.report.labels import wrapped
 from regkit.report.tables import TERMINAL, rows
+
+SHOWN = 8
+"""Maximum number of doubtful tracks that are printed."""
 
 
 def run(
@@ -53,6 +59,7 @@ def run(
             "the same files.",
         ),
     ] = None,
+    strict: Strict = False,
     figures: Annotated[
         bool,
         typer.Option(
@@ -85,13 +92,41 @@ def run(
             highlight=False,
             soft_wrap=True,
         )
-        raise typer.Exit(130) from None
+        raise typer.Exit(INTERRUPTED) from None
     if any(outcome.measures.values()):
         output.print(_table(outcome.measures))
     output.print(f"results: {folder}", highlight=False, soft_wrap=True)
     output.print(f"report: {folder / 'report.html'}", highlight=False, soft_wrap=True)
+    _tell_doubts(outcome.measures)
+    code = _code(outcome, strict=strict)
+    if code != DONE:
+        raise typer.Exit(code)
+
+
+def _code(outcome: Outcome, *, strict: bool) -> int:
+    """Returns the exit code: a method that loses a body is a result, unless all lose it."""
     if any(outcome.failures.values()):
-        raise typer.Exit(1)
+        return ERROR
+    codes: dict[str, set[int]] = {}
+    for by_recording in outcome.measures.values():
+        for recording, measure in by_recording.items():
+            if measure.verdict is not None:
+                codes.setdefault(recording, set()).add(exit_code(measure.verdict, strict=strict))
+    return NOT_FOUND if {NOT_FOUND} in codes.values() else DONE
+
+
+def _tell_doubts(measures: Mapping[str, Mapping[str, Measure]]) -> None:
+    """Prints each track in which the body was doubtful or lost, without flooding a terminal."""
+    doubts = [
+        f"{method} on {recording}, {one.verdict}: {one.reason}"
+        for method, by_recording in measures.items()
+        for recording, one in by_recording.items()
+        if one.reason
+    ]
+    for doubt in doubts[:SHOWN]:
+        print_warning(doubt)
+    if len(doubts) > SHOWN:
+        print_warning(f"{len(doubts) - SHOWN} more such tracks are in the report")
 
 
 def _table(measures: dict[str, dict[str, Measure]]) -> Table:

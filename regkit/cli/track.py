@@ -16,6 +16,7 @@ from regkit.cli.options import (
     PluginFiles,
     PreprocessorName,
     Settings,
+    Strict,
     TemplateName,
     options,
     run_plugin_files,
@@ -54,6 +55,7 @@ def track(
     settings: Settings = None,
     out: Out = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
+    strict: Strict = False,
     plugin: PluginFiles = None,
 ) -> None:
     """Track a template through a recording; the first frame's pose is found automatically."""
@@ -72,4 +74,9 @@ def track(
         tracker=choices.tracker,
         start=choices.start,
     )
-    finish(replace(found, method=name), out or Path("tracks") / chosen.name, as_json=as_json)
+    finish(
+        replace(found, method=name),
+        out or Path("tracks") / chosen.name,
+        as_json=as_json,
+        strict=strict,
+    )

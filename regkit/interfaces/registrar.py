@@ -45,6 +45,10 @@ class RegistrationResult:
         """Returns the result for a given pose, which no registration found."""
         return cls(pose, np.nan, np.nan, True, 0, 0, "given")
 
+    def without_data(self, message: str) -> RegistrationResult:
+        """Returns the result for the next frame, which has no data: the same pose."""
+        return RegistrationResult(self.pose, np.nan, np.nan, True, 0, 0, message)
+
 
 @dataclass(frozen=True)
 class Evaluation:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from regkit.config.plugin import Plugin
 from regkit.interfaces.registrar import Registrar, RegistrationResult
@@ -43,6 +43,10 @@ class Past:
             frames=self.frames + 1,
             inlier_shares=(*self.inlier_shares[1 - WINDOW :], result.inlier_share),
         )
+
+    def interrupted(self) -> Past:
+        """Returns the past after a frame without data, in which the motion is unknown."""
+        return replace(self, before=None)
 
 
 class BoundTracker(ABC):

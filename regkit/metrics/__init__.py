@@ -2,12 +2,13 @@
 
 from regkit.metrics.joints import JointErrors, joint_errors, matched
 from regkit.metrics.losses import Losses
-from regkit.metrics.measure import PCK_FRACTION, TEN_CM, Measure, mean_of, measured
+from regkit.metrics.measure import METRICS, PCK_FRACTION, TEN_CM, Measure, mean_of, measured
 from regkit.metrics.pairs import Pair, compared
 from regkit.metrics.statistics import Summary, summary
 from regkit.metrics.thresholds import auc, fraction_within
 
 __all__ = [
+    "METRICS",
     "PCK_FRACTION",
     "TEN_CM",
     "JointErrors",

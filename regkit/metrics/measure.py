@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, fields
+from typing import Any
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from regkit.metrics.joints import JointErrors
 from regkit.metrics.losses import Losses
 from regkit.metrics.thresholds import auc, fraction_within
 from regkit.system.arrays import Array
-from regkit.tracking import Track
+from regkit.tracking import Track, TrackVerdict, Verdict
 
 TEN_CM = 0.10
 """The usual threshold in the literature on people [m]."""
@@ -43,12 +44,19 @@ class Measure:
         recovery_s: Mean time until a lost body is recovered; None if it was never lost.
         lost_at_end: 1 if the body is lost in the last frame, else 0.
         unconverged_frames: Number of frames in which the solver did not converge.
+        found_percent: Percentage of the frames with data in which the body was found, judged by
+            the data alone.
+        inlier_percent: Mean percentage of the points that lie on the body's surface.
+        coverage_percent: Mean percentage of the body that has data nearby.
+        frames_without_data: Number of frames without data, which keep the last pose.
         surface_distance_mm: Median over frames of the median distance of the data to the surface.
         limit_violation_deg: Mean over frames of the largest joint limit violation.
         evaluations_per_frame: Mean number of energy evaluations per frame.
         preprocessing_ms: Mean preprocessing time per frame.
         registering_ms: Mean registration time per frame.
-        fps: Frames per second of preprocessing and registration.
+        fps: Frames per second of preprocessing and registration, over the frames with data.
+        verdict: Whether the body was found in the recording: found, doubtful or lost.
+        reason: Why it is doubtful or lost, or how many frames have no data; None if neither.
     """
 
     joint_error_raw_cm: float | None
@@ -63,16 +71,26 @@ class Measure:
     recovery_s: float | None
     lost_at_end: float | None
     unconverged_frames: float | None
+    found_percent: float | None
+    inlier_percent: float | None
+    coverage_percent: float | None
+    frames_without_data: float | None
     surface_distance_mm: float | None
     limit_violation_deg: float | None
     evaluations_per_frame: float | None
     preprocessing_ms: float | None
     registering_ms: float | None
     fps: float | None
+    verdict: Verdict | None = None
+    reason: str | None = None
 
-    def to_dict(self) -> dict[str, float | None]:
-        """Returns the metrics by name."""
+    def to_dict(self) -> dict[str, Any]:
+        """Returns the metrics, the verdict and its reason by name."""
         return asdict(self)
+
+
+METRICS = tuple(field.name for field in fields(Measure) if field.name not in ("verdict", "reason"))
+"""Names of the metrics, which are numbers."""
 
 
 ONLY_WHERE_LOST = ("recovery_s",)
@@ -94,6 +112,8 @@ def measured(track: Track, body: Body, errors: JointErrors | None, fps: float) -
     violations = [limits.violation(track.pose(index)).max(initial=0.0) for index in range(frames)]
     threshold, largest = PCK_FRACTION * body.size, AUC_FRACTION * body.size
     losses = None if raw is None else Losses.of(raw, threshold)
+    judged, seen = TrackVerdict.of(track), track.seen
+    found = np.array(track.verdicts)[seen] == Verdict.FOUND
     return Measure(
         joint_error_raw_cm=_mean(raw, 100.0),
         joint_error_adjusted_cm=_mean(adjusted, 100.0),
@@ -107,12 +127,18 @@ def measured(track: Track, body: Body, errors: JointErrors | None, fps: float) -
         recovery_s=None if losses is None else losses.recovery(fps),
         lost_at_end=None if losses is None else int(losses.at_end),
         unconverged_frames=float((track.converged == 0.0).sum()),
-        surface_distance_mm=_finite(1000.0 * np.median(track.surface_distances)),
+        found_percent=100.0 * float(found.mean()) if seen.any() else None,
+        inlier_percent=_mean(track.inlier_shares, 100.0),
+        coverage_percent=_mean(track.coverages, 100.0),
+        frames_without_data=int((~seen).sum()),
+        surface_distance_mm=_median(1000.0 * track.surface_distances),
         limit_violation_deg=_finite(np.degrees(np.mean(violations))),
-        evaluations_per_frame=float(track.evaluations.mean()),
-        preprocessing_ms=1000.0 * float(track.preprocessing.mean()),
-        registering_ms=1000.0 * float((track.seconds - track.preprocessing).mean()),
-        fps=float(frames / track.seconds.sum()),
+        evaluations_per_frame=_mean(track.evaluations[seen], 1.0),
+        preprocessing_ms=_mean(track.preprocessing[seen], 1000.0),
+        registering_ms=_mean((track.seconds - track.preprocessing)[seen], 1000.0),
+        fps=float(seen.sum() / track.seconds[seen].sum()) if seen.any() else None,
+        verdict=judged.verdict,
+        reason=judged.reason or None,
     )
 
 
@@ -121,13 +147,13 @@ def mean_of(measures: Sequence[Measure]) -> Measure:
 
     The recovery time is averaged over the recordings in which the body was lost.
     """
-    means: dict[str, float | None] = {}
-    for field in fields(Measure):
-        values = [getattr(measure, field.name) for measure in measures]
-        if field.name in ONLY_WHERE_LOST:
+    means: dict[str, Any] = {}
+    for name in METRICS:
+        values = [getattr(measure, name) for measure in measures]
+        if name in ONLY_WHERE_LOST:
             values = [value for value in values if value is not None]
         complete = values and all(value is not None for value in values)
-        means[field.name] = float(np.mean(values)) if complete else None
+        means[name] = float(np.mean(values)) if complete else None
     return Measure(**means)
 
 
@@ -146,6 +172,11 @@ def _mean(distances: Array | None, factor: float) -> float | None:
     if distances is None or not np.isfinite(distances).any():
         return None
     return factor * float(np.nanmean(distances))
+
+
+def _median(values: Array) -> float | None:
+    known = values[np.isfinite(values)]
+    return float(np.median(known)) if len(known) else None
 
 
 def _finite(value: float | np.floating) -> float | None:

@@ -11,8 +11,8 @@ from pydantic import Field, model_validator
 
 from regkit.config.model import Model
 from regkit.observation import Frame
-from regkit.system.arrays import Array, Indices, checked_points
-from regkit.system.errors import DataError
+from regkit.system.arrays import Array, Indices
+from regkit.system.errors import DataError, NoDataError
 
 Distance = Annotated[float, Field(gt=0.0)]
 
@@ -46,20 +46,20 @@ class Crop(Model):
         """Returns the frame with cropped points and, if it has one, cropped depth image.
 
         Raises:
-            DataError: If the frame is empty, a coordinate is not finite, or fewer than
-                ``min_points`` points are left.
+            NoDataError: If the frame is empty, or fewer than ``min_points`` points are left.
         """
-        points = checked_points(frame.points, place=frame.place)
+        # A point that is not finite is a missing measurement.
+        points = frame.points[np.isfinite(frame.points).all(axis=1)]
         if not len(points):
-            raise DataError("the frame is empty: it has no valid point", place=frame.place)
+            raise NoDataError("the frame is empty: it has no valid point", place=frame.place)
         kept = self._kept(points)
         if len(kept) < self.min_points:
-            raise DataError(
+            raise NoDataError(
                 f"{len(kept)} of the frame's {len(points)} points are left after cropping; at "
                 f"least {self.min_points} are needed (preprocessor.crop)",
                 place=frame.place,
             )
-        if len(kept) == len(points):
+        if len(kept) == len(frame.points):
             return frame
         depth = frame.depth
         if depth is not None and np.count_nonzero(depth > 0.0) == len(points):

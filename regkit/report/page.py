@@ -22,6 +22,7 @@ from regkit.report.run import Run
 from regkit.report.summary import metrics, write_tables
 from regkit.report.tables import main_table, pair_table, recording_table
 from regkit.system.files import write_json, write_text
+from regkit.tracking.verdict import LOST_SHARE, SURE_COVERAGE, SURE_INLIERS
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -127,6 +128,15 @@ def _text(template: str, run: Run, folder: Path, drawn: list[Drawn]) -> str:
         pairs=pair_table(run.pairs()),
         recordings=recording_table(run.measures),
         folded=ROWS,
+        doubts=[
+            (m, s, one.verdict, one.reason)
+            for m, by in run.measures.items()
+            for s, one in by.items()
+            if one.reason
+        ],
+        sure_inliers=SURE_INLIERS,
+        sure_coverage=SURE_COVERAGE,
+        lost_share=LOST_SHARE,
         failures=[(m, s, why) for m, by in run.failures.items() for s, why in by.items()],
         tracks=sum(len(by) for all_of in (run.measures, run.failures) for by in all_of.values()),
         figures=drawn,

@@ -7,13 +7,14 @@ from dataclasses import dataclass
 from typing import Any, Self
 
 import numpy as np
+from numpy.typing import NDArray
 
 from regkit.interfaces import Registrar
 from regkit.metrics import PCK_FRACTION, JointErrors, Losses
 from regkit.observation import Truth
 from regkit.report.frame_drawing import FrameDrawing
 from regkit.system.arrays import Array
-from regkit.tracking import Snapshot, Track
+from regkit.tracking import Snapshot, Track, Verdict
 
 Arrays = dict[str, np.ndarray[Any, Any]]
 
@@ -28,6 +29,8 @@ class Record:
         errors: Joint errors, if there are reference joints.
         surface_distances: Median distance of each frame's points to the body's surface, (T,) [m];
             NaN for a body without a surface.
+        inlier_shares: Fraction of each frame's points that lie on the body, (T,); NaN without data.
+        verdicts: Whether the body was found in each frame, (T,), as text.
         seconds: Time to preprocess and register each frame, (T,) [s].
         preprocessing: Time to preprocess each frame, (T,) [s].
         evaluations: Number of energy evaluations of each frame, (T,).
@@ -38,6 +41,8 @@ class Record:
     size: float
     errors: JointErrors | None
     surface_distances: Array
+    inlier_shares: Array
+    verdicts: NDArray[np.str_]
     seconds: Array
     preprocessing: Array
     evaluations: Array
@@ -78,6 +83,8 @@ class Record:
             size=registrar.body.size,
             errors=errors,
             surface_distances=track.surface_distances,
+            inlier_shares=track.inlier_shares,
+            verdicts=np.array(track.verdicts, dtype=np.str_),
             seconds=track.seconds,
             preprocessing=track.preprocessing,
             evaluations=track.evaluations,
@@ -90,9 +97,11 @@ class Record:
         return PCK_FRACTION * self.size
 
     @property
-    def losses(self) -> Losses | None:
-        """The frames in which the body was lost; None without reference joints."""
-        return None if self.errors is None else Losses.of(self.errors.raw, self.pck_threshold)
+    def losses(self) -> Losses:
+        """The frames in which the body was lost by its joint errors, or else by its verdicts."""
+        if self.errors is None or not np.isfinite(self.errors.raw).any():
+            return Losses(np.asarray(self.verdicts == Verdict.LOST))
+        return Losses.of(self.errors.raw, self.pck_threshold)
 
     def arrays(self) -> Arrays:
         """Returns the record as named arrays; those of drawings have single precision."""
@@ -100,6 +109,8 @@ class Record:
             "fps": np.array(self.fps),
             "size": np.array(self.size),
             "surface_distances": self.surface_distances,
+            "inlier_shares": self.inlier_shares,
+            "verdicts": self.verdicts,
             "seconds": self.seconds,
             "preprocessing": self.preprocessing,
             "evaluations": self.evaluations,
@@ -136,6 +147,8 @@ class Record:
             size=float(named["size"]),
             errors=errors,
             surface_distances=named["surface_distances"],
+            inlier_shares=named["inlier_shares"],
+            verdicts=named["verdicts"],
             seconds=named["seconds"],
             preprocessing=named["preprocessing"],
             evaluations=named["evaluations"],
@@ -144,16 +157,19 @@ class Record:
 
 
 def _chosen(track: Track, errors: JointErrors | None) -> dict[int, str]:
-    """Returns the frames of the drawings with reasons; the worst is by joint error, if known."""
-    last = len(track.seconds) - 1
-    if last == 0:
-        return {0: "the only frame"}
-    chosen = {0: "first", last: "last"}
+    """Returns frames with data to draw, and why; the worst is by joint error, if known."""
+    seen = np.flatnonzero(track.seen)
+    if len(track) == 1:
+        return dict.fromkeys(map(int, seen), "the only frame")
+    if not len(seen):
+        return {}
+    chosen = {int(seen[0]): "first", int(seen[-1]): "last"}
     badness = track.surface_distances
     if errors is not None and np.isfinite(errors.raw).any():
         known = np.isfinite(errors.raw)
         sums = np.where(known, errors.raw, 0.0).sum(axis=1)
         badness = np.where(known.any(axis=1), sums / np.maximum(known.sum(axis=1), 1), np.nan)
+        badness = np.where(track.seen[: len(badness)], badness, np.nan)
     if np.isfinite(badness).any():
         worst = int(np.nanargmax(badness))
         chosen[worst] = f"{chosen[worst]}, worst" if worst in chosen else "worst"

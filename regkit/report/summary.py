@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import asdict, fields
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from regkit.metrics import Measure, mean_of, summary
+from regkit.metrics import METRICS, mean_of, summary
 from regkit.metrics.statistics import Interval
 from regkit.report.figures.joints import errors_of, joint_means
 from regkit.report.plot import Value, write_csv
 from regkit.report.run import Run
-
-METRICS = [field.name for field in fields(Measure)]
 
 
 def metrics(run: Run) -> dict[str, Any]:
@@ -45,7 +43,9 @@ def write_tables(run: Run, folder: Path) -> None:
     Raises:
         DataError: If a file cannot be written.
     """
-    write_csv(folder / "recordings.csv", ["method", "recording", *METRICS, "error"], _each(run))
+    write_csv(
+        folder / "recordings.csv", ["method", "recording", "verdict", *METRICS, "error"], _each(run)
+    )
     rows = []
     for method, by_recording in run.finished.items():
         for name in METRICS:
@@ -74,9 +74,10 @@ def write_tables(run: Run, folder: Path) -> None:
 def _each(run: Run) -> Iterator[list[Value]]:
     for method, by_recording in run.measures.items():
         for recording, measure in by_recording.items():
-            yield [method, recording, *measure.to_dict().values(), None]
+            numbers = (getattr(measure, name) for name in METRICS)
+            yield [method, recording, measure.verdict, *numbers, None]
         for recording, reason in run.failures.get(method, {}).items():
-            yield [method, recording, *(None for _ in METRICS), reason]
+            yield [method, recording, None, *(None for _ in METRICS), reason]
 
 
 def _joints(run: Run, method: str) -> dict[str, dict[str, float | None]]:

@@ -15,8 +15,8 @@ TERMINAL = {
     "joint_error_adjusted_cm": "adj. [cm]",
     "pck_percent": "PCK [%]",
     "lost_frames": "lost",
+    "found_percent": "found [%]",
     "surface_distance_mm": "surf. [mm]",
-    "limit_violation_deg": "limits [°]",
     "fps": "fps",
 }
 """Metrics and headings of the table in a terminal of 80 characters."""
@@ -115,7 +115,8 @@ def recording_table(measures: Measures) -> Table:
     columns = _known([one for _, _, one in each])
     table = []
     for method, recording, measure in each:
-        cells = [Cell(recording, recording, number=False), Cell(method, method, number=False)]
+        verdict = str(measure.verdict or "-")
+        cells = [Cell(text, text, number=False) for text in (recording, method, verdict)]
         rivals = [one for _, name, one in each if name == recording]
         for column in columns:
             value = getattr(measure, column.metric)
@@ -127,7 +128,7 @@ def recording_table(measures: Measures) -> Table:
     return Table(
         "recordings",
         "Every method on every recording; the best method of a recording is bold.",
-        ["recording", "method", *(column.heading for column in columns)],
+        ["recording", "method", "verdict", *(column.heading for column in columns)],
         table,
     )
 

@@ -33,6 +33,14 @@ class DataError(RegkitError):
     """Measured data (an image, a cloud, a truth file) is missing, damaged or unusable."""
 
 
+class NoDataError(DataError):
+    """A frame has no measurement of the object; tracking bridges such frames."""
+
+
+class NotFoundError(RegkitError):
+    """The input is valid, but the body is not in it, or was not found."""
+
+
 class PluginError(RegkitError):
     """A plug-in is unknown or broken."""
 

@@ -1,19 +1,21 @@
 """Tracking: the session, the loop from frame to frame, and the track that it records."""
 
-from regkit.tracking.doubt import doubtful, unseen
-from regkit.tracking.loop import SUSPICIOUS, TrackedFrame, tracked
+from regkit.tracking.extent import check_unit
+from regkit.tracking.loop import TrackedFrame, tracked
 from regkit.tracking.recorder import Snapshot, TrackRecorder
 from regkit.tracking.session import Session
 from regkit.tracking.track import Track
+from regkit.tracking.track_verdict import TrackVerdict
+from regkit.tracking.verdict import Verdict
 
 __all__ = [
-    "SUSPICIOUS",
     "Session",
     "Snapshot",
     "Track",
     "TrackRecorder",
+    "TrackVerdict",
     "TrackedFrame",
-    "doubtful",
+    "Verdict",
+    "check_unit",
     "tracked",
-    "unseen",
 ]

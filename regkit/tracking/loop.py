@@ -6,9 +6,6 @@ import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-import numpy as np
-
-from regkit.body import Body
 from regkit.interfaces import (
     BoundTracker,
     Past,
@@ -21,10 +18,7 @@ from regkit.interfaces import (
 from regkit.observation import Frame, Observation
 from regkit.skeleton import Pose
 from regkit.system.compiled import loaded_loops
-from regkit.system.errors import DataError, RegkitError
-
-SUSPICIOUS = 10.0
-"""Data spread over more than this multiple of a body's size are probably in another unit."""
+from regkit.system.errors import NoDataError, RegkitError
 
 
 @dataclass(frozen=True)
@@ -32,13 +26,13 @@ class TrackedFrame:
     """The result of one frame.
 
     Attributes:
-        observation: The frame's data.
-        registered: The registration result.
+        observation: The frame's data; None if it has none.
+        registered: The registration result; without data, the last pose.
         seconds: Time to preprocess and register [s], without reading the file and compiling.
         preprocessing: Time to preprocess [s].
     """
 
-    observation: Observation
+    observation: Observation | None
     registered: RegistrationResult
     seconds: float
     preprocessing: float
@@ -52,6 +46,8 @@ def tracked(
     start: Pose,
 ) -> Iterator[TrackedFrame]:
     """Yields the frames of a recording, tracked one by one from a start pose.
+
+    A frame without data keeps the last pose, and tracking goes on from it.
 
     Args:
         recording: The recording.
@@ -73,10 +69,12 @@ def tracked(
                 # Loops were compiled or loaded meanwhile. Repeating the step gives the same result
                 # and its true time.
                 found = _step(frame, preprocessor, bound, past)
-            _check_near(registrar.body, found.registered.pose, found.observation)
         except RegkitError as error:
             raise error.at(frame.place or f"{recording.name}: frame {index}") from None
-        past = past.followed_by(found.registered)
+        if found.observation is None:
+            past = past.interrupted()
+        else:
+            past = past.followed_by(found.registered)
         yield found
 
 
@@ -84,28 +82,11 @@ def _step(
     frame: Frame, preprocessor: Preprocessor, bound: BoundTracker, past: Past
 ) -> TrackedFrame:
     begun = time.perf_counter()
-    observation = preprocessor.preprocess(frame)
+    try:
+        observation = preprocessor.preprocess(frame)
+    except NoDataError as error:
+        seconds = time.perf_counter() - begun
+        return TrackedFrame(None, past.last.without_data(error.message), seconds, seconds)
     preprocessing = time.perf_counter() - begun
     registered = bound.step(observation, past)
     return TrackedFrame(observation, registered, time.perf_counter() - begun, preprocessing)
-
-
-def _check_near(body: Body, pose: Pose, observation: Observation) -> None:
-    """Checks that a body is near the data, as any further track would be meaningless.
-
-    Raises:
-        DataError: If the body is farther from all data than its size.
-    """
-    if not len(body.capsules):
-        return
-    sample = observation.points[:: max(1, len(observation.points) // 50)]
-    placed = body.capsules.place(body.place(pose).transforms)
-    distance = float(placed.surface_distance(sample).min())
-    if distance > body.size:
-        extent = float(np.linalg.norm(np.ptp(sample, axis=0)))
-        hint = f"; the points are spread over {extent:.4g} m: are they in metres (depth_scale)?"
-        raise DataError(
-            f"the registered body is {distance:.3g} m away from the data; the start or the "
-            "template's size is wrong, or the body was lost"
-            + (hint if extent > SUSPICIOUS * body.size else "")
-        )

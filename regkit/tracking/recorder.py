@@ -8,9 +8,9 @@ from sys import intern
 
 import numpy as np
 
-from regkit.body import Body
+from regkit.body import BodyFit
 from regkit.interfaces import Registrar
-from regkit.skeleton import Placement, Pose
+from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit.tracking.loop import TrackedFrame
 from regkit.tracking.session import Session
@@ -35,9 +35,9 @@ class Snapshot:
 class TrackRecorder:
     """Records the tracked frames of a session one by one.
 
-    It stores the values of a ``Track`` for every frame, and the points of only three: the first,
-    the last, and the one whose points are farthest from the surface. Other frames are read again
-    on request.
+    It stores the values of a ``Track`` for every frame, and the points of only three frames with
+    data: the first, the last, and the one whose points are farthest from the surface. Other frames
+    are read again on request.
 
     Args:
         session: The session.
@@ -58,16 +58,18 @@ class TrackRecorder:
 
     def add(self, frame: TrackedFrame) -> None:
         """Records the next frame."""
-        body, found, points = self._registrar.body, frame.registered, frame.observation.points
-        placement = body.place(found.pose)
-        distance = _surface_distance(body, placement, points)
+        body, found = self._registrar.body, frame.registered
+        points = None if frame.observation is None else frame.observation.points
+        fit = BodyFit.unknown() if points is None else BodyFit.of(body, found.pose, points)
         values = {
             "root": found.pose.root,
             "balls": found.pose.balls,
             "hinges": found.pose.hinges,
-            "markers": body.markers.place(placement.transforms),
-            "surface_distances": distance,
-            "inlier_shares": found.inlier_share,
+            "markers": body.markers.place(body.place(found.pose).transforms),
+            "surface_distances": fit.distance,
+            "inlier_shares": fit.inlier_share,
+            "coverages": fit.coverage,
+            "points": 0 if points is None else len(points),
             "energies": found.energy,
             "evaluations": found.evaluations,
             "converged": found.converged,
@@ -76,7 +78,8 @@ class TrackRecorder:
         }
         for name, value in values.items():
             self._values[name].frombytes(np.asarray(value, dtype=np.float64).tobytes())
-        self._keep(Snapshot(len(self), points, found.pose), distance)
+        if points is not None:
+            self._keep(Snapshot(len(self), points, found.pose), fit.distance)
         self._messages.append(intern(found.message))
 
     def _keep(self, snapshot: Snapshot, distance: float) -> None:
@@ -110,23 +113,10 @@ class TrackRecorder:
         """Returns a frame for pictures, read again unless it is stored.
 
         Raises:
-            RegkitError: If it cannot be read again.
+            RegkitError: If it cannot be read again, or has no data.
         """
         for kept in self._snapshots.values():
             if kept.frame == index:
                 return kept
         points = self._session.observation(index).points
         return Snapshot(index, points, self.track().pose(index))
-
-
-def _surface_distance(body: Body, placement: Placement, points: Array) -> float:
-    """Returns the median distance [m] of points to the body's capsules or surface points."""
-    if len(body.capsules):
-        placed = body.capsules.place(placement.transforms)
-        return float(np.median(np.abs(placed.surface_distance(points))))
-    if body.surface is None:
-        return float("nan")
-    from scipy.spatial import KDTree
-
-    distances, _ = KDTree(body.surface.place(placement.transforms)).query(points)
-    return float(np.median(distances))

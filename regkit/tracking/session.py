@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +12,8 @@ from regkit.interfaces import Preprocessor, Recording, Registrar, Template, Trac
 from regkit.observation import Frame, Observation
 from regkit.skeleton import Pose, PoseDescription
 from regkit.start import Start, found_start, given_start
-from regkit.system.errors import ConfigError, DataError, RegkitError
+from regkit.system.errors import ConfigError, NoDataError, RegkitError
+from regkit.tracking.extent import check_extent
 from regkit.tracking.loop import TrackedFrame, tracked
 
 
@@ -46,8 +48,7 @@ class Session:
         if self.start is not None:
             return given_start(self.template, self.start)
         observations = list(self._start_observations())
-        if not observations:
-            raise DataError("the recording has no frame", place=self.recording.name)
+        check_extent(observations[0].points, self.template, place=self.recording.name)
         return found_start(self.template, *observations)
 
     def tracked(self, registrar: Registrar, tracker: Tracker, pose: Pose) -> Iterator[TrackedFrame]:
@@ -73,15 +74,30 @@ class Session:
         return self._preprocessed(index, frame)
 
     def _start_observations(self) -> Iterator[Observation]:
-        """Yields the first frame and, for an unknown size, later ones that are usable."""
+        """Yields the first frame with data and, for an unknown size, later ones that are usable."""
+        first, observation = self._first()
+        yield observation
         count = 1 if self.template.given_size() is not None else self.sized_in
-        for index, frame in self.recording.some(_spread(self.recording.length, count)):
-            try:
+        later = [index for index in _spread(self.recording.length, count) if index > first]
+        for index, frame in self.recording.some(later):
+            # An error in a later frame is reported when that frame is tracked.
+            with suppress(RegkitError):
                 yield self._preprocessed(index, frame)
-            except RegkitError:
-                # An error in a later frame is reported when that frame is tracked.
-                if index == 0:
-                    raise
+
+    def _first(self) -> tuple[int, Observation]:
+        """Returns the first frame with data, and its index.
+
+        Raises:
+            NoDataError: If no frame has data; the error is that of the first frame.
+            RegkitError: If a frame before it is damaged.
+        """
+        missing = NoDataError("the recording has no frame", place=self.recording.name)
+        for index, frame in enumerate(self.recording.frames()):
+            try:
+                return index, self._preprocessed(index, frame)
+            except NoDataError as error:
+                missing = missing if index else error
+        raise missing
 
     def _preprocessed(self, index: int, frame: Frame) -> Observation:
         try:

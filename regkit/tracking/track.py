@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 from regkit.body import Body
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
+from regkit.tracking.verdict import Verdict, frame_verdicts
 
 
 @dataclass(frozen=True)
@@ -23,7 +25,10 @@ class Track:
         hinges: Hinge angles, (T, n_hinge) [rad].
         markers: Markers in the camera's frame, (T, M, 3) [m].
         surface_distances: Median distance of a frame's points to the body's surface, (T,) [m].
-        inlier_shares: Fraction of a frame's points that are inliers, (T,); NaN if unknown.
+        inlier_shares: Fraction of a frame's points that lie on the body's surface, (T,); NaN
+            without data. Unlike a method's own inlier probability, it compares methods.
+        coverages: Fraction of the body that has data nearby, (T,); NaN without data.
+        points: Number of points, (T,); 0 for a frame without data, whose pose is the last one.
         energies: Energies in the method's own units, (T,).
         evaluations: Numbers of energy evaluations, (T,).
         converged: Whether the solver met a tolerance, (T,).
@@ -37,6 +42,8 @@ class Track:
     markers: Array
     surface_distances: Array
     inlier_shares: Array
+    coverages: Array
+    points: Array
     energies: Array
     evaluations: Array
     converged: Array
@@ -47,6 +54,16 @@ class Track:
         """Returns the pose of a frame."""
         return Pose(self.root[index], self.balls[index], self.hinges[index])
 
+    @cached_property
+    def verdicts(self) -> tuple[Verdict, ...]:
+        """Whether the body was found in each frame, (T,)."""
+        return frame_verdicts(self.points, self.inlier_shares, self.coverages)
+
+    @property
+    def seen(self) -> NDArray[np.bool_]:
+        """Whether each frame has data, (T,)."""
+        return self.points > 0
+
     def __len__(self) -> int:
         """Number T of frames."""
         return len(self.seconds)
@@ -56,11 +73,12 @@ class Track:
         return Track(**{field.name: getattr(self, field.name)[part] for field in fields(self)})
 
     def named_arrays(self, body: Body) -> dict[str, NDArray[Any]]:
-        """Returns these arrays, the names of markers and ball joints, and the size, for a file."""
+        """Returns these arrays, verdicts, names of markers and balls, and the size, for a file."""
         skeleton = body.skeleton
         links = list(skeleton.segment_links)
         balls = [skeleton.names[links.index(link)] for link in skeleton.ball_links]
         return {field.name: getattr(self, field.name) for field in fields(self)} | {
+            "verdicts": np.array(self.verdicts, dtype=np.str_),
             "marker_names": np.array(body.markers.names, dtype=np.str_),
             "ball_names": np.array(balls, dtype=np.str_),
             "size": np.array(body.size),

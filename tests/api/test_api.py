@@ -210,8 +210,8 @@ def _points(depth, camera):
 
 WRONG = {
     "integers": (lambda d, c: (np.uint16(1000 * d), c), "frames[0]: numbers of type uint16"),
-    "millimetres": (lambda d, c: (1000 * d, c), "frames[0]: the points are spread over 1686 m"),
-    "kilometres": (lambda d, c: (d / 1000, c), "Convert them to metres"),
+    "millimetres": (lambda d, c: (1000 * d, c), "frames[0]: the points are spread over"),
+    "kilometres": (lambda d, c: (d / 1000, c), "give metres"),
     "no camera": (lambda d, c: (d, None), "camera: frames[0] of shape (144, 176)"),
     "camera of another size": (
         lambda d, c: (d[:, 1:], c),

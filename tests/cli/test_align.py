@@ -50,7 +50,7 @@ def test_json_and_the_aligned_cloud_hold_the_motion(regkit, clouds, truth, tmp_p
     assert ended.code == 0
     found = json.loads(ended.out)
     near(found["T_target_source"], truth, 0.5, 0.001)
-    assert found["aligned"] is True
+    assert found["verdict"] == "found"
     assert found["fitness"] > 0.95
     assert found["points"] == [1000, 1000]
     aligned = transformed(np.array(found["T_target_source"]), read_cloud(source))
@@ -92,12 +92,12 @@ def test_no_alignment_is_an_error_that_says_so(regkit, clouds, tmp_path):
     write_cloud(far, read_cloud(clouds[1]) + 50.0)
     out = tmp_path / "aligned.npz"
     ended = regkit("align", clouds[0], far, "--start", "identity", "--json", "--out", out)
-    assert ended.code == 1
+    assert ended.code == 3
     found = json.loads(ended.out)
-    assert found["aligned"] is False
+    assert found["verdict"] == "lost"
     assert found["fitness"] == 0.0
     assert found["inlier_rmse"] is None
-    assert "error: no alignment was found: 0 % of the source lies within" in ended.err
+    assert "no alignment was found: 0 % of the source lies within" in ended.err
     assert not out.exists()
 
 
@@ -107,7 +107,8 @@ def test_surface_that_slides_along_itself_is_warned_of(regkit, tmp_path, random)
     write_cloud(file, ball / np.linalg.norm(ball, axis=1, keepdims=True))
     ended = regkit("align", file, file)
     assert ended.code == 0
-    assert "warning: a rotation about the direction" in ended.err
+    assert "warning: doubtful: a rotation about the direction" in ended.err
+    assert regkit("align", file, file, "--strict").code == 3
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ from regkit.clouds import write_cloud
 WALK = DATA / "human_walk"
 HUMAN = ("--template", "{kind: human, height: 1.63}")
 START = ("--set", "start={root: {position: [-0.05, -0.05, 3.25], rotation_deg: [180, 0, 0]}}")
-FILES = {"result.json", "markers.csv", "poses.npz", "picture.png"}
+FILES = {"result.json", "markers.csv", "frames.csv", "poses.npz", "picture.png"}
 
 
 @pytest.fixture
@@ -30,7 +30,7 @@ def test_frame_of_a_folder_and_its_image_give_the_same_pose(regkit, out):
     speeds = [one.pop("frames_per_second") for one in found]
     assert min(speeds) > 0.0
     assert found[0] == found[1]
-    assert found[0]["lost"] is False
+    assert found[0]["verdict"] == "found"
     assert found[0]["size"] == 1.63
     assert found[0]["method"] == "best"
     assert set(found[0]["markers"]) == set(found[0]["marker_names"])
@@ -64,7 +64,7 @@ def regkit_points():
 def test_track_writes_the_motion_and_its_summary(regkit, out):
     ended = regkit("track", WALK, *HUMAN, *START, "--frames", 2, "--out", out)
     assert ended.code == 0, ended.err
-    for what in ("1.63 m", "surface distance", "inliers", "lost"):
+    for what in ("1.63 m", "surface distance", "inliers", "found in 2 of 2"):
         assert what in ended.out
     assert {path.name for path in out.iterdir()} == FILES
     with np.load(out / "poses.npz") as arrays:
@@ -81,10 +81,9 @@ def test_track_writes_the_motion_and_its_summary(regkit, out):
 def test_body_that_is_not_there_counts_as_lost(regkit, out):
     hand = DATA / "hand_gestures"
     ended = regkit("track", hand, *HUMAN, "--frames", 1, "--out", out)
-    assert ended.code == 1
-    assert "error" in ended.err
-    assert "no data nearby" in ended.err
-    assert json.loads((out / "result.json").read_text())["lost"] is True
+    assert ended.code == 3
+    assert "error: lost" in ended.err
+    assert json.loads((out / "result.json").read_text())["verdict"] == "lost"
 
 
 def test_settings_change_what_options_name(regkit):

@@ -1,6 +1,6 @@
 """Figures of tracks whose errors are known."""
 
-from dataclasses import fields, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,7 +8,7 @@ import pytest
 from regkit.body import Body
 from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import vector_to_matrix
-from regkit.metrics import PCK_FRACTION, Measure, joint_errors, mean_of
+from regkit.metrics import METRICS, PCK_FRACTION, Measure, joint_errors, mean_of
 from regkit.metrics import measured as measured_from
 from regkit.observation import Truth
 from regkit.skeleton import Pose
@@ -34,6 +34,8 @@ def track_of(body: Body, poses: list[Pose]) -> Track:
         surface_distances=np.linspace(0.001, 0.003, len(poses)),
         energies=np.zeros(len(poses)),
         inlier_shares=np.ones(len(poses)),
+        coverages=np.ones(len(poses)),
+        points=np.full(len(poses), 100.0),
         evaluations=np.arange(1.0, len(poses) + 1.0),
         converged=np.ones(len(poses)),
         seconds=np.full(len(poses), 0.05),
@@ -269,7 +271,7 @@ def test_body_without_a_surface_has_no_surface_distance(linkage, track):
 
 
 def figures(**known: float | None) -> Measure:
-    return Measure(**{field.name: known.get(field.name, 1.0) for field in fields(Measure)})
+    return Measure(**{name: known.get(name, 1.0) for name in METRICS})
 
 
 def test_mean_is_taken_figure_by_figure():

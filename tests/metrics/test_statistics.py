@@ -1,12 +1,10 @@
 """Summaries over recordings and tests between methods."""
 
-from dataclasses import fields
-
 import numpy as np
 import pytest
 from scipy.stats import wilcoxon
 
-from regkit.metrics import Measure, compared, summary
+from regkit.metrics import METRICS, Measure, compared, summary
 from regkit.metrics.statistics import MIN_SAMPLES, bootstrapped, holm, signed_rank
 
 FIGURE = "joint_error_raw_cm"
@@ -14,7 +12,7 @@ FIGURE = "joint_error_raw_cm"
 
 def measures(**values: list[float | None]) -> dict[str, dict[str, Measure]]:
     """Methods whose joint errors on recordings s0, s1, ... are given; None is not finished."""
-    nothing = {field.name: None for field in fields(Measure)}
+    nothing = dict.fromkeys(METRICS)
     return {
         method: {
             f"s{index}": Measure(**(nothing | {FIGURE: value}))

@@ -1,11 +1,10 @@
 """Results as a run would have left them, made up: the report needs no tracking to be looked at."""
 
-from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
 
-from regkit.metrics import JointErrors, Measure
+from regkit.metrics import METRICS, JointErrors, Measure
 from regkit.primitives import SPHERE
 from regkit.report import Record, Run
 from regkit.report.frame_drawing import DrawnPrimitives, FrameDrawing
@@ -56,6 +55,8 @@ def record(
         size=1.7,
         errors=JointErrors(JOINTS, raw, 0.5 * raw) if compared else None,
         surface_distances=np.full(FRAMES, 0.01),
+        inlier_shares=np.full(FRAMES, 0.9),
+        verdicts=np.full(FRAMES, "found"),
         seconds=np.full(FRAMES, 0.05),
         preprocessing=np.full(FRAMES, 0.01),
         evaluations=np.full(FRAMES, 12.0),
@@ -65,7 +66,7 @@ def record(
 
 def measure(record: Record) -> Measure:
     """The figures of a record that a table needs; the others cannot be had."""
-    known: dict[str, float | None] = {field.name: None for field in fields(Measure)}
+    known: dict[str, float | None] = dict.fromkeys(METRICS)
     known |= {"frames": FRAMES, "fps": 20.0, "surface_distance_mm": 10.0, "lost_frames": None}
     if record.errors is not None:
         known["joint_error_raw_cm"] = 100.0 * float(record.errors.raw.mean())

@@ -48,7 +48,7 @@ def errors_over_time(run: Run) -> Plot | None:
             "; bars below the axis mark frames in which a method lost the body (less than half of "
             "the joints within the PCK threshold)."
             if joints
-            else "."
+            else "; bars below the axis mark frames in which the data say that the body is lost."
         )
         + run.not_drawn
     )
@@ -60,12 +60,11 @@ def errors_over_time(run: Run) -> Plot | None:
     rows: list[list[Value]] = []
     for recording, by_method in curves.items():
         for method, curve in by_method.items():
-            # Losses are unknown without reference joints.
-            losses = run.records[method][recording].losses if joints else None
-            fps = run.records[method][recording].fps
+            record = run.records[method][recording]
+            lost, shares, verdicts = record.losses.lost, record.inlier_shares, record.verdicts
             rows += [
-                [recording, method, frame, frame / fps, float(value),
-                 None if losses is None else int(losses.lost[frame])]
+                [recording, method, frame, frame / record.fps, float(value), int(lost[frame]),
+                 100.0 * float(shares[frame]), str(verdicts[frame])]
                 for frame, value in enumerate(curve)
             ]  # fmt: skip
     return Plot(
@@ -75,7 +74,16 @@ def errors_over_time(run: Run) -> Plot | None:
         alt=f"Curves over time, one panel for each recording. {caption} The numbers of all "
         "recordings are in over_time.csv.",
         draw=draw,
-        columns=["recording", "method", "frame", "time [s]", f"{what} [{unit}]", "lost"],
+        columns=[
+            "recording",
+            "method",
+            "frame",
+            "time [s]",
+            f"{what} [{unit}]",
+            "lost",
+            "inliers [%]",
+            "verdict",
+        ],
         rows=rows,
     )
 
@@ -125,7 +133,7 @@ def _shade(axes: Axes, run: Run, recording: str, methods: list[str]) -> None:
     lost = [
         (method, losses.intervals())
         for method in methods
-        if (losses := run.records[method][recording].losses) is not None and losses.lost.any()
+        if (losses := run.records[method][recording].losses).lost.any()
     ]
     strip = 0.07 * top
     for row, (method, intervals) in enumerate(lost):

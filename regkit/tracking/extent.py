@@ -1,0 +1,87 @@
+"""Comparison of the extent of the data with a template's sizes, made before any search."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from regkit.interfaces import Template
+from regkit.system.arrays import Array
+from regkit.system.errors import DataError
+from regkit.system.notes import note
+
+LARGEST, SMALLEST = 200.0, 0.1
+"""Data whose extent is larger or smaller, in sizes of the template, are refused: a body in a large
+hall is within the first, a fist or a crouching person within the second."""
+
+LARGE, SMALL = 1.4, 0.6
+"""Data of a body alone are hardly larger than this, with raised arms, or smaller, with folded
+limbs; what is beyond is told."""
+
+
+def check_unit(points: Array, template: Template, *, place: str) -> None:
+    """Refuses data in another unit than the template.
+
+    Args:
+        points: The data, (N, 3) [m], the body and possibly its surroundings.
+        template: The template.
+        place: Source of the data, for messages.
+
+    Raises:
+        DataError: If the data are much larger or smaller than the template.
+    """
+    sizes = template.candidate_sizes()
+    extent = extent_of(points)
+    if extent > LARGEST * sizes[-1]:
+        raise DataError(
+            f"{_compared(extent, template)}: give metres (depth_scale), not millimetres",
+            place=place,
+        )
+    if extent < SMALLEST * sizes[0]:
+        raise DataError(
+            f"{_compared(extent, template)}: give metres (depth_scale), or another template or "
+            "size",
+            place=place,
+        )
+
+
+def check_extent(points: Array, template: Template, *, place: str) -> None:
+    """Compares the data with the sizes of a template; an unlikely extent is told as a warning.
+
+    Args:
+        points: The data, (N, 3) [m], the body and possibly its surroundings.
+        template: The template.
+        place: Source of the data, for messages.
+
+    Raises:
+        DataError: If the data are so large or small that their unit or the template is wrong.
+    """
+    check_unit(points, template, place=place)
+    sizes, extent = template.candidate_sizes(), extent_of(points)
+    advice = "check the unit of the data (depth_scale) and the template"
+    if extent > LARGE * sizes[-1]:
+        told = f"crop the surroundings (preprocessor.crop), or {advice}"
+    elif extent < SMALL * sizes[0]:
+        told = f"unless only a part of the body is in view, {advice}"
+    else:
+        return
+    note(f"{_compared(extent, template)}; {told}", place=place)
+
+
+def _compared(extent: float, template: Template) -> str:
+    sizes = template.candidate_sizes()
+    span = f"{sizes[0]:.3g}" + (f" to {sizes[-1]:.3g}" if len(sizes) > 1 else "")
+    return (
+        f"the points are spread over {extent:.3g} m, and the body '{template.name()}' is {span} m "
+        "large"
+    )
+
+
+def extent_of(points: Array) -> float:
+    """Returns the length [m] of points (N, 3) along their longest axis, without stray points."""
+    low, high = np.percentile(points, [1.0, 99.0], axis=0)
+    kept = points[((points >= low) & (points <= high)).all(axis=1)]
+    # Few points may all lie on the edges of the box.
+    centred = kept - kept.mean(axis=0) if len(kept) > 3 else points - points.mean(axis=0)
+    _, _, axes = np.linalg.svd(centred[:: max(1, len(centred) // 2000)], full_matrices=False)
+    low, high = np.percentile(centred @ axes[0], [0.0, 100.0])
+    return float(high - low)

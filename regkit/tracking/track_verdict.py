@@ -1,0 +1,93 @@
+"""The verdict of a track, with its reason."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from regkit.tracking.track import Track
+from regkit.tracking.verdict import Verdict
+
+MANY = 0.1
+"""A track is doubtful if a larger fraction of its frames is doubtful or has no data."""
+
+MOST = 0.5
+"""A track is lost if the body is lost in a larger fraction of its frames."""
+
+TOLD = {
+    Verdict.LOST: "the body is lost in {}",
+    Verdict.DOUBTFUL: "it is doubtful in {}",
+    Verdict.NO_DATA: "{} have no data",
+}
+"""What is told of the frames with each verdict."""
+
+
+@dataclass(frozen=True)
+class TrackVerdict:
+    """The verdict of a whole track.
+
+    Attributes:
+        verdict: Whether the body was found.
+        reason: Why the result is doubtful or the body lost, or how many frames have no data; empty
+            if there is nothing to tell.
+    """
+
+    verdict: Verdict
+    reason: str = ""
+
+    @classmethod
+    def of(cls, track: Track, numbers: Sequence[int] | None = None) -> TrackVerdict:
+        """Returns the verdict of a track.
+
+        The body is lost if it is lost in the last frame with data, or in most of them. The track is
+        doubtful if the body is lost in a frame, doubtful in the last one or in many, or if many
+        frames have no data.
+
+        Args:
+            track: The track.
+            numbers: Frame numbers for the reason, (T,); from 0 by default.
+        """
+        frames = Counter(track.verdicts)
+        seen = [verdict for verdict in track.verdicts if verdict is not Verdict.NO_DATA]
+        if not seen:
+            return cls(Verdict.LOST, "no frame has data")
+        lost, doubtful = (frames[one] / len(seen) for one in (Verdict.LOST, Verdict.DOUBTFUL))
+        missing = frames[Verdict.NO_DATA] / len(track)
+        if seen[-1] is Verdict.LOST or lost > MOST:
+            verdict = Verdict.LOST
+        elif lost or doubtful > MANY or seen[-1] is Verdict.DOUBTFUL or missing > MANY:
+            verdict = Verdict.DOUBTFUL
+        else:
+            told = TOLD[Verdict.NO_DATA].format(_share_of(frames[Verdict.NO_DATA], track))
+            return cls(Verdict.FOUND, told if missing else "")
+        return cls(verdict, _reason(track, numbers or range(len(track))))
+
+
+def _reason(track: Track, numbers: Sequence[int]) -> str:
+    """Returns how many frames have which verdict, and the shares of the worst one."""
+    frames, parts = Counter(track.verdicts), []
+    if len(track) > 1:
+        parts.append(
+            ", ".join(
+                text.format(_share_of(frames[one], track))
+                for one, text in TOLD.items()
+                if frames[one]
+            )
+        )
+    shares = np.minimum(track.inlier_shares, track.coverages)
+    if np.isfinite(shares).any():
+        worst = int(np.nanargmin(shares))
+        where = f"in frame {numbers[worst]} " if len(track) > 1 else ""
+        parts.append(
+            f"{where}{100.0 * track.inlier_shares[worst]:.0f} % of the points lie on the body and "
+            f"{100.0 * track.coverages[worst]:.0f} % of the body has data; check the template, its "
+            "size, and the crop of the surroundings"
+        )
+    return ": ".join(parts)
+
+
+def _share_of(count: int, track: Track) -> str:
+    return f"{count} of {len(track)} frames"

@@ -1,0 +1,43 @@
+"""Verdicts of frames: whether the body was found, judged by the data alone."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+
+import numpy as np
+
+from regkit.system.arrays import Array
+
+SURE_INLIERS, SURE_COVERAGE = 0.75, 0.8
+"""A frame with smaller shares of inliers or of covered body is doubtful."""
+
+LOST_SHARE = 0.5
+"""The body is lost in a frame if either share is smaller."""
+
+
+class Verdict(StrEnum):
+    """Whether the body was found."""
+
+    FOUND = "found"
+    DOUBTFUL = "doubtful"
+    LOST = "lost"
+    NO_DATA = "no data"
+
+
+def frame_verdicts(points: Array, inlier_shares: Array, coverages: Array) -> tuple[Verdict, ...]:
+    """Returns the verdict of each of T frames.
+
+    The body is found where the data lie on its surface and where it has data: either alone accepts
+    a body of the wrong size, or in the wrong place. Unknown shares, those of a body without a
+    surface, raise no doubt.
+
+    Args:
+        points: Number of points of each frame, (T,).
+        inlier_shares: Fraction of the points that lie on the body's surface, (T,).
+        coverages: Fraction of the body that has data nearby, (T,).
+    """
+    lost = (inlier_shares < LOST_SHARE) | (coverages < LOST_SHARE)
+    doubtful = (inlier_shares < SURE_INLIERS) | (coverages < SURE_COVERAGE)
+    choices = [Verdict.NO_DATA, Verdict.LOST, Verdict.DOUBTFUL]
+    chosen = np.select([points == 0, lost, doubtful], [0, 1, 2], 3)
+    return tuple([*choices, Verdict.FOUND][choice] for choice in chosen)
