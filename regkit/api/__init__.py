@@ -6,16 +6,23 @@ from regkit.api.frame_files import load_frame
 from regkit.api.frames import load_recording
 from regkit.api.registering import register, track
 from regkit.api.registration import Registration
-from regkit.api.tracking import Tracking
+from regkit.api.tracking import Tracking, TrackingError
 from regkit.geometry.camera import Camera
 from regkit.observation import Truth
+from regkit.system.errors import RegkitError
+from regkit.system.notes import RegkitWarning
+from regkit.tracking import Verdict
 
 __all__ = [
     "Camera",
     "CloudAlignment",
     "Registration",
+    "RegkitError",
+    "RegkitWarning",
     "Tracking",
+    "TrackingError",
     "Truth",
+    "Verdict",
     "align",
     "load_frame",
     "load_recording",

@@ -8,7 +8,7 @@ from typing import Any
 from regkit.api.choices import Choice, load_template, name_of
 from regkit.api.frames import Frames, GivenFrames, Intrinsics, Measured, frame_of, recording_of
 from regkit.api.registration import Registration
-from regkit.api.tracking import Tracking
+from regkit.api.tracking import Tracking, TrackingError
 from regkit.clouds import spacing, voxel_for
 from regkit.config.document import Document
 from regkit.interfaces import Method, Preprocessor, Recording, Template, Tracker
@@ -97,7 +97,9 @@ def track(
         The body with its poses and markers in all frames.
 
     Raises:
-        RegkitError: If an argument is invalid, or a frame cannot be registered.
+        TrackingError: If a frame after the first cannot be read or registered; its ``tracked`` is
+            what was tracked before.
+        RegkitError: If an argument is invalid, or the first frame cannot be registered.
     """
     recording = recording_of(frames, camera, fps)
     return _tracked(recording, template, method, preprocessor, tracker, start, "regkit.track")
@@ -129,9 +131,9 @@ def _tracked(
         begin = _begin(session)
         registrar = chosen.bind(begin.body)
         recorder = TrackRecorder(session, registrar)
-        for frame in _shown(session.tracked(registrar, follows, begin.pose), recording.length):
-            recorder.add(frame)
-    return Tracking(
+        steps = session.tracked(registrar, follows, begin.pose)
+        failed = _record(recorder, _shown(steps, recording.length))
+    tracking = Tracking(
         name=recording.name,
         method=name_of(method),
         fps=recording.fps,
@@ -140,6 +142,25 @@ def _tracked(
         indices=range(len(recorder)),
         track=recorder.track(),
     )
+    if failed is not None:
+        raise TrackingError(failed.message, place=failed.place, tracked=tracking)
+    return tracking
+
+
+def _record(recorder: TrackRecorder, frames: Iterator[TrackedFrame]) -> RegkitError | None:
+    """Records frames and returns the error that ended them early, if any frame was tracked.
+
+    Raises:
+        RegkitError: If the first frame fails.
+    """
+    try:
+        for frame in frames:
+            recorder.add(frame)
+    except RegkitError as error:
+        if not len(recorder):
+            raise
+        return error
+    return None
 
 
 def _first(recording: Recording) -> Frame:

@@ -17,12 +17,28 @@ from regkit.interfaces import Registrar
 from regkit.metrics import JointErrors, Measure, joint_errors, measured
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
-from regkit.system.errors import ConfigError, DataError
+from regkit.system.errors import ConfigError, DataError, RegkitError
 from regkit.system.files import write_arrays
 from regkit.tracking import Snapshot, Track, TrackRecorder, TrackVerdict, Verdict
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+
+class TrackingError(RegkitError):
+    """A recording could not be tracked to its end.
+
+    Args:
+        message: What is wrong with the frame.
+        place: The frame.
+        tracked: The frames before it.
+    """
+
+    def __init__(
+        self, message: str, *, place: str | None = None, tracked: Tracking | None = None
+    ) -> None:
+        super().__init__(message, place=place)
+        self.tracked = tracked
 
 
 @dataclass(frozen=True, repr=False)

@@ -6,12 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from regkit.body import BodyDescription
+from regkit.body import Body, BodyDescription, BodyFit
 from regkit.body.proportions import Proportions
 from regkit.calibration.frames import Looks, distances
 from regkit.calibration.shape import Shape
 from regkit.system.arrays import Array
-from regkit.system.errors import DataError
+from regkit.system.errors import NotFoundError
+from regkit.tracking import Verdict
+from regkit.tracking.verdict import frame_verdicts
 
 FARTHEST = 0.015
 """A fit has failed if the median distance of the data exceeds this fraction of the body's size."""
@@ -21,6 +23,11 @@ EXTREME = 1.25
 
 FAR = 0.03
 """Points farther from the surface than this fraction of the size are hardly the body's."""
+
+SLACK = 1.05
+"""A fit has failed if the size is beyond the template's range by more than this factor."""
+
+ADVICE = "the body was not found; give its size or a start, or use another recording"
 
 
 @dataclass(frozen=True)
@@ -33,6 +40,7 @@ class Subject:
         frames: Number of frames used for the fit.
         distance: Median distance of their data to the surface [m].
         strange: Fraction of the data too far from the surface to be the subject's.
+        verdict: Whether the body was found in the frames, on average: found or doubtful.
     """
 
     description: BodyDescription
@@ -40,6 +48,7 @@ class Subject:
     frames: int
     distance: float
     strange: float
+    verdict: Verdict
 
     @classmethod
     def found(cls, shape: Shape, x: Array, looks: Looks, recording: str) -> Subject:
@@ -52,14 +61,18 @@ class Subject:
             recording: Name of the recording.
 
         Raises:
-            DataError: If the proportions are implausible or the data are far from the surface.
+            NotFoundError: If the proportions are implausible, the data are far from the surface, or
+                the body is lost in the frames.
         """
         body = shape.body(x)
         gaps = distances(body, looks)
         off = float(np.median(gaps))
+        verdict = _verdict(body, looks)
         try:
             check(shape, x, off)
-        except DataError as error:
+            if verdict is Verdict.LOST:
+                raise NotFoundError(f"the data and the body do not cover each other: {ADVICE}")
+        except NotFoundError as error:
             raise error.at(recording) from None
         return cls(
             description=_named(shape.description(x), recording, len(looks.poses)),
@@ -67,7 +80,18 @@ class Subject:
             frames=len(looks.poses),
             distance=off,
             strange=float((gaps > FAR * body.size).mean()),
+            verdict=verdict,
         )
+
+
+def _verdict(body: Body, looks: Looks) -> Verdict:
+    """Returns the verdict of the mean shares over the frames."""
+    fits = [
+        BodyFit.of(body, pose, cloud.points)
+        for cloud, pose in zip(looks.clouds, looks.poses, strict=True)
+    ]
+    shares = np.array([[fit.inlier_share, fit.coverage] for fit in fits]).mean(axis=0)
+    return frame_verdicts(np.ones(1), shares[:1], shares[1:])[0]
 
 
 def _named(description: BodyDescription, recording: str, frames: int) -> BodyDescription:
@@ -90,16 +114,22 @@ def check(shape: Shape, x: Array, off: float) -> None:
         off: Median distance of the data to the surface [m].
 
     Raises:
-        DataError: If the surface is far from the data, or a bone's length is extreme.
+        NotFoundError: If the surface is far from the data, the size is beyond the template's range,
+            or a bone's length is extreme.
     """
-    advice = "the body was not found; give its size or a start, or use another recording"
-    size = shape.description(x).size.value
-    if off > FARTHEST * size:
-        raise DataError(f"the body's surface lies {100.0 * off:.1f} cm from the data: {advice}")
+    size = shape.description(x).size
+    smallest, largest = shape.template.size.range
+    if not smallest / SLACK <= size.value <= SLACK * largest:
+        raise NotFoundError(
+            f"its {size.name} came out as {size.value:.3g} m, and the template's range is "
+            f"{smallest:.3g} to {largest:.3g} m: {ADVICE}, or widen size.range in the template"
+        )
+    if off > FARTHEST * size.value:
+        raise NotFoundError(f"the body's surface lies {100.0 * off:.1f} cm from the data: {ADVICE}")
     lengths = x[1 : 1 + len(shape.groups.names)]
     worst = int(np.abs(lengths).argmax())
     if abs(lengths[worst]) > np.log(EXTREME):
-        raise DataError(
+        raise NotFoundError(
             f"'{shape.groups.names[worst]}' came out {np.exp(lengths[worst]):.2f} times as long as "
-            f"in the scaled template: {advice}"
+            f"in the scaled template: {ADVICE}"
         )

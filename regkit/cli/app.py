@@ -11,9 +11,9 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 
 from regkit.cli.console import print_error, show_warnings, tell_compiling
-from regkit.cli.exit_codes import ERROR
+from regkit.cli.exit_codes import ERROR, NOT_FOUND
 from regkit.system.compiled import when_compiling
-from regkit.system.errors import RegkitError
+from regkit.system.errors import NotFoundError, RegkitError
 
 COMMANDS = {
     "run": "Run an experiment: register the template to every recording with every method.",
@@ -93,4 +93,4 @@ def main() -> None:
         app()
     except RegkitError as error:
         print_error(error)
-        sys.exit(ERROR)
+        sys.exit(NOT_FOUND if isinstance(error, NotFoundError) else ERROR)

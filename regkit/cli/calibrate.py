@@ -13,8 +13,10 @@ from rich.table import Table
 from regkit.calibration import Subject
 from regkit.cli.calibration_source import Source
 from regkit.cli.console import errors, output
-from regkit.cli.options import PluginFiles, run_plugin_files
+from regkit.cli.options import PluginFiles, Strict, run_plugin_files
 from regkit.cli.template_file import check_replaceable, write_template
+from regkit.cli.verdicts import conclude
+from regkit.tracking import Verdict
 
 OPENING = """\
 Made by `regkit calibrate` from {frames} frames of {recording}. To use it:
@@ -24,6 +26,11 @@ Lengths are in metres and angles in degrees."""
 
 STRANGE = 0.05
 """Share of data far from the body above which a warning is printed."""
+
+DOUBT = (
+    "the data and the body cover each other only in part; parts without data keep the template's "
+    "proportions"
+)
 
 
 def calibrate(
@@ -60,6 +67,7 @@ def calibrate(
             "--set", metavar="a.b.c=VALUE", help="Change a value of the experiment. Repeatable."
         ),
     ] = None,
+    strict: Strict = False,
     plugin: PluginFiles = None,
 ) -> None:
     """Create a template with the body proportions of the person or hand in a recording."""
@@ -74,6 +82,8 @@ def calibrate(
     write_template(out, subject.description, skin, opening)
     _print_summary(subject, found.template.description().size.value)
     output.print(f"written: {out}", highlight=False, soft_wrap=True)
+    reason = "" if subject.verdict is Verdict.FOUND else DOUBT
+    conclude(subject.verdict, reason, strict=strict)
 
 
 def _print_summary(subject: Subject, template_size: float) -> None:

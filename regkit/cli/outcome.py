@@ -41,6 +41,17 @@ def finish(tracking: Tracking, out: Path | None, *, as_json: bool, strict: bool)
         RegkitError: If a file cannot be written.
         Exit: With ``NOT_FOUND``, if the body was lost, or is doubtful and ``strict`` is set.
     """
+    show(tracking, out, as_json=as_json)
+    judged = tracking.judged
+    conclude(judged.verdict, judged.reason, strict=strict)
+
+
+def show(tracking: Tracking, out: Path | None, *, as_json: bool) -> None:
+    """Prints the result and writes it to a folder.
+
+    Raises:
+        RegkitError: If a file cannot be written.
+    """
     figures = _figures(tracking)
     if as_json:
         typer.echo(json.dumps(figures, indent=2, allow_nan=False))
@@ -49,8 +60,6 @@ def finish(tracking: Tracking, out: Path | None, *, as_json: bool, strict: bool)
     if out is not None:
         _write(tracking, figures, out)
         errors.print(f"written: {out}", highlight=False, soft_wrap=True)
-    judged = tracking.judged
-    conclude(judged.verdict, judged.reason, strict=strict)
 
 
 def _figures(tracking: Tracking) -> dict[str, Any]:

@@ -13,13 +13,13 @@ from rich.markup import escape
 from rich.table import Table
 
 from regkit.cli.console import errors, output, print_warning
-from regkit.cli.exit_codes import DONE, ERROR, INTERRUPTED, NOT_FOUND
+from regkit.cli.exit_codes import DONE, INTERRUPTED
 from regkit.cli.interrupt import Interrupt
 from regkit.cli.options import PluginFiles, Strict, options, run_plugin_files
 from regkit.cli.run_progress import RunProgress
-from regkit.cli.verdicts import exit_code
+from regkit.cli.verdicts import run_exit_code
 from regkit.cli.workers import chosen_workers
-from regkit.experiment import Outcome, Study
+from regkit.experiment import Study
 from regkit.experiment import run as run_experiment
 from regkit.metrics import Measure
 from regkit.report.labels import wrapped
@@ -98,21 +98,9 @@ def run(
     output.print(f"results: {folder}", highlight=False, soft_wrap=True)
     output.print(f"report: {folder / 'report.html'}", highlight=False, soft_wrap=True)
     _tell_doubts(outcome.measures)
-    code = _code(outcome, strict=strict)
+    code = run_exit_code(outcome, strict=strict)
     if code != DONE:
         raise typer.Exit(code)
-
-
-def _code(outcome: Outcome, *, strict: bool) -> int:
-    """Returns the exit code: a method that loses a body is a result, unless all lose it."""
-    if any(outcome.failures.values()):
-        return ERROR
-    codes: dict[str, set[int]] = {}
-    for by_recording in outcome.measures.values():
-        for recording, measure in by_recording.items():
-            if measure.verdict is not None:
-                codes.setdefault(recording, set()).add(exit_code(measure.verdict, strict=strict))
-    return NOT_FOUND if {NOT_FOUND} in codes.values() else DONE
 
 
 def _tell_doubts(measures: Mapping[str, Mapping[str, Measure]]) -> None:

@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from regkit.api import track as track_frames
+from regkit.api.tracking import TrackingError
 from regkit.cli.choices import Choices
 from regkit.cli.options import (
     MethodName,
@@ -21,7 +22,7 @@ from regkit.cli.options import (
     options,
     run_plugin_files,
 )
-from regkit.cli.outcome import check_out, finish
+from regkit.cli.outcome import check_out, finish, show
 from regkit.interfaces import Dataset
 
 
@@ -66,17 +67,19 @@ def track(
     data = Dataset.in_folder(folder, frames=frames)
     with options(**{"dataset.recordings": "--recording"}):
         chosen = Dataset.parse(data, place="FOLDER", field="dataset").only(recording)
-    found = track_frames(
-        chosen,
-        choices.template,
-        choices.method,
-        preprocessor=choices.preprocessor,
-        tracker=choices.tracker,
-        start=choices.start,
-    )
-    finish(
-        replace(found, method=name),
-        out or Path("tracks") / chosen.name,
-        as_json=as_json,
-        strict=strict,
-    )
+    results = out or Path("tracks") / chosen.name
+    try:
+        found = track_frames(
+            chosen,
+            choices.template,
+            choices.method,
+            preprocessor=choices.preprocessor,
+            tracker=choices.tracker,
+            start=choices.start,
+        )
+    except TrackingError as error:
+        # What was tracked before the damaged frame is kept; the error decides the exit code.
+        if error.tracked is not None:
+            show(replace(error.tracked, method=name), results, as_json=as_json)
+        raise
+    finish(replace(found, method=name), results, as_json=as_json, strict=strict)

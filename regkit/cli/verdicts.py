@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import typer
 
 from regkit.cli.console import print_error, print_warning
-from regkit.cli.exit_codes import DONE, NOT_FOUND
+from regkit.cli.exit_codes import DONE, ERROR, NOT_FOUND
 from regkit.system.errors import RegkitError
 from regkit.tracking import Verdict
+
+if TYPE_CHECKING:
+    from regkit.experiment import Outcome
 
 
 def conclude(verdict: Verdict, reason: str, *, strict: bool) -> None:
@@ -36,3 +41,21 @@ def exit_code(verdict: Verdict, *, strict: bool) -> int:
     """Returns the exit code of a result."""
     missed = verdict is Verdict.LOST or (strict and verdict is Verdict.DOUBTFUL)
     return NOT_FOUND if missed else DONE
+
+
+def run_exit_code(outcome: Outcome, *, strict: bool) -> int:
+    """Returns the exit code of a run: a method that loses a body is a result, unless all lose it.
+
+    Args:
+        outcome: The results of all methods.
+        strict: Whether doubtful results count as not found.
+    """
+    if any(outcome.failures.values()):
+        return ERROR
+    codes: dict[str, set[int]] = {}
+    for by_recording in outcome.measures.values():
+        for recording, measure in by_recording.items():
+            if measure.verdict is not None:
+                code = exit_code(Verdict(measure.verdict), strict=strict)
+                codes.setdefault(recording, set()).add(code)
+    return NOT_FOUND if {NOT_FOUND} in codes.values() else DONE

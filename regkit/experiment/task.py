@@ -11,7 +11,7 @@ from regkit.experiment.experiment import Experiment
 from regkit.experiment.results import Results
 from regkit.experiment.starts import kept_start, start_file
 from regkit.interfaces import Registrar
-from regkit.metrics import Measure, joint_errors, matched, measured
+from regkit.metrics import Measure, check_unit, joint_errors, measured, tell_unmatched
 from regkit.observation import Truth
 from regkit.report import Record
 from regkit.system.errors import RegkitError
@@ -83,8 +83,13 @@ class Task:
         start = kept_start(session, self.folder)
         truth = self._truth(session)
         if truth is not None:
-            # Report a misspelt joint before hours of computing, not after them.
-            matched(start.body, truth, self.experiment.dataset.joints)
+            # Report a misspelt joint or a wrong unit before hours of computing, not after them.
+            joints, place = self.experiment.dataset.joints, f"{self.recording}: reference joints"
+            tell_unmatched(start.body, truth, joints, place=place)
+            try:
+                check_unit(start.body, truth, joints)
+            except RegkitError as error:
+                raise error.at(place) from None
 
     def _tracked(self, results: Results, name: str, each_frame: Callable[[], None]) -> Measure:
         remove_unfinished(results.recording_folder(name, self.recording))

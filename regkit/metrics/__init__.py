@@ -1,7 +1,8 @@
 """Tracking metrics of the literature, and statistics over recordings."""
 
-from regkit.metrics.joints import JointErrors, joint_errors, matched
+from regkit.metrics.joints import JointErrors, joint_errors
 from regkit.metrics.losses import Losses
+from regkit.metrics.matching import check_unit, matched, tell_unmatched
 from regkit.metrics.measure import METRICS, PCK_FRACTION, TEN_CM, Measure, mean_of, measured
 from regkit.metrics.pairs import Pair, compared
 from regkit.metrics.statistics import Summary, summary
@@ -17,6 +18,7 @@ __all__ = [
     "Pair",
     "Summary",
     "auc",
+    "check_unit",
     "compared",
     "fraction_within",
     "joint_errors",
@@ -24,4 +26,5 @@ __all__ = [
     "mean_of",
     "measured",
     "summary",
+    "tell_unmatched",
 ]

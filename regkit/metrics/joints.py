@@ -8,10 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from regkit.body import Body
-from regkit.config.model import did_you_mean
+from regkit.metrics.matching import check_unit, matched
 from regkit.observation import Truth
 from regkit.system.arrays import Array
-from regkit.system.errors import ConfigError
 from regkit.tracking import Track
 
 
@@ -43,8 +42,10 @@ def joint_errors(track: Track, body: Body, truth: Truth, joints: Mapping[str, st
 
     Raises:
         ConfigError: If ``joints`` names an unknown joint or marker, or no joint matches a marker.
+        DataError: If the reference is in another unit than the body.
     """
     columns, markers = matched(body, truth, joints)
+    check_unit(body, truth, joints)
     frames = min(len(track.markers), len(truth.positions))
     error = truth.positions[:frames, columns] - track.markers[:frames, markers]
     placements = [body.place(track.pose(index)) for index in range(frames)]
@@ -68,47 +69,3 @@ def _without_displacement(local: Array) -> Array:
         displacement = np.where(counts[:, None] > 0, sums / np.maximum(counts, 1)[:, None], np.nan)
         adjusted[parity::2] = local[parity::2] - displacement
     return adjusted
-
-
-def matched(body: Body, truth: Truth, joints: Mapping[str, str]) -> tuple[list[int], list[int]]:
-    """Matches reference joints with markers of the body.
-
-    Args:
-        body: The body.
-        truth: Reference joints.
-        joints: Marker of the body for each reference joint whose name differs.
-
-    Returns:
-        Indices of the matched reference joints, and indices of their markers.
-
-    Raises:
-        ConfigError: If ``joints`` names an unknown joint or marker, or no joint matches a marker.
-    """
-    for name, marker in joints.items():
-        if name not in truth.joints:
-            raise ConfigError(
-                f"the data have no joint '{name}' (there are: {', '.join(truth.joints)})"
-                + did_you_mean(name, list(truth.joints)),
-                place="dataset.joints",
-            )
-        if marker not in body.markers.names:
-            raise ConfigError(
-                f"the template '{body.name}' has no marker '{marker}' (there are: "
-                f"{', '.join(body.markers.names)})"
-                + did_you_mean(marker, list(body.markers.names)),
-                place=f"dataset.joints.{name}",
-            )
-    names = [joints.get(name, name) for name in truth.joints]
-    pairs = [
-        (column, body.markers.names.index(name))
-        for column, name in enumerate(names)
-        if name in body.markers.names
-    ]
-    if not pairs:
-        raise ConfigError(
-            f"no joint of the data ({', '.join(truth.joints)}) is a marker of '{body.name}' "
-            f"({', '.join(body.markers.names)}); map their names (dataset.joints), or disable the "
-            "comparison (dataset.compared=false)",
-            place="dataset.joints",
-        )
-    return [column for column, _ in pairs], [marker for _, marker in pairs]

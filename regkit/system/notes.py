@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from pathlib import Path
+from typing import Any, cast
 
 
 class RegkitWarning(UserWarning):
@@ -22,3 +23,16 @@ def note(message: str, *, place: Path | str | None = None) -> None:
     """
     text = f"{place}: {message}" if place is not None else message
     warnings.warn(RegkitWarning(text), stacklevel=2)
+
+
+def print_notes() -> None:
+    """Prints notes of this process as plain lines on standard error, without the place in code."""
+    usual = warnings.formatwarning
+
+    def formatted(message: Warning | str, category: type[Warning], *rest: Any, **more: Any) -> str:
+        if issubclass(category, RegkitWarning):
+            return f"warning: {message}\n"
+        return usual(message, category, *rest, **more)
+
+    warnings.formatwarning = cast("Any", formatted)
+    warnings.simplefilter("default", RegkitWarning)

@@ -9,7 +9,7 @@ from pydantic_core import PydanticCustomError
 
 from regkit.body import BodyDescription
 from regkit.body.reading import description_in
-from regkit.config.model import InputPath
+from regkit.config.model import InputPath, misplaced
 from regkit.interfaces.template import Template
 from regkit.system.errors import RegkitError
 
@@ -26,7 +26,7 @@ class FileTemplate(Template):
     """YAML file of the template."""
     size: Annotated[float, Field(gt=0.0)] | None = None
     """The body's size, as defined by ``size`` in the file [m]; by default it is estimated within
-    the file's range."""
+    the file's range, which a given size must lie in too."""
 
     @model_validator(mode="after")
     def _read_early(self) -> Self:
@@ -36,6 +36,14 @@ class FileTemplate(Template):
         except RegkitError as error:
             # This error type keeps pydantic from adding the input to the message with the path.
             raise PydanticCustomError("plugin_error", "{error}", {"error": str(error)}) from error
+        smallest, largest = description.size.range
+        if self.size is not None and not smallest <= self.size <= largest:
+            raise misplaced(
+                type(self),
+                f"{self.size:g} m is beyond the template's {description.size.name} of {smallest:g} "
+                f"to {largest:g} m (size.range in {self.path.name})",
+                "size",
+            )
         return self
 
     def description(self) -> BodyDescription:

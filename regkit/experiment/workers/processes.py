@@ -20,6 +20,7 @@ from regkit.experiment.task import Result, Task
 from regkit.experiment.workers.packed import Packed, performed
 from regkit.experiment.workers.team import TRIES, Team, Workers
 from regkit.system.errors import RegkitError
+from regkit.system.notes import print_notes
 from regkit.system.optional import load_library
 
 PATIENCE = 0.2
@@ -128,7 +129,8 @@ def _pool() -> Any:
 
 
 def _follow_parent(parent: int) -> None:
-    """Runs on a worker: ends it with its parent, and leaves Ctrl-C to the parent."""
+    """Runs on a worker: ends it with its parent, leaves Ctrl-C to the parent, and shows notes."""
+    print_notes()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
     def follow() -> None:
