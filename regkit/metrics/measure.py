@@ -88,6 +88,10 @@ class Measure:
         """Returns the metrics, the verdict and its reason by name."""
         return asdict(self)
 
+    def numbers(self) -> dict[str, float | None]:
+        """Returns the metrics by name, without the verdict."""
+        return {name: getattr(self, name) for name in METRICS}
+
 
 METRICS = tuple(field.name for field in fields(Measure) if field.name not in ("verdict", "reason"))
 """Names of the metrics, which are numbers."""

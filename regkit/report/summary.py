@@ -28,7 +28,7 @@ def metrics(run: Run) -> dict[str, Any]:
         over = {name: summary([getattr(one, name) for one in found]) for name in METRICS}
         methods[method] = {
             "recordings": recordings,
-            "mean": mean_of(found).to_dict(),
+            "mean": mean_of(found).numbers(),
             "median": {name: one.median for name, one in over.items()},
             "interval": {name: _listed(one.interval) for name, one in over.items()},
             "joints": _joints(run, method),

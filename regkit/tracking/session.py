@@ -43,13 +43,13 @@ class Session:
             RegkitError: If the given start does not fit the body, the first frame cannot be read,
                 or no start can be found.
         """
+        index, first = self._first()
+        check_extent(first.points, self.template, place=self.recording.name)
         if isinstance(self.start, Pose):
             return _posed(self.template, self.start)
         if self.start is not None:
             return given_start(self.template, self.start)
-        observations = list(self._start_observations())
-        check_extent(observations[0].points, self.template, place=self.recording.name)
-        return found_start(self.template, *observations)
+        return found_start(self.template, first, *self._later(index))
 
     def tracked(self, registrar: Registrar, tracker: Tracker, pose: Pose) -> Iterator[TrackedFrame]:
         """Yields the recording's frames, tracked one by one from a pose.
@@ -73,10 +73,8 @@ class Session:
         ((_, frame),) = self.recording.some([index])
         return self._preprocessed(index, frame)
 
-    def _start_observations(self) -> Iterator[Observation]:
-        """Yields the first frame with data and, for an unknown size, later ones that are usable."""
-        first, observation = self._first()
-        yield observation
+    def _later(self, first: int) -> Iterator[Observation]:
+        """Yields usable frames after the first one, if the size is unknown."""
         count = 1 if self.template.given_size() is not None else self.sized_in
         later = [index for index in _spread(self.recording.length, count) if index > first]
         for index, frame in self.recording.some(later):

@@ -8,7 +8,7 @@ import numpy as np
 
 from regkit.system.arrays import Array
 
-SURE_INLIERS, SURE_COVERAGE = 0.75, 0.8
+SURE_INLIERS, SURE_COVERAGE = 0.8, 0.8
 """A frame with smaller shares of inliers or of covered body is doubtful."""
 
 LOST_SHARE = 0.5

@@ -22,7 +22,7 @@ from regkit.geometry.rigid import rigid
 from regkit.interfaces import RegistrationResult
 from regkit.observation import Observation
 from regkit.skeleton import Pose, PoseDescription
-from regkit.system.errors import DataError
+from regkit.system.errors import NotFoundError
 from regkit.system.optional import one_blas_thread
 from regkit.tracking import TrackedFrame
 from regkit_plugins.solvers.gauss_newton import GaussNewton
@@ -327,11 +327,13 @@ def test_a_body_that_was_not_found_is_refused():
     shape = Shape(HUMAN)
     x = shape.origin(1.7)
     check(shape, x, 0.01)
-    with pytest.raises(DataError, match=r"lies 5.0 cm from the data: the body was not found"):
+    with pytest.raises(NotFoundError, match=r"lies 5.0 cm from the data: the body was not found"):
         check(shape, x, 0.05)
     x[1 + shape.groups.names.index("shin")] = 0.4
-    with pytest.raises(DataError, match=r"'shin' came out 1.49 times as long"):
+    with pytest.raises(NotFoundError, match=r"'shin' came out 1.49 times as long"):
         check(shape, x, 0.01)
+    with pytest.raises(NotFoundError, match=r"6\.49 m, and the template's range"):
+        check(shape, shape.origin(6.49), 0.01)
 
 
 def test_points_are_averaged_to_suit_the_body():

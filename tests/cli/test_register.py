@@ -86,6 +86,17 @@ def test_body_that_is_not_there_counts_as_lost(regkit, out):
     assert json.loads((out / "result.json").read_text())["verdict"] == "lost"
 
 
+def test_track_that_ends_at_a_damaged_frame_keeps_what_was_tracked(regkit, tmp_path, out):
+    shutil.copytree(WALK, tmp_path / "walk")
+    depth = tmp_path / "walk" / "depth"
+    (depth / "000002.png").write_bytes((depth / "000001.png").read_bytes()[:500])
+    ended = regkit("track", tmp_path / "walk", *HUMAN, *START, "--frames", 4, "--out", out)
+    assert ended.code == 1
+    assert "000002.png" in ended.err
+    with (out / "frames.csv").open() as stream:
+        assert [row["verdict"] for row in csv.DictReader(stream)] == ["found", "found"]
+
+
 def test_settings_change_what_options_name(regkit):
     ended = regkit(
         "register", WALK, "--set", "template.height=1.7", "--method", "best",

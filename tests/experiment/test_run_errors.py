@@ -33,7 +33,8 @@ def test_bad_recording_does_not_stop_the_others(regkit, files):
     assert failed.pop("error").startswith(reason)
     assert set(failed.values()) == {None}
     assert figures["recordings"]["second"]["joint_error_raw_cm"] > 0.0
-    assert figures["mean"] == figures["recordings"]["second"]
+    second = figures["recordings"]["second"]
+    assert figures["mean"].items() <= second.items()
     text = (files.out / "report.md").read_text()
     assert f"- **gsog** on first: {reason}" in text
     assert {name.split("/")[1] for name in files.written()} == {"second"}
@@ -155,13 +156,13 @@ def test_depth_in_another_unit_is_suspected(regkit, files):
     (files.data / "first" / "sequence.yaml").write_text("fps: 30\ndepth_scale: 1\n")
     ended = regkit("run", files.experiment, "--out", files.out, *QUICK)
     assert ended.code == 1
-    assert re.search(r"spread over \d+ m: are they in metres \(depth_scale\)\?", ended.err)
+    assert re.search(r"spread over .* m.*depth_scale", ended.err)
 
 
-def test_start_far_from_the_data_is_an_error_and_no_result(regkit, files):
+def test_start_far_from_the_data_is_a_lost_body(regkit, files):
     text = files.experiment.read_text().replace("[-0.05, -0.05, 3.25]", "[0, 0, 900]")
     files.experiment.write_text(text)
     ended = regkit("run", files.experiment, "--out", files.out, *QUICK)
-    assert ended.code == 1
-    assert "m away from the data; the start or the template's size is wrong" in ended.err
-    assert files.metrics()["gsog"]["recordings"]["first"]["joint_error_raw_cm"] is None
+    assert ended.code == 3
+    assert "gsog on first, lost: 0 % of the points lie on the body" in ended.err
+    assert files.metrics()["gsog"]["recordings"]["first"]["verdict"] == "lost"

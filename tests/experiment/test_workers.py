@@ -99,7 +99,8 @@ def test_killed_process_loses_nothing(regkit, files, serial, deadly):
     ended = regkit(
         "run", files.experiment, "--out", files.out, "--no-figures", "--jobs", 2, *deadly(1)
     )
-    assert (ended.code, ended.err) == (0, "")
+    assert ended.code == 0
+    assert "failed" not in ended.err
     assert figures_but_times(files.out) == serial
 
 

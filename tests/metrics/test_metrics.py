@@ -8,11 +8,12 @@ import pytest
 from regkit.body import Body
 from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import vector_to_matrix
-from regkit.metrics import METRICS, PCK_FRACTION, Measure, joint_errors, mean_of
+from regkit.metrics import METRICS, PCK_FRACTION, Measure, joint_errors, mean_of, tell_unmatched
 from regkit.metrics import measured as measured_from
 from regkit.observation import Truth
 from regkit.skeleton import Pose
-from regkit.system.errors import ConfigError
+from regkit.system.errors import ConfigError, DataError
+from regkit.system.notes import RegkitWarning
 from regkit.tracking import Track
 
 FRAMES = 12
@@ -263,6 +264,36 @@ def test_limit_violation_is_the_mean_of_the_largest(linkage):
     track = track_of(linkage, [bones.rest(), bent, bones.rest(), bent])
     found = measured(track, linkage, None, {})
     assert found.limit_violation_deg == pytest.approx(15.0)
+
+
+@pytest.mark.parametrize("factor", [1000.0, 0.01])
+def test_reference_in_another_unit_is_refused(linkage, track, factor):
+    truth = Truth(linkage.markers.names, factor * track.markers)
+    with pytest.raises(DataError, match="in metres"):
+        joint_errors(track, linkage, truth, {})
+
+
+def test_reference_joints_that_match_no_marker_are_told(linkage, track):
+    names = ("unheard_of", *linkage.markers.names[1:])
+    with pytest.warns(RegkitWarning, match="there: .*unheard_of"):
+        tell_unmatched(linkage, Truth(names, track.markers), {}, place="there")
+    tell_unmatched(linkage, perfect(linkage, track), {}, place="there")
+
+
+def test_frames_without_data_count_for_no_mean(linkage, track):
+    unseen = replace(
+        track,
+        points=np.where(np.arange(FRAMES) < 2, 0.0, 100.0),
+        surface_distances=np.where(np.arange(FRAMES) < 2, np.nan, 0.002),
+        inlier_shares=np.where(np.arange(FRAMES) < 2, np.nan, 1.0),
+        seconds=np.where(np.arange(FRAMES) < 2, 9.0, 0.05),
+    )
+    found = measured(unseen, linkage, None, {})
+    assert found.frames_without_data == 2
+    assert found.found_percent == found.inlier_percent == 100.0
+    assert found.surface_distance_mm == pytest.approx(2.0)
+    assert found.fps == pytest.approx(20.0)
+    assert "2 of 12 frames have no data" in found.reason
 
 
 def test_body_without_a_surface_has_no_surface_distance(linkage, track):
