@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import os
 from pathlib import Path
 from typing import Annotated, Any, ClassVar
 
@@ -17,6 +18,7 @@ from pydantic import (
 from pydantic_core import CoreSchema, InitErrorDetails, PydanticCustomError
 
 from regkit.config.strict_numbers import strict_numbers
+from regkit.system.printable import shortened
 
 
 class Model(BaseModel):
@@ -89,6 +91,10 @@ def _unknown_field(key: object, model: type[Model]) -> PydanticCustomError:
     )
 
 
+LONGEST_NAME = 255
+"""Maximum length of a file's name on common systems [bytes]."""
+
+
 class Text(str):
     """A string from a file, which knows the file's folder.
 
@@ -110,10 +116,25 @@ class Text(str):
         return str(self), self.folder
 
 
+def path_in(folder: Path, name: str) -> Path:
+    """Returns the absolute path of a name that is relative to a folder or the home folder (~).
+
+    Raises:
+        ValueError: If no file can have that name.
+    """
+    if "\0" in name or any(len(os.fsencode(part)) > LONGEST_NAME for part in Path(name).parts):
+        raise ValueError(f"'{shortened(name)}' cannot be the path of a file")
+    try:
+        return folder.absolute() / Path(name).expanduser()
+    except RuntimeError:
+        home = Path(name).parts[0]
+        raise ValueError(f"the home folder '{home}' is not known; write the whole path") from None
+
+
 def _from_its_folder(value: Any) -> Any:
-    if isinstance(value, Text):
-        return value.folder / Path(value).expanduser()
-    return Path(value).expanduser().absolute() if isinstance(value, str) else value
+    if not isinstance(value, str):
+        return value
+    return path_in(value.folder if isinstance(value, Text) else Path.cwd(), value)
 
 
 InputPath = Annotated[Path, BeforeValidator(_from_its_folder)]

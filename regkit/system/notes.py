@@ -5,6 +5,8 @@ from __future__ import annotations
 import warnings
 from pathlib import Path
 
+from regkit.system.printable import cut, printable
+
 
 class RegkitWarning(UserWarning):
     """Something that a user should know of a result; the CLI prints it on standard error."""
@@ -20,5 +22,5 @@ def note(message: str, *, place: Path | str | None = None) -> None:
         message: What was done with which value, and what it means for the result.
         place: The place, as in a ``RegkitError``.
     """
-    text = f"{place}: {message}" if place is not None else message
+    text = printable(f"{place}: {cut(message)}" if place is not None else cut(message))
     warnings.warn(RegkitWarning(text), stacklevel=2)
