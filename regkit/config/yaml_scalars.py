@@ -9,6 +9,8 @@ from __future__ import annotations
 import math
 import re
 
+from regkit.config.strict_numbers import LARGEST_INTEGER
+
 _NULL = frozenset({"", "~", "null", "Null", "NULL"})
 _BOOLEANS = {
     **dict.fromkeys(("true", "True", "TRUE"), True),
@@ -18,9 +20,6 @@ _NOT_FINITE = re.compile(r"([-+]?)\.(inf|Inf|INF)|\.(nan|NaN|NAN)")
 _INTEGER = re.compile(r"[-+]?[0-9]+")
 _OTHER_BASE = re.compile(r"0o[0-7]+|0x[0-9a-fA-F]+")
 _FLOAT = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?")
-
-LARGEST_INTEGER = 2**63 - 1
-"""Largest integer that arrays hold."""
 
 
 def scalar(text: str) -> str | int | float | bool | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from regkit.system.printable import cut, printable
+from regkit.system.printable import cut, one_line, printable
 
 
 class RegkitError(Exception):
@@ -20,8 +20,8 @@ class RegkitError(Exception):
 
     def __str__(self) -> str:
         """Returns ``place: message``, or the message alone, safe to print."""
-        message = cut(self.message)
-        return printable(f"{self.place}: {message}" if self.place else message)
+        message = printable(cut(self.message))
+        return f"{one_line(self.place)}: {message}" if self.place else message
 
     def at(self, place: str) -> RegkitError:
         """Returns the error at ``place``, unless it has a place already."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from pathlib import Path
 
-from regkit.system.printable import cut, printable
+from regkit.system.printable import cut, one_line, printable
 
 
 class RegkitWarning(UserWarning):
@@ -22,5 +22,6 @@ def note(message: str, *, place: Path | str | None = None) -> None:
         message: What was done with which value, and what it means for the result.
         place: The place, as in a ``RegkitError``.
     """
-    text = printable(f"{place}: {cut(message)}" if place is not None else cut(message))
+    text = printable(cut(message))
+    text = text if place is None else f"{one_line(str(place))}: {text}"
     warnings.warn(RegkitWarning(text), stacklevel=2)

@@ -169,10 +169,11 @@ def test_template_error_names_the_place(file, linkage_text, more, expected):
     assert expected in complaint(file, linkage_text + more + "\n", BodyDescription)
 
 
-def test_unknown_joint_of_a_stance_is_refused(file, linkage_text):
-    file.write_text(linkage_text + "stances: {odd: {joints: {elbow: 10}}}\n")
-    with pytest.raises(ConfigError, match=r"stances.odd of thing: .*'elbow'"):
-        Document.read(file).validated(BodyDescription).body("thing", 1.0)
+def test_unknown_joint_of_a_stance_is_refused_with_its_line(file, linkage_text):
+    text = linkage_text + "stances: {odd: {joints: {elbow: 10}}}\n"
+    message = complaint(file, text, BodyDescription)
+    line = len(text.splitlines())
+    assert tells(message, at=f"FILE:{line}: stances.odd.joints.elbow", of=("'elbow'", "forearm"))
 
 
 def test_setting_that_replaces_a_mapping_is_blamed_for_what_is_in_it(file):
