@@ -109,7 +109,7 @@ class _Builder:
         except MarkedYAMLError as error:
             mark = error.problem_mark or error.context_mark
             self._line = mark.line + 1 if mark else self._line
-            raise self._error(f"not valid YAML: {foreign(error.problem or 'wrong')}") from None
+            raise self._error(f"not valid YAML: {foreign(ValueError(error.problem))}") from None
         except (YAMLError, Exception) as error:
             raise self._error(f"not valid YAML: {foreign(error)}") from None
         if event.start_mark is not None:

@@ -47,7 +47,7 @@ def yaml_source(path: Path) -> str:
     except UnicodeDecodeError as error:
         wrong = content[error.start]
         raise DataError(
-            f"the byte 0x{wrong:02x} is not text in UTF-8; save the file as UTF-8",
+            f"the byte 0x{wrong:02x} is not text in UTF-8; if this is YAML, save it as UTF-8",
             place=f"{path}:{_line(content[: error.start].decode('utf-8'))}",
         ) from None
     check_printable(text, str(path))
