@@ -138,6 +138,8 @@ class Document:
             more = len(lines) - MOST_MISTAKES
             told = [*lines[:MOST_MISTAKES], f"and {more} more mistakes"] if more > 0 else lines
             raise ConfigError("\n".join(told)) from None
+        except RecursionError:
+            raise ConfigError("presets name each other without end", place=self.place(at)) from None
 
     def _complaint(self, details: ErrorDetails, at: Location) -> str:
         absent = details["type"] == "missing"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import os
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, ClassVar
 
@@ -70,10 +71,17 @@ def misplaced(model: type[Model], message: str, *location: str) -> ValidationErr
     return ValidationError.from_exception_data(model.__name__, [details])
 
 
-def did_you_mean(name: str, known: list[str]) -> str:
-    """Returns a hint at the nearest known name, or an empty string."""
-    close = difflib.get_close_matches(name, known, n=1)
-    return f"; did you mean '{close[0]}'?" if close else ""
+def did_you_mean(name: str, known: list[str], renamed: Mapping[str, str] | None = None) -> str:
+    """Returns a hint at the nearest known name, or an empty string.
+
+    Args:
+        name: The unknown name.
+        known: The names that exist.
+        renamed: New names by former ones; a name near a former one hints at the new one.
+    """
+    new = {**(renamed or {}), **{one: one for one in known}}
+    close = difflib.get_close_matches(name, list(new), n=1)
+    return f"; did you mean '{shortened(new[close[0]])}'?" if close else ""
 
 
 def _unknown_field(key: object, model: type[Model]) -> PydanticCustomError:
@@ -87,7 +95,7 @@ def _unknown_field(key: object, model: type[Model]) -> PydanticCustomError:
     return PydanticCustomError(
         "unknown_field",
         "no such field (there are: {fields}){hint}",
-        {"fields": ", ".join(known), "hint": did_you_mean(str(key), known)},
+        {"fields": ", ".join(known), "hint": did_you_mean(str(key), known, model.renamed)},
     )
 
 
