@@ -72,6 +72,10 @@ def _words(annotation: Any) -> str:
         return " or ".join("null" if part is type(None) else _words(part) for part in arguments)
     if origin is tuple and len(arguments) == 2 and arguments[1] is Ellipsis:
         return f"list of {_words(arguments[0])}"
+    if origin is tuple and len(set(arguments)) == 1:
+        # The bounds of several equal numbers stand behind them once.
+        word, *bounds = _words(arguments[0]).split(", ")
+        return ", ".join([f"[{', '.join([word] * len(arguments))}]", *bounds])
     if origin is tuple:
         return f"[{', '.join(_words(part) for part in arguments)}]"
     if origin is dict:

@@ -9,23 +9,21 @@ import numpy as np
 from pydantic import AfterValidator, Field, model_validator
 
 from regkit.body.body import Body, Markers, Stance
+from regkit.body.checks import check_lengths, check_stances
 from regkit.body.deformation import Scaling
 from regkit.body.listed import ListedShape
 from regkit.body.shape_parameters import ShapeParameters, UncheckedParameters
 from regkit.body.shapes import Shapes
 from regkit.config.model import InputPath, Model, did_you_mean, misplaced
+from regkit.config.quantities import Length
 from regkit.geometry.capsules import Capsules
 from regkit.geometry.surface import SkinnedSurface, surface_in
 from regkit.skeleton import PoseDescription, SkeletonDescription
 from regkit.skeleton.compile import compiled
-from regkit.skeleton.joints import Range
-from regkit.system.errors import ConfigError
+from regkit.skeleton.joints import in_order
 
-
-def _positive(value: tuple[float, float]) -> tuple[float, float]:
-    if value[0] <= 0.0:
-        raise ValueError(f"a length must be positive: {list(value)}")
-    return value
+ROUNDED = 1e-3
+"""Part of a size by which rounding may move it out of its range."""
 
 
 class SizeDescription(Model):
@@ -33,10 +31,22 @@ class SizeDescription(Model):
 
     name: str
     """Name of the length, such as height for a person or length for a hand."""
-    value: Annotated[float, Field(gt=0.0)]
+    value: Length
     """Value for which all other lengths of the file hold [m]."""
-    range: Annotated[Range, AfterValidator(_positive)]
+    range: Annotated[tuple[Length, Length], AfterValidator(in_order)]
     """Smallest and largest occurring value [m], searched if no size is given."""
+
+    @model_validator(mode="after")
+    def _within_its_range(self) -> SizeDescription:
+        smallest, largest = self.range
+        # Both are rounded when a template is written.
+        if not smallest * (1.0 - ROUNDED) <= self.value <= largest * (1.0 + ROUNDED):
+            raise misplaced(
+                type(self),
+                f"the value {self.value:g} is outside the range {list(self.range)}",
+                "range",
+            )
+        return self
 
 
 class BodyDescription(SkeletonDescription):
@@ -77,11 +87,17 @@ class BodyDescription(SkeletonDescription):
                     )
         return self
 
+    @model_validator(mode="after")
+    def _parts_fit_together(self) -> BodyDescription:
+        check_lengths(type(self), self.segments, self.size.value)
+        if self.stances:
+            check_stances(type(self), compiled(self), self.stances)
+        return self
+
     def body(self, name: str, size: float) -> Body:
         """Returns the body called ``name``, scaled so that its size is ``size`` [m].
 
         Raises:
-            ConfigError: If a stance names an unknown joint.
             DataError: If the mesh is missing or invalid.
         """
         scale = size / self.size.value
@@ -100,10 +116,7 @@ class BodyDescription(SkeletonDescription):
         unchecked = self.unchecked()
         stances = [Stance("rest", skeleton.rest())]
         for stance, pose in self.stances.items():
-            try:
-                stances.append(Stance(stance, skeleton.pose(pose)))
-            except ConfigError as error:
-                raise error.at(f"stances.{stance} of {name}") from None
+            stances.append(Stance(stance, skeleton.pose(pose)))
         return Body(
             name=name,
             skeleton=skeleton,

@@ -12,20 +12,20 @@ from regkit.body.shape_parameters import ShapeParameters
 from regkit.body.vectors import rounded
 from regkit.geometry.principal_axes import principal_axes
 from regkit.geometry.rotation import from_matrix, to_vector, vector_to_matrix
-from regkit.skeleton.joints import Vector
+from regkit.skeleton.joints import Position, Rotation
 from regkit.system.arrays import Array
 
-Deviation = Annotated[float, Field(gt=1e-6)]
+Deviation = Annotated[float, Field(gt=1e-6, le=1e4)]
 
 
 class EllipsoidParameters(ShapeParameters):
     """A solid in a segment's frame, such as a Gaussian; a subclass may add parameters."""
 
-    centre: Vector
+    centre: Position
     """Mean [m]."""
     sigma: Deviation | tuple[Deviation, Deviation, Deviation]
     """Standard deviation [m]: one for a sphere, or three along the solid's own axes."""
-    rotation_deg: Vector = (0.0, 0.0, 0.0)
+    rotation_deg: Rotation = (0.0, 0.0, 0.0)
     """Rotation vector of the solid's own axes in the segment's frame [deg]."""
 
     def deformed(self, deformation: Deformation) -> Self:

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import islice
-from typing import Annotated, Protocol
+from typing import Protocol
 
 import numpy as np
-from pydantic import Field
 
 from regkit.calibration.frames import Looks, spread
 from regkit.calibration.problem import SubjectProblem
@@ -16,6 +15,7 @@ from regkit.calibration.shape import Shape
 from regkit.calibration.subject import Subject
 from regkit.config.model import Model
 from regkit.config.plugin import slot_default
+from regkit.config.quantities import Count, FrameCount
 from regkit.interfaces import Method, Preprocessor, Recording, Solver, Template, Tracker
 from regkit.skeleton import PoseDescription
 from regkit.start import Start
@@ -50,9 +50,9 @@ class Calibration(Model):
     """Preprocessor of the frames; by default voxels that suit the body's size."""
     start: PoseDescription | None = None
     """Pose in the first frame, which needs the template's size; by default it is searched for."""
-    frames: Annotated[int, Field(ge=1)] = 12
+    frames: Count = 12
     """Number of frames used for the fit, spread over the tracked part of the recording."""
-    longest: Annotated[int, Field(ge=1)] = 300
+    longest: FrameCount = 300
     """Maximum number of tracked frames, from the start of the recording."""
     method: Method = slot_default(Method)
     """Method that registers the body to each frame of the recording."""

@@ -15,7 +15,7 @@ from regkit.alignment import Alignment
 from regkit.alignment import align as align_clouds
 from regkit.cli.choices import method_named
 from regkit.cli.console import errors, output
-from regkit.cli.options import PluginFiles, Strict, options, run_plugin_files
+from regkit.cli.options import PluginFiles, Strict, default_of, options, run_plugin_files
 from regkit.cli.verdicts import conclude
 from regkit.clouds import check_writable, read_cloud, write_cloud
 from regkit.config.defaults import default_name
@@ -44,7 +44,8 @@ def align(
         typer.Option(
             metavar="METHOD",
             help="Method: a preset or kind, such as open3d_icp, or a mapping such as "
-            "'{kind: open3d_icp, estimation: generalized}'. (default: rigid)",
+            "'{kind: open3d_icp, estimation: generalized}'. "
+            f"(default: {default_of(Method, 'rigid')})",
             show_default=False,
         ),
     ] = None,

@@ -4,16 +4,22 @@ from __future__ import annotations
 
 import importlib
 import sys
+from collections.abc import Callable
+from functools import wraps
 from keyword import iskeyword
-from typing import Any
+from typing import Any, ParamSpec
 
 import typer
 from typer.core import TyperCommand, TyperGroup
 
 from regkit.cli.console import print_error, show_warnings, tell_compiling
 from regkit.cli.exit_codes import ERROR, NOT_FOUND
+from regkit.cli.streams import flush_output, standard_streams
 from regkit.system.compiled import when_compiling
 from regkit.system.errors import NotFoundError, RegkitError
+from regkit.system.plugin_code import plugin_code
+
+P = ParamSpec("P")
 
 COMMANDS = {
     "run": "Run an experiment: register the template to every recording with every method.",
@@ -68,13 +74,35 @@ class Commands(TyperGroup):
         return name, loaded(str(name)), rest
 
 
+class Command(TyperCommand):
+    """A command whose usage leaves out hidden arguments."""
+
+    def collect_usage_pieces(self, ctx: Any) -> list[str]:
+        """Returns the parts of the usage line behind the command's name."""
+        shown = [one for one in self.get_params(ctx) if not getattr(one, "hidden", False)]
+        pieces = [piece for one in shown for piece in one.get_usage_pieces(ctx)]
+        return [*([self.options_metavar] if self.options_metavar else []), *pieces]
+
+
 def loaded(name: str) -> Any:
     """Returns a command with its parameters."""
     # A command named like a Python keyword has an underscore behind its function's name.
     own = f"{name}_" if iskeyword(name) else name
     alone = typer.Typer(add_completion=False)
-    alone.command(name)(getattr(importlib.import_module(f"regkit.cli.{own}"), own))
+    command = getattr(importlib.import_module(f"regkit.cli.{own}"), own)
+    alone.command(name, cls=Command)(_ended_by_itself(command, name))
     return typer.main.get_command(alone)
+
+
+def _ended_by_itself(command: Callable[P, None], name: str) -> Callable[P, None]:
+    """Returns a command in which ``sys.exit``, of a plug-in, is an error."""
+
+    @wraps(command)
+    def run(*args: P.args, **options: P.kwargs) -> None:
+        with plugin_code(f"a plug-in in 'regkit {name}'"):
+            command(*args, **options)
+
+    return run
 
 
 app = typer.Typer(cls=Commands, add_completion=False, pretty_exceptions_enable=False)
@@ -89,8 +117,12 @@ def main() -> None:
     """Runs the command line; prints an error that a user can correct and exits with code 1."""
     when_compiling(tell_compiling)
     show_warnings()
-    try:
-        app()
-    except RegkitError as error:
-        print_error(error)
-        sys.exit(NOT_FOUND if isinstance(error, NotFoundError) else ERROR)
+    with standard_streams():
+        try:
+            try:
+                app()
+            finally:
+                flush_output()
+        except RegkitError as error:
+            print_error(error)
+            sys.exit(NOT_FOUND if isinstance(error, NotFoundError) else ERROR)

@@ -13,9 +13,10 @@ from rich.table import Table
 from regkit.calibration import Subject
 from regkit.cli.calibration_source import Source
 from regkit.cli.console import errors, output
-from regkit.cli.options import PluginFiles, Strict, run_plugin_files
+from regkit.cli.options import PluginFiles, Strict, default_of, run_plugin_files
 from regkit.cli.template_file import check_replaceable, write_template
 from regkit.cli.verdicts import conclude
+from regkit.interfaces import Template
 from regkit.tracking import Verdict
 
 OPENING = """\
@@ -47,7 +48,8 @@ def calibrate(
         typer.Option(
             metavar="TEMPLATE",
             help="Body in the recording: a name such as hand, a template's YAML file, or a mapping "
-            "such as '{kind: hand, side: left}'. (default: the experiment's template, or human)",
+            "such as '{kind: hand, side: left}'. "
+            f"(default: the experiment's template, or {default_of(Template)})",
             show_default=False,
         ),
     ] = None,

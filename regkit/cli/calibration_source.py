@@ -12,7 +12,7 @@ from regkit.config.model import Model
 from regkit.experiment import Experiment
 from regkit.interfaces import Dataset, Preprocessor, Recording, Template
 from regkit.skeleton import PoseDescription
-from regkit.system.errors import ConfigError
+from regkit.system.errors import ConfigError, DataError
 
 
 class Source(Model):
@@ -40,6 +40,12 @@ class Source(Model):
         Raises:
             RegkitError: If an argument is invalid, or a file cannot be read.
         """
+        if not path.exists():
+            raise DataError(
+                "there is no such file or folder; name a recording's folder or an experiment's "
+                "YAML file",
+                place=str(path),
+            )
         if not path.is_dir():
             experiment = Experiment.read(path, settings, called="--set")
             return cls(

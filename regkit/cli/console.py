@@ -3,16 +3,40 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Iterable
 from typing import Any
 
-from rich.console import Console
+from rich.console import Console, ConsoleOptions, RenderableType
+from rich.segment import Segment
 
 from regkit.system.errors import RegkitError
 from regkit.system.notes import RegkitWarning
+from regkit.system.printable import printable
 
-# Text of users between two colons, as in :a:, must not turn into an emoji.
-output = Console(emoji=False)
-errors = Console(stderr=True, emoji=False)
+
+class _SafeConsole(Console):
+    """A console that shows names of others as they are.
+
+    Neither brackets nor colons in a line have a meaning; cells of tables escape their brackets.
+    Characters that would move the cursor or reorder the text are shown as escapes.
+    """
+
+    def print(self, *objects: Any, **options: Any) -> None:
+        """Prints lines and tables."""
+        if any(isinstance(one, str) for one in objects):
+            options.setdefault("markup", False)
+        super().print(*objects, **options)
+
+    def render(
+        self, renderable: RenderableType, options: ConsoleOptions | None = None
+    ) -> Iterable[Segment]:
+        """Yields the parts of an object, with the text of each safe to print."""
+        for part in super().render(renderable, options):
+            yield part if part.control else Segment(printable(part.text), part.style)
+
+
+output = _SafeConsole(emoji=False)
+errors = _SafeConsole(stderr=True, emoji=False)
 
 
 def print_error(error: RegkitError) -> None:

@@ -12,11 +12,12 @@ from rich.table import Table
 from regkit.body import BodyDescription
 from regkit.cli.choices import template_named
 from regkit.cli.console import output
-from regkit.cli.options import PluginFiles, options, run_plugin_files
+from regkit.cli.options import PluginFiles, default_of, options, run_plugin_files
 from regkit.cli.template_file import check_replaceable, write_template
 from regkit.fitting.bones import read_bone_map
 from regkit.fitting.template import FittedTemplate, parameters_of
 from regkit.interchange.meshes import read_mesh
+from regkit.interfaces import Template
 from regkit.system.errors import RegkitError
 
 OPENING = """\
@@ -40,7 +41,7 @@ def fit(
         typer.Option(
             metavar="TEMPLATE",
             help="Template that provides the joints: a name such as hand, a YAML file, or a "
-            "mapping such as '{kind: hand, side: left}'. (default: human)",
+            f"mapping such as '{{kind: hand, side: left}}'. (default: {default_of(Template)})",
             show_default=False,
         ),
     ] = None,

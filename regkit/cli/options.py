@@ -9,8 +9,20 @@ from typing import Annotated
 
 import typer
 
+from regkit.config.defaults import default_name
+from regkit.config.plugin import Plugin
 from regkit.config.registry import run_plugin_file
-from regkit.system.errors import RegkitError
+from regkit.interfaces import Method, Template
+from regkit.system.errors import PluginError, RegkitError
+
+
+def default_of(slot: type[Plugin], purpose: str = "") -> str:
+    """Returns the name of a slot's declared default for a help text."""
+    try:
+        return default_name(slot.group, purpose)
+    except PluginError:
+        return "none is installed"
+
 
 TemplateName = Annotated[
     str | None,
@@ -18,7 +30,8 @@ TemplateName = Annotated[
         "--template",
         metavar="TEMPLATE",
         help="Body to register: a name such as human or hand, a template's YAML file, a rigid "
-        "cloud or mesh, or a mapping such as '{kind: hand, side: left}'. (default: human)",
+        "cloud or mesh, or a mapping such as '{kind: hand, side: left}'. "
+        f"(default: {default_of(Template)})",
         show_default=False,
     ),
 ]
@@ -29,7 +42,7 @@ MethodName = Annotated[
         "--method",
         metavar="METHOD",
         help="Method: a preset such as best or spheres, a kind, a preset's YAML file, or a mapping "
-        "such as '{preset: best, terms: []}'. (default: best)",
+        f"such as '{{preset: best, terms: []}}'. (default: {default_of(Method)})",
         show_default=False,
     ),
 ]
@@ -72,7 +85,9 @@ Strict = Annotated[
 PluginFiles = Annotated[
     list[Path] | None,
     typer.Option(
-        "--plugin", metavar="FILE", help="Python file that registers your own plug-ins. Repeatable."
+        "--plugin",
+        metavar="FILE",
+        help="Python file that registers your own plug-ins; its code is run. Repeatable.",
     ),
 ]
 

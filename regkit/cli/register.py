@@ -22,7 +22,7 @@ from regkit.cli.options import (
     run_plugin_files,
 )
 from regkit.cli.outcome import check_out, finish
-from regkit.system.errors import ConfigError
+from regkit.system.errors import ConfigError, DataError
 
 
 def register(
@@ -58,6 +58,12 @@ def register(
             "'register SOURCE TARGET' is now called 'align SOURCE TARGET'; 'register FILE' "
             "registers a template to one frame",
             place=f"register {file} {target}",
+        )
+    if not file.exists():
+        raise DataError(
+            "there is no such file or folder; name a cloud or mesh, a depth image, or a "
+            "recording's folder",
+            place=str(file),
         )
     run_plugin_files(plugin)
     check_out(out)

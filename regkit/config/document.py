@@ -12,13 +12,20 @@ from pydantic_core import ErrorDetails
 
 from regkit.config.changes import Location, with_value
 from regkit.config.yaml import read_mapping, yaml_value
-from regkit.system.errors import ConfigError, DataError
+from regkit.system.errors import ConfigError, RegkitError
+from regkit.system.printable import shortened
 
 M = TypeVar("M", bound=BaseModel)
 T = TypeVar("T")
 
 _SELF_CONTAINED = ("unknown_field", "plugin_", "value_error")
 """Types of errors whose message already shows the value."""
+
+LONGEST_SETTING = 200
+"""Number of characters of a setting that messages show."""
+
+MOST_MISTAKES = 20
+"""Number of a document's mistakes that are told at once."""
 
 
 @dataclass(frozen=True)
@@ -42,15 +49,7 @@ class Document:
             ConfigError: If it is not YAML, repeats a key, or does not hold a mapping.
             DataError: If the file is missing or not text.
         """
-        try:
-            text = path.read_text(encoding="utf-8")
-        except FileNotFoundError:
-            raise DataError("there is no such file", place=str(path)) from None
-        except IsADirectoryError:
-            raise DataError("this is a folder; name a YAML file", place=str(path)) from None
-        except (OSError, UnicodeDecodeError) as error:
-            raise DataError(f"cannot be read as text: {error}", place=str(path)) from None
-        return cls(*read_mapping(text, path))
+        return cls(*read_mapping(path))
 
     def overridden(self, settings: Iterable[str], *, called: str = "setting") -> Document:
         """Returns the document after ``a.b.c=value`` settings, whose values are YAML.
@@ -64,14 +63,14 @@ class Document:
         """
         document = self
         for setting in settings:
-            place = f"{called} {setting}"
+            place = f"{called} {shortened(setting, LONGEST_SETTING)}"
             name, equals, text = setting.partition("=")
             keys = name.split(".")
             if not equals or not all(keys):
                 raise ConfigError("a setting must read a.b.c=value", place=place)
             try:
                 value = yaml_value(text)
-            except ConfigError as error:
+            except RegkitError as error:
                 raise error.at(place) from None
             document = document.changed(keys, value, place=place)
         return document
@@ -105,7 +104,9 @@ class Document:
         """Returns ``file:line: field`` of a value; the field alone without a known place."""
         nearest = (location[:length] for length in range(len(location), -1, -1))
         written = next((self.places[at] for at in nearest if at in self.places), "")
-        field = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in location)
+        field = "".join(
+            f"[{part}]" if isinstance(part, int) else f".{shortened(part)}" for part in location
+        )
         return ": ".join(filter(None, (written, field.lstrip("."))))
 
     def validated(self, model: type[M]) -> M:
@@ -132,8 +133,13 @@ class Document:
         try:
             return validate(data)
         except ValidationError as error:
-            lines = [self._complaint(details, at) for details in error.errors(include_url=False)]
-            raise ConfigError("\n".join(dict.fromkeys(lines))) from None
+            every = (self._complaint(details, at) for details in error.errors(include_url=False))
+            lines = list(dict.fromkeys(every))
+            more = len(lines) - MOST_MISTAKES
+            told = [*lines[:MOST_MISTAKES], f"and {more} more mistakes"] if more > 0 else lines
+            raise ConfigError("\n".join(told)) from None
+        except RecursionError:
+            raise ConfigError("presets name each other without end", place=self.place(at)) from None
 
     def _complaint(self, details: ErrorDetails, at: Location) -> str:
         absent = details["type"] == "missing"
@@ -143,7 +149,11 @@ class Document:
             _SELF_CONTAINED
         )
         message = details["msg"].removeprefix("Value error, ").replace("a valid tuple", "a list")
-        complaint = f"{message[0].lower()}{message[1:]}" + (f"; it is {given!r}" if shown else "")
+        complaint = f"{message[0].lower()}{message[1:]}"
+        if details["type"] == "bool_type":
+            complaint += ": true or false"  # In YAML 1.2, yes and off are text.
+        if shown:
+            complaint += f"; it is {shortened(repr(given))}"
         return ": ".join(filter(None, (self.place(location), complaint)))
 
     def _written(self, location: Location, *, absent: bool) -> Location:

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from regkit.system.errors import PluginError
+from regkit.system.plugin_code import described
 
 OWN = "regkit"
 """The distribution of the built-in plug-ins."""
@@ -62,13 +63,13 @@ class Installed:
             )
         try:
             return first.load()
+        except KeyboardInterrupt:
+            raise
         # A module that exits the interpreter must not harm users who never name it.
-        except (Exception, SystemExit) as error:
-            # Some libraries add advice to developers in further paragraphs.
-            reason = str(error).partition("\n\n")[0]
+        except BaseException as error:
             raise PluginError(
                 f"{what} '{first.name}' of {_brought_by(first)} cannot be imported: "
-                f"{type(error).__name__}: {reason}"
+                f"{described(error)}"
             ) from error
 
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import difflib
+import os
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, ClassVar
 
@@ -17,6 +19,7 @@ from pydantic import (
 from pydantic_core import CoreSchema, InitErrorDetails, PydanticCustomError
 
 from regkit.config.strict_numbers import strict_numbers
+from regkit.system.printable import shortened
 
 
 class Model(BaseModel):
@@ -68,10 +71,17 @@ def misplaced(model: type[Model], message: str, *location: str) -> ValidationErr
     return ValidationError.from_exception_data(model.__name__, [details])
 
 
-def did_you_mean(name: str, known: list[str]) -> str:
-    """Returns a hint at the nearest known name, or an empty string."""
-    close = difflib.get_close_matches(name, known, n=1)
-    return f"; did you mean '{close[0]}'?" if close else ""
+def did_you_mean(name: str, known: list[str], renamed: Mapping[str, str] | None = None) -> str:
+    """Returns a hint at the nearest known name, or an empty string.
+
+    Args:
+        name: The unknown name.
+        known: The names that exist.
+        renamed: New names by former ones; a name near a former one hints at the new one.
+    """
+    new = {**(renamed or {}), **{one: one for one in known}}
+    close = difflib.get_close_matches(name, list(new), n=1)
+    return f"; did you mean '{shortened(new[close[0]])}'?" if close else ""
 
 
 def _unknown_field(key: object, model: type[Model]) -> PydanticCustomError:
@@ -85,8 +95,12 @@ def _unknown_field(key: object, model: type[Model]) -> PydanticCustomError:
     return PydanticCustomError(
         "unknown_field",
         "no such field (there are: {fields}){hint}",
-        {"fields": ", ".join(known), "hint": did_you_mean(str(key), known)},
+        {"fields": ", ".join(known), "hint": did_you_mean(str(key), known, model.renamed)},
     )
+
+
+LONGEST_NAME = 255
+"""Maximum length of a file's name on common systems [bytes]."""
 
 
 class Text(str):
@@ -110,10 +124,25 @@ class Text(str):
         return str(self), self.folder
 
 
+def path_in(folder: Path, name: str) -> Path:
+    """Returns the absolute path of a name that is relative to a folder or the home folder (~).
+
+    Raises:
+        ValueError: If no file can have that name.
+    """
+    if "\0" in name or any(len(os.fsencode(part)) > LONGEST_NAME for part in Path(name).parts):
+        raise ValueError(f"'{shortened(name)}' cannot be the path of a file")
+    try:
+        return folder.absolute() / Path(name).expanduser()
+    except RuntimeError:
+        home = Path(name).parts[0]
+        raise ValueError(f"the home folder '{home}' is not known; write the whole path") from None
+
+
 def _from_its_folder(value: Any) -> Any:
-    if isinstance(value, Text):
-        return value.folder / Path(value).expanduser()
-    return Path(value).expanduser().absolute() if isinstance(value, str) else value
+    if not isinstance(value, str):
+        return value
+    return path_in(value.folder if isinstance(value, Text) else Path.cwd(), value)
 
 
 InputPath = Annotated[Path, BeforeValidator(_from_its_folder)]

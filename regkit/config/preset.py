@@ -6,7 +6,7 @@ from pathlib import Path
 
 from regkit.config.document import Document
 from regkit.config.installed import Installed, installed
-from regkit.config.model import Text, did_you_mean
+from regkit.config.model import Text, did_you_mean, path_in
 from regkit.system.errors import PluginError
 
 YAML = (".yaml", ".yml")
@@ -30,7 +30,10 @@ def preset_file(group: str, name: str) -> Path:
     """
     if Path(name).suffix.lower() in YAML:
         folder = name.folder if isinstance(name, Text) else Path.cwd()
-        return folder / Path(name).expanduser()
+        try:
+            return path_in(folder, name)
+        except ValueError as error:
+            raise PluginError(str(error)) from None
     presets = presets_of(group)
     if name not in presets:
         raise PluginError(

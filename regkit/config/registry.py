@@ -8,7 +8,8 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from regkit.system.errors import PluginError
+from regkit.system.errors import PluginError, RegkitError
+from regkit.system.plugin_code import described, raised_at
 
 _REGISTERED: dict[str, dict[str, type[Any]]] = {}
 """Classes by group and kind."""
@@ -37,19 +38,37 @@ def run_plugin_file(path: Path) -> None:
     where = hashlib.sha256(str(path.absolute()).encode()).hexdigest()[:8]
     name = f"{_FROM_FILE}{path.stem}_{where}"
     spec = importlib.util.spec_from_file_location(name, path.absolute())
-    if spec is None or spec.loader is None or not path.is_file():
+    if not path.is_file():
         raise PluginError("there is no such Python file", place=str(path))
+    if spec is None or spec.loader is None:
+        raise PluginError("not a Python file (.py)", place=str(path))
     module = importlib.util.module_from_spec(spec)
     # pydantic finds a class's module here, to read the docstrings and types of its fields.
     sys.modules[spec.name] = module
     try:
         spec.loader.exec_module(module)
-    except Exception as error:
-        raise PluginError(f"{type(error).__name__}: {error}", place=str(path)) from error
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:
+        # A broken class may be registered already, and its module must not be found again.
+        _REGISTERED.clear()
+        _REGISTERED.update(before)
+        del sys.modules[spec.name]
+        own = isinstance(error, RegkitError)
+        reason = str(error) if own else described(error)
+        raise PluginError(reason, place=_failed_at(path, error)) from error
     if before == _REGISTERED:
         raise PluginError(
             "the file registers no plug-in; decorate the class with @register", place=str(path)
         )
+
+
+def _failed_at(path: Path, error: BaseException) -> str:
+    """Returns the place of a plug-in file's error: its own line, if there is one."""
+    if isinstance(error, SyntaxError) and error.filename == str(path.absolute()) and error.lineno:
+        return f"{path}:{error.lineno}"
+    place = raised_at(error, within=str(path.absolute()))
+    return str(path) if place is None else f"{path}:{place.rpartition(':')[2]}"
 
 
 def plugin_files() -> tuple[Path, ...]:

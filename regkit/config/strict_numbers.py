@@ -2,9 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, cast
 
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+
+LARGEST = 1e15
+"""Largest magnitude of a number in a field without bounds of its own; the square of a larger one
+leaves no digits to anything else."""
+
+LARGEST_INTEGER = 2**63 - 1
+"""Largest integer that arrays hold."""
 
 _OPAQUE = ("cls", "default", "default_factory", "metadata", "serialization", "expected")
 """Parts of a core schema that contain no schema of a value."""
@@ -40,10 +48,15 @@ def _strict(part: Any, model: type) -> Any:
 def _number(value: Any) -> Any:
     if isinstance(value, (str, bool)):
         raise PydanticCustomError("number_type", "Input should be a valid number")
+    # An infinite number is refused by its own rule, and one that is no number by its type.
+    if isinstance(value, (int, float)) and LARGEST < abs(value) < math.inf:
+        raise PydanticCustomError("number_size", "Input should be a number between -1e15 and 1e15")
     return value
 
 
 def _whole_number(value: Any) -> Any:
     if isinstance(value, (str, bool)):
         raise PydanticCustomError("number_type", "Input should be a valid integer")
+    if isinstance(value, int) and abs(value) > LARGEST_INTEGER:
+        raise PydanticCustomError("number_size", "Input should be an integer of 64 bits")
     return value

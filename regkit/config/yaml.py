@@ -7,38 +7,56 @@ from pathlib import Path
 from typing import Any
 
 from ruamel.yaml import YAML
-from ruamel.yaml.comments import CommentedMap, CommentedSeq
-from ruamel.yaml.error import MarkedYAMLError, YAMLError
 
 from regkit.config.changes import Location
 from regkit.config.model import Text
+from regkit.config.yaml_nodes import Node, root_of
+from regkit.config.yaml_source import check_printable, yaml_source
 from regkit.system.errors import ConfigError
 
 
-def read_mapping(text: str, path: Path) -> tuple[dict[str, Any], dict[Location, str]]:
-    """Returns the mapping of a YAML 1.2 file, and the ``file:line`` of each of its values.
+def read_mapping(path: Path) -> tuple[dict[str, Any], dict[Location, str]]:
+    """Returns the mapping in a YAML 1.2 file, and the ``file:line`` of each of its values.
 
-    Args:
-        text: The file's content.
-        path: The file, for messages and for the folder of its strings.
+    Strings are ``Text`` and know the file's folder.
 
     Raises:
-        ConfigError: If it is not YAML, repeats a key, or does not hold a mapping.
+        ConfigError: If it is not YAML, repeats a key, exceeds a bound, or does not hold a mapping.
+        DataError: If the file is missing or not text.
     """
-    tree = _parsed(text, str(path))
-    if not isinstance(tree, CommentedMap):
-        raise ConfigError("the file must hold a mapping of fields (name: value)", place=f"{path}:1")
+    root = root_of(yaml_source(path), str(path))
+    if root is None or not isinstance(root.content, dict):
+        reason = "the file is empty; it" if root is None else "the file"
+        line = 1 if root is None else root.line
+        raise ConfigError(
+            f"{reason} must hold a mapping of fields (name: value)", place=f"{path}:{line}"
+        )
     places: dict[Location, str] = {(): f"{path}:1"}
-    return _located(tree, (), path, places), places
+    return _located(root, (), path, places), places
 
 
 def yaml_value(text: str) -> Any:
     """Returns a YAML value written in one line, such as the value of a setting.
 
     Raises:
-        ConfigError: If it is not YAML.
+        RegkitError: If it is not YAML.
     """
-    return _plain(_parsed(text, None))
+    return yaml_data(text, None)
+
+
+def yaml_data(text: str, place: str | None) -> Any:
+    """Returns the data of a text, such as one by ``yaml_text``.
+
+    Args:
+        text: The YAML.
+        place: Source of the text, for messages.
+
+    Raises:
+        RegkitError: If it is not YAML.
+    """
+    check_printable(text, place)
+    root = root_of(text, place)
+    return None if root is None else _plain(root)
 
 
 def yaml_text(data: Any) -> str:
@@ -51,55 +69,28 @@ def yaml_text(data: Any) -> str:
     return stream.getvalue()
 
 
-def yaml_data(text: str, place: str) -> Any:
-    """Returns the data of a text by ``yaml_text``.
-
-    Args:
-        text: The YAML.
-        place: Source of the text, for messages.
-
-    Raises:
-        ConfigError: If it is not YAML.
-    """
-    return _plain(_parsed(text, place))
-
-
-def _parsed(text: str, place: str | None) -> Any:
-    """Returns the tree of a text; errors name the line after ``place``."""
-    try:
-        return YAML(typ="rt").load(text)
-    except MarkedYAMLError as error:
-        reason = (error.problem or "not YAML").splitlines()[0]
-        line = f":{error.problem_mark.line + 1}" if error.problem_mark else ""
-        raise ConfigError(f"not valid YAML: {reason}", place=place and place + line) from None
-    except YAMLError as error:
-        raise ConfigError(f"not valid YAML: {str(error).splitlines()[0]}", place=place) from None
+def _located(node: Node, location: Location, path: Path, places: dict[Location, str]) -> Any:
+    """Returns the data of a node, and adds the lines of its parts to ``places``."""
+    if isinstance(node.content, dict):
+        for key in node.content:
+            places[*location, key.text] = f"{path}:{key.line}"
+        return {
+            key.text: _located(part, (*location, key.text), path, places)
+            for key, part in node.content.items()
+        }
+    if isinstance(node.content, list):
+        for index, part in enumerate(node.content):
+            places[*location, index] = f"{path}:{part.line}"
+        return [_located(one, (*location, i), path, places) for i, one in enumerate(node.content)]
+    return Text(node.content, path.parent.absolute()) if isinstance(node.content, str) else (
+        node.content
+    )  # fmt: skip
 
 
-def _located(node: Any, location: Location, path: Path, places: dict[Location, str]) -> Any:
-    """Returns ``node`` without ruamel's types, and adds its lines to ``places``."""
-    if isinstance(node, CommentedMap):
-        for key in node:
-            line = node.lc.data[key][0] if key in (node.lc.data or {}) else node.lc.line
-            places[*location, key] = f"{path}:{line + 1}"
-        return {str(key): _located(node[key], (*location, key), path, places) for key in node}
-    if isinstance(node, CommentedSeq):
-        for index in range(len(node)):
-            places[*location, index] = f"{path}:{node.lc.item(index)[0] + 1}"
-        return [_located(item, (*location, index), path, places) for index, item in enumerate(node)]
-    if isinstance(node, str):
-        return Text(node, path.parent.absolute())
-    return _plain(node)
-
-
-def _plain(value: Any) -> Any:
-    """Returns ``value`` without ruamel's types."""
-    if isinstance(value, dict):
-        return {key: _plain(item) for key, item in value.items()}
-    if isinstance(value, list):
-        return [_plain(item) for item in value]
-    if isinstance(value, float):
-        return float(value)
-    if isinstance(value, int) and not isinstance(value, bool):
-        return int(value)
-    return value
+def _plain(node: Node) -> Any:
+    """Returns the data of a node."""
+    if isinstance(node.content, dict):
+        return {key.text: _plain(part) for key, part in node.content.items()}
+    if isinstance(node.content, list):
+        return [_plain(part) for part in node.content]
+    return node.content

@@ -16,6 +16,7 @@ from regkit.interfaces import Dataset, Method, Preprocessor, Recording, Template
 from regkit.skeleton import PoseDescription
 from regkit.start import given_start
 from regkit.system.errors import ConfigError
+from regkit.system.names import LONGEST, file_name
 from regkit.tracking import Session
 
 _FOLDER = r"^[A-Za-z0-9][A-Za-z0-9_.,=-]*$"
@@ -26,6 +27,11 @@ def _fit_for_a_folder(name: str) -> str:
         raise ValueError(
             f"'{name}' is used as a folder's name: use letters, digits, '-', '_' and '.', and "
             "begin with a letter or digit"
+        )
+    if file_name(name) != name:
+        raise ValueError(
+            f"'{name}' is used as a folder's name: it must not have more than {LONGEST} letters, "
+            "end with '.', or be a device of Windows"
         )
     return name
 

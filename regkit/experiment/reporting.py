@@ -9,11 +9,13 @@ from pathlib import Path
 from typing import Any
 
 from regkit.config.document import Document
+from regkit.config.yaml_source import yaml_source
 from regkit.experiment.results import Results
 from regkit.experiment.results_format import check_format
 from regkit.metrics import Measure
 from regkit.report import Run, write_report, write_summary
 from regkit.system.errors import DataError
+from regkit.system.links import check_links
 
 Measures = Mapping[str, Mapping[str, Measure]]
 """Metrics by method and recording; a method of a sweep is named ``SETTING/METHOD``."""
@@ -73,12 +75,15 @@ def found(folder: Path) -> tuple[dict[str, dict[str, Measure]], dict[str, dict[s
     Raises:
         DataError: If it is not a results folder, has another format, or a file is damaged.
     """
+    if not folder.exists():
+        raise DataError("there is no such folder; name the results of a run", place=str(folder))
     if not (folder / "config.yaml").is_file() or not (folder / "environment.json").is_file():
         raise DataError(
             "this is not a results folder of `regkit run`: it has no config.yaml and "
             "environment.json",
             place=str(folder),
         )
+    check_links(folder)
     check_format(folder)
     results, metrics = Results(folder), folder / "metrics.json"
     written_metrics = _json(metrics).get("methods", {}) if metrics.exists() else {}
@@ -106,7 +111,7 @@ def _run(folder: Path, measures: Measures, failures: Failures) -> Run:
     config = folder / "config.yaml"
     return Run(
         config=Document.read(config).data,
-        text=config.read_text(encoding="utf-8"),
+        text=yaml_source(config),
         environment=_json(folder / "environment.json"),
         measures=measures,
         failures=failures,

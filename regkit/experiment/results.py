@@ -15,6 +15,7 @@ import numpy as np
 from regkit.body import Body
 from regkit.config.document import Document
 from regkit.config.yaml import yaml_data, yaml_text
+from regkit.config.yaml_source import yaml_source
 from regkit.experiment.differences import differences
 from regkit.experiment.environment import environment
 from regkit.experiment.lock import MARK
@@ -23,6 +24,7 @@ from regkit.metrics import Measure
 from regkit.report import Record, draw_overlay, method_styles
 from regkit.system.errors import ConfigError, DataError, PluginError, RegkitError
 from regkit.system.files import remove_unfinished, write_arrays, write_json, write_text
+from regkit.system.links import check_links
 from regkit.tracking import Track
 
 
@@ -60,6 +62,7 @@ class Results:
         """
         text = yaml_text(config)
         file = folder / "config.yaml"
+        check_links(folder)
         if file.exists():
             check_format(folder)
             _check_same(file, text)
@@ -159,7 +162,7 @@ class Results:
 
 def _check_same(file: Path, text: str) -> None:
     """Refuses to continue results of another configuration than ``config.yaml``."""
-    before = file.read_text(encoding="utf-8")
+    before = yaml_source(file)
     if before == text:
         return
     there, here = yaml_data(before, str(file)), yaml_data(text, str(file))

@@ -95,7 +95,8 @@ def _ledgers(study: Study, folder: Path, only: tuple[str, ...]) -> list[Ledger]:
         if ledgers and one.dataset == ledgers[-1].experiment.dataset:
             lengths = ledgers[-1].lengths
         else:
-            lengths = _lengths(one)
+            with study.located(name):
+                lengths = _lengths(one)
         ledgers.append(Ledger(one, Results(folder / name), methods, lengths, name))
     return ledgers
 
@@ -112,7 +113,7 @@ def _lengths(experiment: Experiment) -> dict[str, int]:
             raise ConfigError(
                 f"no recording has the subject '{name}' (there are: {', '.join(known) or 'none'})"
                 + did_you_mean(name, known),
-                place="subjects",
+                place=f"subjects.{name}",
             )
     return {recording.name: recording.length for recording in recordings}
 

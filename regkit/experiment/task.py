@@ -17,6 +17,7 @@ from regkit.report import Record
 from regkit.system.errors import RegkitError
 from regkit.system.files import remove_unfinished
 from regkit.system.optional import one_thread
+from regkit.system.plugin_code import plugin_code
 from regkit.tracking import Session, TrackRecorder
 
 Result = Measure | RegkitError | None
@@ -62,7 +63,7 @@ class Task:
         """
         results = Results(self.folder)
         try:
-            with one_thread():
+            with one_thread(), plugin_code(f"a plug-in of {self.label}"):
                 if self.method is not None:
                     finished = results.finished(self.method, self.recording)
                     # A worker may have died after writing the files, before returning the result.

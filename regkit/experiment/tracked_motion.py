@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import zipfile
 from collections.abc import Mapping
 from dataclasses import replace
@@ -22,6 +23,7 @@ from regkit.interfaces import Template
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError, DataError
+from regkit.system.links import check_links
 
 NEEDED = ("root", "balls", "hinges", "markers", "size")
 """Arrays of ``poses.npz`` that define a motion."""
@@ -40,7 +42,10 @@ def read_tracked_motion(folder: Path, fps: float | None = None) -> TrackedMotion
     Raises:
         RegkitError: If there is no finished recording, or the template has changed since.
     """
-    arrays, results = _arrays(folder), folder.resolve().parents[1]
+    results = Path(os.path.abspath(folder)).parent.parent  # noqa: PTH100 - links must remain.
+    if (results / "config.yaml").exists():
+        check_links(results)
+    arrays = _arrays(folder)
     check_format(results)
     given = _fps(folder, arrays) if fps is None else fps
     name = f"{folder.resolve().parent.name} {folder.resolve().name}"
@@ -83,9 +88,9 @@ def _arrays(folder: Path) -> dict[str, NDArray[Any]]:
     if not file.is_file():
         others = sorted(folder.glob("**/poses.npz"))
         hint = f"; there are: {', '.join(str(other.parent) for other in others)}" if others else ""
+        lack = "no poses.npz is here" if folder.exists() else "there is no such folder"
         raise ConfigError(
-            f"no poses.npz is here; give the folder of a finished recording, "
-            f"RESULTS/METHOD/RECORDING{hint}",
+            f"{lack}; give the folder of a finished recording, RESULTS/METHOD/RECORDING{hint}",
             place=str(folder),
         )
     arrays = _read(file)

@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import Annotated, ClassVar, Self
+from typing import ClassVar, Self
 
 import numpy as np
-from pydantic import Field
 
 from regkit.body import Body
 from regkit.clouds import normals, spacing
+from regkit.config.quantities import Length
 from regkit.interfaces import ShapeModel
 from regkit.primitives import Gaussians, Primitives
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError
-
-Length = Annotated[float, Field(gt=0.0)]
 
 
 class CloudShape(ShapeModel, ABC):

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import csv
-from io import StringIO
 from pathlib import Path
 
 from regkit.geometry.rotation import from_matrix
 from regkit.interchange.motion import TrackedMotion
+from regkit.system.csv_table import csv_text
 from regkit.system.files import write_text
 
 COLUMNS = ("frame", "time", "kind", "name", "x", "y", "z", "qx", "qy", "qz", "qw")
@@ -24,18 +23,16 @@ def write_csv(motion: TrackedMotion, path: Path) -> None:
     Raises:
         DataError: If the file cannot be written.
     """
-    text = StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(COLUMNS)
+    rows: list[tuple[object, ...]] = []
     names, markers = motion.body.skeleton.names, motion.body.markers
     for frame, (time, transforms) in enumerate(zip(motion.times, motion.transforms, strict=True)):
         when = (frame, f"{time:.6f}")
         quaternions = from_matrix(transforms[:, :3, :3])
         for name, place, quaternion in zip(names, transforms[:, :3, 3], quaternions, strict=True):
-            writer.writerow((*when, "segment", name, *_words([*place, *quaternion])))
+            rows.append((*when, "segment", name, *_words([*place, *quaternion])))
         for name, place in zip(markers.names, markers.place(transforms), strict=True):
-            writer.writerow((*when, "marker", name, *_words(list(place)), "", "", "", ""))
-    write_text(path, text.getvalue())
+            rows.append((*when, "marker", name, *_words(list(place)), "", "", "", ""))
+    write_text(path, csv_text(COLUMNS, rows))
 
 
 def _words(numbers: list[float]) -> list[str]:

@@ -4,17 +4,21 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import islice
 from pathlib import Path
-from typing import Annotated, Any, ClassVar
+from typing import Any, ClassVar
 
 from pydantic import Field
 
 from regkit.config.model import did_you_mean
 from regkit.config.plugin import Plugin
+from regkit.config.quantities import FrameCount
 from regkit.observation import Frame, Truth
 from regkit.system.errors import ConfigError, DataError
+from regkit.system.names import file_name
+from regkit.system.notes import note
+from regkit.system.printable import one_line
 
 
 @dataclass(frozen=True)
@@ -89,7 +93,7 @@ class Dataset(Plugin, ABC):
 
     recordings: tuple[str, ...] | None = None
     """Names of the recordings to use; all by default."""
-    frames: Annotated[int, Field(ge=1)] | None = None
+    frames: FrameCount | None = None
     """Maximum number of frames from the start of each recording; all by default."""
     compared: bool = True
     """Whether to compare poses with the reference joints, if there are any."""
@@ -122,20 +126,21 @@ class Dataset(Plugin, ABC):
             ConfigError: If ``recordings`` contains an unknown name.
         """
         found: dict[str, Recording] = {}
-        for recording in self.found():
+        for recording in map(_named_for_files, self.found()):
             if recording.name in found:
                 raise DataError(f"two recordings are called '{recording.name}'", place="dataset")
             found[recording.name] = recording
         if self.recordings is None:
             return list(found.values())
-        for name in self.recordings:
+        chosen = [name if name in found else file_name(name) for name in self.recordings]
+        for name in chosen:
             if name not in found:
                 raise ConfigError(
                     f"no recording '{name}' (there are: {', '.join(found)})"
                     + did_you_mean(name, list(found)),
                     place="dataset.recordings",
                 )
-        return [found[name] for name in self.recordings]
+        return [found[name] for name in chosen]
 
     def only(self, name: str | None = None) -> Recording:
         """Returns the recording of a name, or the only recording.
@@ -155,3 +160,12 @@ class Dataset(Plugin, ABC):
                 place="dataset.recordings",
             )
         return found[0]
+
+
+def _named_for_files(recording: Recording) -> Recording:
+    """Returns a recording whose name, often that of a foreign folder, is valid for files."""
+    name = file_name(recording.name)
+    if name == recording.name:
+        return recording
+    note(f"the recording '{one_line(recording.name)}' is called '{name}' in results")
+    return replace(recording, name=name)

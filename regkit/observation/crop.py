@@ -10,11 +10,10 @@ from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from regkit.config.model import Model
+from regkit.config.quantities import Length
 from regkit.observation import Frame
 from regkit.system.arrays import Array, Indices
 from regkit.system.errors import DataError, NoDataError
-
-Distance = Annotated[float, Field(gt=0.0)]
 
 MIN_DOWNSAMPLED = 4
 """Fewer points than this after downsampling mean that the voxels are larger than the body."""
@@ -23,17 +22,17 @@ MIN_DOWNSAMPLED = 4
 class Crop(Model):
     """Keeps the points of the object and removes the foreground and background."""
 
-    near: Distance | None = None
+    near: Length | None = None
     """Minimum depth [m]; nearer points are removed."""
-    far: Distance | None = None
+    far: Length | None = None
     """Maximum depth [m]; farther points are removed."""
-    behind_nearest: Distance | None = None
+    behind_nearest: Length | None = None
     """Maximum depth behind the nearest points [m], for example to separate a hand from its
     person."""
-    connected: Annotated[float, Field(ge=1e-3)] | None = None
+    connected: Annotated[float, Field(ge=1e-3, le=1e3)] | None = None
     """Keep only the connected component nearest to the camera; components are separated by at
     least this distance [m]."""
-    min_points: Annotated[int, Field(ge=1)] = 20
+    min_points: Annotated[int, Field(ge=1, le=100_000_000)] = 20
     """Minimum number of points after cropping; fewer are an error."""
 
     @model_validator(mode="after")

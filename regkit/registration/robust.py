@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Annotated, ClassVar, Literal
+from typing import ClassVar, Literal
 
 import numpy as np
-from pydantic import Field
 
 from regkit.config.model import Model
+from regkit.config.quantities import Length
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError
 
@@ -20,7 +20,7 @@ class Robust(Model):
     loss: Literal["squares", "huber", "tukey", "geman_mcclure"] = "geman_mcclure"
     """Half the square near zero; beyond a few scales a line (huber), a constant (tukey) or an
     approach to a constant (geman_mcclure)."""
-    scale: Annotated[float, Field(gt=0.0)] | None = None
+    scale: Length | None = None
     """Standard deviation of the inliers' residuals [m]; by default estimated from each frame's
     residuals at the start of its registration."""
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from regkit.report.png import png
+from regkit.system.csv_table import csv_text
 from regkit.system.files import replacing, write_text
 
 if TYPE_CHECKING:
@@ -100,11 +99,7 @@ def write_csv(path: Path, columns: Sequence[str], rows: Iterable[Sequence[Value]
     Raises:
         DataError: If the file cannot be written.
     """
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(columns)
-    writer.writerows([_cell(value) for value in row] for row in rows)
-    write_text(path, stream.getvalue())
+    write_text(path, csv_text(columns, ([_cell(value) for value in row] for row in rows)))
 
 
 def _cell(value: Value) -> str:

@@ -2,25 +2,22 @@
 
 from __future__ import annotations
 
-from typing import Annotated
-
 import numpy as np
 from pydantic import Field, ValidationError, model_validator
 
 from regkit.config.model import Model, did_you_mean, misplaced
-from regkit.skeleton.joints import FreeJoint, HingeJoint, Joint, Vector
-
-Radius = Annotated[float, Field(gt=0.0)]
+from regkit.config.quantities import Length
+from regkit.skeleton.joints import FreeJoint, HingeJoint, Joint, Position, Rotation
 
 
 class CapsuleDescription(Model):
     """A tapered capsule, the convex hull of two spheres, in the segment's frame."""
 
-    start: Vector
+    start: Position
     """Centre of the first sphere [m]."""
-    end: Vector
+    end: Position
     """Centre of the second sphere [m]; equal to ``start`` it makes a single sphere."""
-    radius: Radius | tuple[Radius, Radius]
+    radius: Length | tuple[Length, Length]
     """Radius of both spheres, or the radii of the first and the second [m]."""
 
 
@@ -29,15 +26,15 @@ class SegmentDescription(Model):
 
     parent: str | None = None
     """Name of the parent segment; exactly one segment, the root, has none."""
-    offset: Vector = (0.0, 0.0, 0.0)
+    offset: Position = (0.0, 0.0, 0.0)
     """Position of the joint in the parent's frame [m]."""
-    rotation_deg: Vector = (0.0, 0.0, 0.0)
+    rotation_deg: Rotation = (0.0, 0.0, 0.0)
     """Rotation vector of the joint's frame in the parent's frame at rest [deg]."""
     joint: Joint | None = None
     """Joint to the parent, fixed by default; for the root, which must name it, to the world."""
     capsules: tuple[CapsuleDescription, ...] = ()
     """Capsules that approximate the segment's surface."""
-    markers: dict[str, Vector] = Field(default_factory=dict)
+    markers: dict[str, Position] = Field(default_factory=dict)
     """Named points in the segment's frame [m], such as joints or fingertips."""
 
 

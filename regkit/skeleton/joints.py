@@ -8,8 +8,15 @@ import numpy as np
 from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
 from regkit.config.model import Model
+from regkit.config.quantities import Angle, Coordinate, Turn
 
 Vector = tuple[float, float, float]
+
+Position = tuple[Coordinate, Coordinate, Coordinate]
+"""A position in a segment's frame [m]."""
+
+Rotation = tuple[Turn, Turn, Turn]
+"""A rotation vector [deg]."""
 
 Letter = Literal["x", "y", "z", "-x", "-y", "-z"]
 """A signed coordinate axis."""
@@ -23,6 +30,9 @@ _LETTERS: dict[str, Vector] = {
     "-z": (0.0, 0.0, -1.0),
 }
 
+
+MAX_RATIO = 1e3
+"""Largest magnitude of a coupling's ratio; above it the leader is practically fixed."""
 
 MIN_RATIO = 1e-3
 """Smallest magnitude of a coupling's ratio; below it the joint is practically fixed."""
@@ -38,13 +48,16 @@ def _from_letter(value: Any) -> Any:
 
 def _of_unit_length(value: Vector) -> Vector:
     length = float(np.linalg.norm(value))
-    if length < 1e-9:
-        raise ValueError(f"the axis {list(value)} has no direction; it must not be zero")
+    if not 1e-9 <= length <= 1e9:
+        raise ValueError(
+            f"the axis {list(value)} has no direction; its length must not be zero, nor above 1e9"
+        )
     x, y, z = value
     return (x / length, y / length, z / length)
 
 
-def _in_order(value: tuple[float, float]) -> tuple[float, float]:
+def in_order(value: tuple[float, float]) -> tuple[float, float]:
+    """Returns a lower and an upper limit, which must be in this order."""
     if value[0] > value[1]:
         raise ValueError(f"limits are reversed: {list(value)}; write [{value[1]}, {value[0]}]")
     return value
@@ -56,6 +69,10 @@ def _not_zero(value: float) -> float:
             f"the ratio {value:g} is too small: its magnitude must be at least {MIN_RATIO:g}; for "
             "a joint that does not turn write type: fixed"
         )
+    if abs(value) > MAX_RATIO:
+        raise ValueError(
+            f"the ratio {value:g} is too large: its magnitude must be at most {MAX_RATIO:g}"
+        )
     return value
 
 
@@ -66,8 +83,8 @@ Axis = Annotated[
 ]
 """A direction: three numbers of any length, or one of x, y, z, -x, -y, -z."""
 
-Range = Annotated[tuple[float, float], AfterValidator(_in_order)]
-"""A lower and an upper limit."""
+Range = Annotated[tuple[Angle, Angle], AfterValidator(in_order)]
+"""A lower and an upper limit of an angle [deg]."""
 
 
 def _within_half_a_turn(value: tuple[float, float]) -> tuple[float, float]:
@@ -81,7 +98,7 @@ def _within_half_a_turn(value: tuple[float, float]) -> tuple[float, float]:
 
 TwistRange = Annotated[Range, AfterValidator(_within_half_a_turn)]
 
-HalfAngle = Annotated[float, Field(gt=0.0, le=180.0)]
+HalfAngle = Annotated[float, Field(ge=0.01, le=180.0)]
 
 
 class FreeJoint(Model):
@@ -103,7 +120,7 @@ class CouplingDescription(Model):
     """Segment whose hinge is the leader."""
     ratio: Annotated[float, AfterValidator(_not_zero)]
     """Change of this angle per change of the leader's angle."""
-    offset_deg: float = 0.0
+    offset_deg: Angle = 0.0
     """Angle at which the leader's angle is zero [deg]."""
 
 
@@ -143,7 +160,7 @@ class BallJoint(Model):
     swing_axis: Axis = (1.0, 0.0, 0.0)
     """Axis of the first swing angle, perpendicular to the twist axis; the second is their cross
     product."""
-    centre_deg: Vector = (0.0, 0.0, 0.0)
+    centre_deg: Rotation = (0.0, 0.0, 0.0)
     """Rotation vector of the cone's centre relative to the rest pose [deg]."""
     swing_deg: tuple[HalfAngle, HalfAngle] | None = None
     """Half angles of the cone about the first and the second swing axis [deg]; unlimited by

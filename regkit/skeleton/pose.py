@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from pydantic import Field
 
 from regkit.config.model import Model
-from regkit.skeleton.joints import Vector
+from regkit.config.quantities import Angle, WorldCoordinate
+from regkit.skeleton.joints import Rotation
 from regkit.system.arrays import Array
 
 
@@ -29,9 +30,9 @@ class Pose:
 class RootDescription(Model):
     """Position and orientation of the root in the world."""
 
-    position: Vector = (0.0, 0.0, 0.0)
+    position: tuple[WorldCoordinate, WorldCoordinate, WorldCoordinate] = (0.0, 0.0, 0.0)
     """Position of the root's origin in the world [m]."""
-    rotation_deg: Vector = (0.0, 0.0, 0.0)
+    rotation_deg: Rotation = (0.0, 0.0, 0.0)
     """Rotation vector of the root frame in the world [deg]."""
 
 
@@ -40,5 +41,5 @@ class PoseDescription(Model):
 
     root: RootDescription = RootDescription()
     """Position and orientation of the root in the world."""
-    joints: dict[str, float | tuple[float, float] | Vector] = Field(default_factory=dict)
+    joints: dict[str, Angle | tuple[Angle, Angle] | Rotation] = Field(default_factory=dict)
     """By segment: one angle of a hinge, two of a universal joint, or a rotation vector [deg]."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from regkit.system.printable import cut, one_line, printable
+
 
 class RegkitError(Exception):
     """Base of all errors that regkit raises on purpose; the CLI prints it without a traceback.
@@ -17,8 +19,9 @@ class RegkitError(Exception):
         self.place = place
 
     def __str__(self) -> str:
-        """Returns ``place: message``, or the message alone."""
-        return f"{self.place}: {self.message}" if self.place else self.message
+        """Returns ``place: message``, or the message alone, safe to print."""
+        message = printable(cut(self.message))
+        return f"{one_line(self.place)}: {message}" if self.place else message
 
     def at(self, place: str) -> RegkitError:
         """Returns the error at ``place``, unless it has a place already."""

@@ -48,6 +48,9 @@ def reading(path: Path | str, what: str) -> Iterator[None]:
 
 def foreign(error: BaseException) -> str:
     """Returns the first line of a foreign exception's message, cut, or its kind without one."""
-    lines = str(error).strip().splitlines()
+    try:
+        lines = str(error).strip().splitlines()
+    except Exception:  # An exception of others may not even have a text.
+        lines = []
     text = lines[0] if lines else type(error).__name__
     return text if len(text) <= LONGEST else f"{text[:LONGEST]} ..."

@@ -6,6 +6,8 @@ import warnings
 from pathlib import Path
 from typing import Any, cast
 
+from regkit.system.printable import cut, one_line, printable
+
 
 class RegkitWarning(UserWarning):
     """Something that a user should know of a result; the CLI prints it on standard error."""
@@ -21,7 +23,8 @@ def note(message: str, *, place: Path | str | None = None) -> None:
         message: What was done with which value, and what it means for the result.
         place: The place, as in a ``RegkitError``.
     """
-    text = f"{place}: {message}" if place is not None else message
+    text = printable(cut(message))
+    text = text if place is None else f"{one_line(str(place))}: {text}"
     warnings.warn(RegkitWarning(text), stacklevel=2)
 
 

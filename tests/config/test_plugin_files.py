@@ -81,9 +81,12 @@ def test_shape_of_a_plugin_file_is_run(regkit, files, tmp_path):
     [
         (None, "FILE: there is no such Python file"),
         ("x = 1\n", "FILE: the file registers no plug-in; decorate the class with @register"),
-        ("import no_such_module\n", "FILE: ModuleNotFoundError: No module named 'no_such_module'"),
-        ("def broken(:\n", "FILE: SyntaxError: invalid syntax"),
-        ("raise RuntimeError('by design')\n", "FILE: RuntimeError: by design"),
+        (
+            "import no_such_module\n",
+            "FILE:1: ModuleNotFoundError: No module named 'no_such_module'",
+        ),
+        ("def broken(:\n", "FILE:1: SyntaxError: invalid syntax"),
+        ("raise RuntimeError('by design')\n", "FILE:1: RuntimeError: by design"),
     ],
 )
 def test_plugin_file_that_is_broken_is_told(regkit, files, tmp_path, text, expected):
@@ -107,6 +110,63 @@ def test_fault_of_a_plugin_stops_only_its_own_method(regkit, files, tmp_path):
     assert files.metrics()["gsog"]["recordings"]["first"]["frames"] == 1
 
 
+def test_plugin_that_ends_the_program_stops_only_its_own_method(regkit, files, tmp_path):
+    path = tmp_path / "faulty.py"
+    path.write_text(FAULTY.replace("pass  # Here it fails.", "raise SystemExit(0)"))
+    add_method(files.experiment, "faulty", "faulty")
+    ended = regkit("run", files.experiment, "--out", files.out, "--plugin", path, *QUICK)
+    assert ended.code == 1
+    assert "sys.exit(0)" in ended.err
+    assert f"{path}:" in ended.err
+    assert "sys.exit(0)" in files.metrics()["faulty"]["recordings"]["first"]["error"]
+    assert files.metrics()["gsog"]["recordings"]["first"]["frames"] == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "expected"),
+    [
+        ("import sys\n\nsys.exit(0)\n", 3, "sys.exit(0)"),
+        ("class Odd(BaseException): pass\nraise Odd('x')\n", 2, "Odd: x"),
+        (
+            "class Odd(BaseException):\n    def __str__(self): raise ValueError\nraise Odd\n",
+            3,
+            "Odd",
+        ),
+        ("import nothing_of_this_name\n", 1, "ModuleNotFoundError"),
+        ("def f(:\n", 1, "SyntaxError"),
+        ("x = 1\n", None, "@register"),
+        ("\0", None, "null bytes"),
+    ],
+)
+def test_plugin_file_that_fails_is_told_with_its_line(regkit, tmp_path, text, line, expected):
+    path = tmp_path / "own.py"
+    path.write_text(text)
+    ended = regkit("plugins", "--plugin", path)
+    assert ended.code == 1
+    assert ended.err.startswith(f"error: {path}:{line}: " if line else f"error: {path}: ")
+    assert expected in ended.err
+
+
+@pytest.mark.parametrize("name", ["own.txt", "nothing.py", "."])
+def test_plugin_file_that_is_none_is_refused(regkit, tmp_path, name):
+    (tmp_path / "own.txt").write_text("x = 1\n")
+    ended = regkit("plugins", "--plugin", tmp_path / name)
+    assert ended.code == 1
+    assert "Python file" in ended.err
+
+
+def test_end_of_the_program_in_a_command_is_an_error(regkit, tmp_path):
+    path = tmp_path / "own.py"
+    path.write_text(FAULTY.replace("pass  # Here it fails.", "raise SystemExit(0)"))
+    ended = regkit(
+        "register", EXAMPLES / "data" / "human_walk", "--plugin", path,
+        "--template", "{kind: human, height: 1.7}", "--method",
+        "{kind: direct, shape: faulty, kernel: correlation, solver: lbfgs}",
+    )  # fmt: skip
+    assert ended.code == 1
+    assert ended.err.startswith(f"error: {path}:")
+
+
 @pytest.mark.parametrize(
     ("old", "new", "expected"),
     [
@@ -119,7 +179,7 @@ def test_plugin_that_declares_too_little_is_refused(regkit, files, tmp_path, old
     path.write_text(FAULTY.replace(old, new))
     ended = regkit("run", files.experiment, "--out", files.out, "--no-figures", "--plugin", path)
     assert ended.code == 1
-    assert ended.err.startswith(f"error: {path}: ")
+    assert ended.err.startswith(f"error: {path}:")
     assert expected in ended.err
 
 

@@ -1,12 +1,16 @@
 """Whoever writes a name of regkit 0.1 is answered with the name that it has now."""
 
+import inspect
+from collections.abc import Iterator
+
 import numpy as np
 import pytest
 from small_experiment import QUICK
 
 import regkit as package
+from regkit.config.model import Model
 from regkit.experiment import Experiment, Study
-from regkit.interfaces import Preprocessor
+from regkit.interfaces import SLOTS, Preprocessor
 from regkit.system.errors import ConfigError, PluginError
 
 EXPERIMENT = """\
@@ -17,6 +21,30 @@ methods:
   best: {preset: best}
   icp: {preset: icp}
 """
+
+
+def models(base: type[Model] = Model) -> Iterator[type[Model]]:
+    for model in base.__subclasses__():
+        yield model
+        yield from models(model)
+
+
+def test_former_names_are_gone_and_new_ones_exist():
+    for slot in SLOTS:
+        for kind in slot.available():
+            assert not {*slot.load(kind).formerly} & {*slot.available()}
+    for model in models():
+        assert not model.renamed.keys() & model.model_fields.keys(), model
+        if not inspect.isabstract(model):
+            assert {*model.renamed.values()} <= model.model_fields.keys(), model
+
+
+def test_misspelt_former_name_is_answered_with_the_new_one(file):
+    file.write_text(EXPERIMENT + "obsrver: points\n")
+    told = refused(lambda: Experiment.read(file))
+    assert "did you mean 'preprocessor'?" in told
+    assert "observer" not in told
+
 
 FIELDS = [
     ("observer", "preprocessor", "voxel", "0.03"),

@@ -1,6 +1,7 @@
 """The JSON Schemas: that editors accept and refuse what regkit accepts and refuses."""
 
 import copy
+import math
 import re
 from collections.abc import Iterator
 from functools import cache
@@ -46,8 +47,10 @@ MORE = {
     r"is not a segment \(there are": "Gaussians are on segments",
     r"has a moving joint|the pose gives|is coupled to another": "a start fits the template",
     r"a given start needs the template's size": "and needs its size",
-    r"limits are reversed|twist limits must be|a length must be positive": "two numbers in order",
-    r"must not be zero|must be perpendicular|the ratio .* is too small": "geometry of a joint",
+    r"limits are reversed|twist limits must be|is outside the range": "two numbers in order",
+    r"times its size|degrees exceed the joint's limits": "a template's fields fit together",
+    r"must not be zero|must be perpendicular": "geometry of a joint",
+    r"the ratio .* is too (small|large)": "a magnitude, of either sign",
     r"is not taken by IPOPT|is the field .* here": "IPOPT itself knows its options",
     r"each of x, y and z must be named once": "three axes in one list",
     r"not a regular expression|it must have one group": "Python's regular expressions",
@@ -223,10 +226,10 @@ def test_experiment_is_right_or_wrong_for_both(field, value, right):
 
 @pytest.mark.parametrize("value", [float("inf"), float("nan")])
 def test_numbers_that_json_does_not_have_are_refused_by_regkit_alone(value):
-    """YAML can write them; a schema has no word for them."""
+    """YAML can write them; a schema has no word for them, and only bounds keep infinity out."""
     data = copy.deepcopy(data_of(ROOT / "docs" / "examples" / "demo.yaml"))
     data["preprocessor"]["sigma"] = value
-    assert validator("experiment").is_valid(data)
+    assert validator("experiment").is_valid(data) == math.isnan(value)
     assert complaints(SweptExperiment, data) == [
         "preprocessor.sigma: Input should be a finite number"
     ]

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Literal
 
-from pydantic import Field
-
+from regkit.config.quantities import Rate
 from regkit_plugins.datasets.formats.organized_clouds.dataset import OrganizedClouds
 from regkit_plugins.datasets.formats.organized_clouds.records import RecordLayout
 from regkit_plugins.datasets.formats.subjects import SubjectPattern
@@ -31,5 +30,5 @@ class Eval(OrganizedClouds):
     """Regular expression whose only group is the subject in a file's name."""
     record: RecordLayout = RecordLayout(width=320, height=240)
     """Sizes of the parts of a record."""
-    fps: Annotated[float, Field(gt=0.0)] = 30.0
+    fps: Rate = 30.0
     """Frames per second."""

@@ -11,6 +11,7 @@ import numpy as np
 from pydantic import Field
 
 from regkit.config.model import InputPath, Model
+from regkit.config.quantities import Rate
 from regkit.geometry.camera import Camera
 from regkit.interfaces import Dataset, Recording
 from regkit.observation import Frame, Truth
@@ -19,7 +20,8 @@ from regkit_plugins.datasets.formats.axes import Axes, in_camera
 from regkit_plugins.datasets.formats.matlab import array_shape, read_array, read_frames
 from regkit_plugins.datasets.formats.subjects import SubjectPattern, subject_of
 
-Positive = Annotated[float, Field(gt=0.0)]
+Positive = Annotated[float, Field(ge=1e-3, le=1e6)]
+Pixel = Annotated[float, Field(ge=-1e6, le=1e6)]
 
 
 class Intrinsics(Model):
@@ -27,7 +29,7 @@ class Intrinsics(Model):
 
     focal_px: Positive = 571.4
     """Focal length [px]."""
-    centre_px: tuple[float, float] = (319.5, 239.5)
+    centre_px: tuple[Pixel, Pixel] = (319.5, 239.5)
     """Principal point [px], column and row; the first pixel has its centre at 0."""
 
 
@@ -70,7 +72,7 @@ class Pdt13(Dataset):
     """Axes of the reference positions that point right, down and forward from the camera."""
     subjects: SubjectPattern | None = "([MF][1-3])"
     """Regular expression whose only group is the subject in a recording's name."""
-    fps: Positive = 30.0
+    fps: Rate = 30.0
     """Frames per second."""
 
     def found(self) -> list[Recording]:

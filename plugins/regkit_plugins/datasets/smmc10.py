@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Literal
 
-from pydantic import Field
-
+from regkit.config.quantities import Rate
 from regkit_plugins.datasets.formats.organized_clouds.dataset import OrganizedClouds
 from regkit_plugins.datasets.formats.organized_clouds.records import RecordLayout
 from regkit_plugins.datasets.formats.subjects import SubjectPattern
@@ -30,5 +29,5 @@ class Smmc10(OrganizedClouds):
     """Regular expression whose only group is the subject in a file's name."""
     record: RecordLayout = RecordLayout(width=176, height=144)
     """Sizes of the parts of a record."""
-    fps: Annotated[float, Field(gt=0.0)] = 25.0
+    fps: Rate = 25.0
     """Frames per second."""

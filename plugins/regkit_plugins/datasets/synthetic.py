@@ -12,6 +12,7 @@ from pydantic import Field, model_validator
 
 from regkit.config.changes import with_changes
 from regkit.config.model import misplaced
+from regkit.config.quantities import Rate, Seed
 from regkit.interfaces import Dataset, Recording
 from regkit.observation import Frame, Truth
 from regkit.system.errors import DataError, RegkitError
@@ -44,9 +45,9 @@ class Synthetic(Dataset):
     noise: NoiseChoice | None = None
     """Depth noise: that of a known camera by its name, ``none``, a standard deviation [m], or its
     parts. By default that of ``camera`` if it is a known one, otherwise none."""
-    seed: Annotated[int, Field(ge=0)] = 0
+    seed: Seed = 0
     """Seed of the noise, which changes nothing else."""
-    fps: Annotated[float, Field(gt=0.0)] = 30.0
+    fps: Rate = 30.0
     """Frames per second."""
     defaults: Take = Take()
     """Fields that all takes share."""

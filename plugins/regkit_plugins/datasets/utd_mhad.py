@@ -44,7 +44,7 @@ class UtdMhad(Dataset):
 
     root: InputPath
     """Folder that contains ``Depth/`` and ``Skeleton/``."""
-    skeleton_lead: Annotated[float, Field(ge=0.0)] = 1.5
+    skeleton_lead: Annotated[float, Field(ge=0.0, le=1e6)] = 1.5
     """Number of frames by which the skeletons are ahead of the images. Compared with the images
     alone, the joints of moving arms match images one to two frames later, in every recording
     examined, for every person."""

@@ -9,6 +9,7 @@ from pydantic import Field
 
 from regkit.alignment.normalization import Normalization
 from regkit.alignment.rigid_method import Aligned, RigidMethod
+from regkit.config.quantities import Iterations
 from regkit.geometry.rigid import transformed
 from regkit.system.arrays import Array
 from regkit.system.optional import load_library
@@ -21,7 +22,7 @@ class BioCPD(RigidMethod):
 
     outliers: Annotated[float, Field(ge=0.0, lt=1.0)] = 0.0
     """Fraction of outliers; the default is the library's."""
-    max_iterations: Annotated[int, Field(ge=1)] = 100
+    max_iterations: Iterations = 100
     """Maximum number of iterations; the default is the library's."""
 
     def library(self) -> Any:

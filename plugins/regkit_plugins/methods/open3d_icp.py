@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from regkit.alignment.rigid_method import Aligned, RigidMethod
+from regkit.config.quantities import Iterations, Length
 from regkit.system.arrays import Array
 from regkit.system.optional import load_library
 
@@ -19,11 +20,11 @@ class Open3DICP(RigidMethod):
 
     estimation: Literal["point_to_point", "point_to_plane", "generalized"] = "point_to_plane"
     """Distance measure of a pair."""
-    distance: Annotated[float, Field(gt=0.0)] = 0.1
+    distance: Length = 0.1
     """Maximum distance of a pair, as a fraction of the source's size."""
-    max_iterations: Annotated[int, Field(ge=1)] = 30
+    max_iterations: Iterations = 30
     """Maximum number of iterations; the default is Open3D's."""
-    neighbours: Annotated[int, Field(ge=3)] = 30
+    neighbours: Annotated[int, Field(ge=3, le=1000)] = 30
     """Number of neighbours for estimating a normal; the default is Open3D's."""
 
     def library(self) -> Any:

@@ -9,6 +9,7 @@ from pydantic import Field
 
 from regkit.alignment.normalization import Normalization
 from regkit.alignment.rigid_method import Aligned, RigidMethod
+from regkit.config.quantities import Iterations
 from regkit.geometry.rigid import transformed
 from regkit.system.arrays import Array
 from regkit.system.optional import load_library
@@ -24,7 +25,7 @@ class ProbregCPD(RigidMethod):
 
     outliers: Annotated[float, Field(ge=0.0, lt=1.0)] = 0.0
     """Fraction of outliers; the default is the library's."""
-    max_iterations: Annotated[int, Field(ge=1)] = 50
+    max_iterations: Iterations = 50
     """Maximum number of iterations; the default is the library's."""
 
     def library(self) -> Any:
@@ -54,7 +55,7 @@ class ProbregFilterReg(RigidMethod):
     """Fraction of outliers; the default is the library's."""
     shrinking: bool = False
     """Whether the Gaussians become narrower at each iteration; the default is the library's."""
-    max_iterations: Annotated[int, Field(ge=1)] = 50
+    max_iterations: Iterations = 50
     """Maximum number of iterations; the default is the library's."""
 
     def library(self) -> Any:

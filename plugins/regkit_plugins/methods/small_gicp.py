@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from regkit.alignment.rigid_method import Aligned, RigidMethod
+from regkit.config.quantities import Iterations, Length
 from regkit.system.arrays import Array
 from regkit.system.optional import load_library
 
@@ -19,13 +20,13 @@ class SmallGICP(RigidMethod):
 
     registration_type: Literal["ICP", "PLANE_ICP", "GICP"] = "GICP"
     """Distance measure of a pair."""
-    distance: Annotated[float, Field(gt=0.0)] = 0.1
+    distance: Length = 0.1
     """Maximum distance of a pair, as a fraction of the source's size."""
-    neighbours: Annotated[int, Field(ge=3)] = 20
+    neighbours: Annotated[int, Field(ge=3, le=1000)] = 20
     """Number of neighbours for estimating a covariance; the default is the library's."""
-    max_iterations: Annotated[int, Field(ge=1)] = 20
+    max_iterations: Iterations = 20
     """Maximum number of iterations; the default is the library's."""
-    translation_tolerance: Annotated[float, Field(gt=0.0)] = 1e-4
+    translation_tolerance: Annotated[float, Field(gt=0.0, le=10.0)] = 1e-4
     """The iteration stops at a step below this fraction of the source's size and a rotation below
     0.1 degrees."""
 

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
+from regkit.config.quantities import Count, Voxel
 from regkit.interfaces import Preprocessor
 from regkit.observation import Frame, Observation
 from regkit.observation.crop import Crop
@@ -23,9 +24,9 @@ class OctreePreprocessor(Preprocessor):
 
     kind: Literal["octree"] = "octree"
 
-    leaf: Annotated[float, Field(gt=0.0)] = 0.045
+    leaf: Voxel = 0.045
     """Side of the smallest cells [m]."""
-    few: Annotated[int, Field(ge=1)] = 2
+    few: Count = 2
     """A cell with at most this number of points is not subdivided."""
     largest: Annotated[int, Field(ge=0, le=20)] = 2
     """Number of levels above the smallest cells; the largest cells have the side ``leaf`` times 2

@@ -8,11 +8,10 @@ import numpy as np
 from pydantic import Field
 
 from regkit.clouds import normals, voxel_downsampled
+from regkit.config.quantities import Length, Voxel
 from regkit.interfaces import Preprocessor
 from regkit.observation import Frame, Observation
 from regkit.observation.crop import Crop
-
-Length = Annotated[float, Field(gt=0.0)]
 
 
 class PointsPreprocessor(Preprocessor):
@@ -22,9 +21,9 @@ class PointsPreprocessor(Preprocessor):
 
     sigma: Length = 0.02
     """Standard deviation of each Gaussian [m]."""
-    voxel: Annotated[float, Field(ge=1e-4)] | None = None
+    voxel: Voxel | None = None
     """Voxel size for downsampling [m]; by default all points are used."""
-    normals: Annotated[int, Field(ge=3)] | None = None
+    normals: Annotated[int, Field(ge=3, le=1000)] | None = None
     """Number of neighbours for normal estimation; by default there are no normals."""
     crop: Crop = Crop()
     """Crop that segments the object."""

@@ -18,7 +18,7 @@ class CloudGeneralizedSumOfGaussians(CloudShape):
 
     kind: Literal["cloud_gsog"] = "cloud_gsog"
 
-    flatness: Annotated[float, Field(gt=0.0, le=1.0)] = 0.2
+    flatness: Annotated[float, Field(ge=1e-3, le=1.0)] = 0.2
     """Standard deviation along the normal, as a fraction of that in the tangent plane."""
 
     def flat(self) -> float:

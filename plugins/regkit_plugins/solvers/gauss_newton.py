@@ -8,11 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
+from regkit.config.quantities import Iterations, Tolerance, Weight
 from regkit.interfaces import LimitKeeping, Problem, Solution, Solver
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError, DataError
-
-Tolerance = Annotated[float, Field(ge=0.0)]
 
 
 class GaussNewton(Solver):
@@ -26,13 +25,13 @@ class GaussNewton(Solver):
         hinges="each step is projected", balls="each step is projected", hard=True
     )
 
-    max_iterations: Annotated[int, Field(ge=1)] = 10
+    max_iterations: Iterations = 10
     """Maximum number of steps, including rejected ones."""
     value_tolerance: Tolerance = 1e-5
     """Converged if a step decreases the value by less than this fraction of the total decrease."""
-    damping: Annotated[float, Field(gt=0.0)] = 1e-3
+    damping: Weight = 1e-3
     """Initial damping, as a fraction of the matrix's diagonal."""
-    resting: Annotated[float, Field(ge=0.0)] = 1e-3
+    resting: Annotated[float, Field(ge=0.0, le=1e12)] = 1e-3
     """Regularisation of all variables, as a fraction of the mean curvature; it keeps unobserved
     variables at rest."""
 

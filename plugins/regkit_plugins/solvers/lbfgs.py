@@ -7,11 +7,10 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
+from regkit.config.quantities import Iterations, Tolerance
 from regkit.interfaces import Problem, Solution, Solver
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
-
-Tolerance = Annotated[float, Field(ge=0.0)]
 
 
 class LBFGS(Solver):
@@ -22,7 +21,7 @@ class LBFGS(Solver):
 
     kind: Literal["lbfgs"] = "lbfgs"
 
-    max_iterations: Annotated[int, Field(ge=1)] = 100
+    max_iterations: Iterations = 100
     """Maximum number of iterations."""
     value_tolerance: Tolerance = 1e-6
     """Converged if a step decreases the value by less than this fraction of its magnitude or of
@@ -30,7 +29,7 @@ class LBFGS(Solver):
     gradient_tolerance: Tolerance = 1e-4
     """Converged if no component of the projected gradient exceeds this fraction of the value at
     the start."""
-    memory: Annotated[int, Field(ge=1)] = 10
+    memory: Annotated[int, Field(ge=1, le=1000)] = 10
     """Number of past steps and gradients that approximate the Hessian."""
 
     def minimize(self, problem: Problem) -> Solution:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import lru_cache
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Literal
 
 import numpy as np
 from pydantic import Field
@@ -14,8 +14,9 @@ from regkit.body import Body, BodyDescription
 from regkit.clouds import read_cloud, voxel_downsampled
 from regkit.clouds.checks import check_shape
 from regkit.config.model import InputPath
+from regkit.config.quantities import Voxel
 from regkit.interfaces.template import Template
-from regkit.skeleton.joints import Vector
+from regkit.skeleton.joints import Position
 from regkit.system.arrays import Array
 
 
@@ -28,9 +29,9 @@ class CloudTemplate(Template):
     kind: Literal["cloud"] = "cloud"
     path: InputPath
     """File of a cloud (.ply, .pcd, .xyz, .npz, ...) or a mesh (.ply, .stl, .obj, ...)."""
-    voxel: Annotated[float, Field(gt=0.0)] | None = None
+    voxel: Voxel | None = None
     """Voxel size for downsampling [m]; by default all points are used."""
-    markers: dict[str, Vector] = Field(default_factory=dict)
+    markers: dict[str, Position] = Field(default_factory=dict)
     """Named points in the coordinates of the file [m], for comparison with reference points."""
 
     def description(self) -> BodyDescription:

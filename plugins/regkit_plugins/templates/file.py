@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, Self
+from typing import Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
 from regkit.body import BodyDescription
 from regkit.body.reading import description_in
 from regkit.config.model import InputPath, misplaced
+from regkit.config.quantities import Length
 from regkit.interfaces.template import Template
 from regkit.system.errors import RegkitError
 
@@ -24,7 +25,7 @@ class FileTemplate(Template):
     kind: Literal["file"] = "file"
     path: InputPath
     """YAML file of the template."""
-    size: Annotated[float, Field(gt=0.0)] | None = None
+    size: Length | None = None
     """The body's size, as defined by ``size`` in the file [m]; by default it is estimated within
     the file's range, which a given size must lie in too."""
 

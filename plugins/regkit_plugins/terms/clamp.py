@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import ClassVar, Literal
 
 import numpy as np
-from pydantic import Field
 
+from regkit.config.quantities import Weight
 from regkit.gaussians.overlap import SELF_OVERLAP, Overlap
 from regkit.interfaces import Response, Scene, Term
 from regkit.primitives import Gaussians, Placed, Primitives
@@ -24,7 +24,7 @@ class Clamp(Term):
     kind: Literal["clamp"] = "clamp"
     accepts: ClassVar[type[Primitives]] = Gaussians
 
-    weight: Annotated[float, Field(gt=0.0)] = 1.0
+    weight: Weight = 1.0
     """Weight relative to the kernel's energy."""
     covariance: Literal["exact", "frozen"] = "exact"
     """Whether covariances rotate with their segments; use the value of the kernel."""

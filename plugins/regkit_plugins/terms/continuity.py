@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Literal
+from typing import Literal
 
 import numpy as np
 from pydantic import Field
 
 from regkit.body import Body
+from regkit.config.quantities import Spread, Weight
 from regkit.interfaces import JointEnergy, JointResponse, Scene, Term
 from regkit.skeleton import Pose, Skeleton
 from regkit.skeleton.compiled_steps import ball_steps
@@ -23,11 +24,11 @@ class Continuity(Term):
 
     kind: Literal["continuity"] = "continuity"
 
-    weight: Annotated[float, Field(gt=0.0)] = 0.01
+    weight: Weight = 0.01
     """Weight relative to the kernel's energy."""
-    joint_deg: Annotated[float, Field(gt=0.0)] = 20.0
+    joint_deg: Spread = 20.0
     """Typical rotation of a joint between frames [deg]."""
-    joints_deg: dict[str, Annotated[float, Field(gt=0.0)]] = Field(default_factory=dict)
+    joints_deg: dict[str, Spread] = Field(default_factory=dict)
     """Typical rotation of individual joints, by segment [deg]."""
 
     def check(self, body: Body) -> None:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
-from pydantic import Field
 
+from regkit.config.quantities import Margin, Weight
 from regkit.geometry.rotation import cross
 from regkit.interfaces import Scene, Term
 from regkit.primitives import Placed
@@ -26,9 +26,9 @@ class FreeSpace(Term):
 
     kind: Literal["free_space"] = "free_space"
 
-    weight: Annotated[float, Field(gt=0.0)] = 1.0
+    weight: Weight = 1.0
     """Weight relative to the kernel's energy."""
-    margin: Annotated[float, Field(ge=0.0)] = 0.5
+    margin: Margin = 0.5
     """Allowed distance of an axis in front of the measured depth, in units of the primitive's
     smallest scale."""
 

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import radians
-from typing import Annotated, Literal
+from typing import Literal
 
-from pydantic import Field
-
+from regkit.config.quantities import Spread, Weight
 from regkit.interfaces import JointEnergy, JointResponse, Scene, Term
 from regkit.skeleton import Pose, Skeleton
 
@@ -20,9 +19,9 @@ class LimitsTerm(Term):
 
     kind: Literal["limits"] = "limits"
 
-    weight: Annotated[float, Field(gt=0.0)] = 0.1
+    weight: Weight = 0.1
     """Weight relative to the kernel's energy."""
-    tolerance_deg: Annotated[float, Field(gt=0.0)] = 10.0
+    tolerance_deg: Spread = 10.0
     """Violation whose energy is half the weight [deg]."""
 
     def bind(self, scene: Scene) -> BoundLimits:

@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import Field, field_validator, model_validator
 
 from regkit.config.model import Model
+from regkit.config.quantities import Coordinate, Factor
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError
@@ -40,7 +41,7 @@ class Spot(Model):
     between: tuple[str, str] | None = None
     """Two bones; the point is the midpoint of their origins at rest."""
 
-    along: float | None = None
+    along: Coordinate | None = None
     """Distance of the point from the bone's origin along the bone [m]."""
 
     crown: float | None = Field(default=None, ge=0.0, le=1.0)
@@ -70,7 +71,7 @@ class BodyMap(Model):
     """The joint that each bone follows, of the figure or of a particular source, such as a
     finger."""
 
-    root_scale: Literal["leg"] | float = "leg"
+    root_scale: Literal["leg"] | Factor = "leg"
     """Scale of the motion of the hips; ``leg`` is the ratio of the leg lengths of body and
     source."""
 

@@ -10,7 +10,8 @@ from pydantic import Discriminator, Field, Tag
 from regkit.config.model import InputPath, Model
 from regkit.geometry.camera import Camera
 
-Positive = Annotated[float, Field(gt=0.0)]
+Positive = Annotated[float, Field(ge=1e-3, le=1e6)]
+Pixel = Annotated[float, Field(ge=-1e6, le=1e6)]
 Pixels = Annotated[int, Field(gt=0, le=4096)]
 
 
@@ -25,9 +26,9 @@ class CameraNumbers(Model):
     """Horizontal focal length [px]."""
     fy: Positive | None = None
     """Vertical focal length [px]; by default equal to ``fx``."""
-    cx: float | None = None
+    cx: Pixel | None = None
     """Column of the principal point [px]; by default the image centre."""
-    cy: float | None = None
+    cy: Pixel | None = None
     """Row of the principal point [px]; by default the image centre."""
     depth_scale: Positive = 1000.0
     """Depth image units per metre: 1000 for millimetres."""

@@ -10,6 +10,7 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from regkit.config.model import Model
+from regkit.config.quantities import Angle, Coordinate, Length
 from regkit.geometry.camera import Camera
 from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import vector_to_matrix
@@ -26,14 +27,14 @@ _MARGIN = 0.03
 class Viewpoint(Model):
     """A camera that looks at the centre of the body's motion, or has a given position."""
 
-    heading_deg: float = 0.0
+    heading_deg: Angle = 0.0
     """Rotation of the motion from the direction to the camera, to the right of the image [deg]."""
     elevation_deg: Annotated[float, Field(ge=-89.0, le=89.0)] = 0.0
     """Downward pitch of the camera [deg]."""
-    distance: Annotated[float, Field(gt=0.0)] | None = None
+    distance: Length | None = None
     """Distance from the camera to the centre of the motion [m]; by default the shortest at which
     the whole body stays in the image."""
-    place: tuple[float, float, float] | None = None
+    place: tuple[Coordinate, Coordinate, Coordinate] | None = None
     """Position of the motion's origin, instead of a ``distance``: right of, below and in front of
     the camera, in the axes of a level camera [m]; pitch rotates the camera in place."""
 

@@ -9,7 +9,7 @@ from typing import Annotated, Any, TypeVar
 from pydantic import BeforeValidator
 
 from regkit.config.document import Document
-from regkit.config.model import Model, Text, did_you_mean
+from regkit.config.model import Model, Text, did_you_mean, path_in
 from regkit.system.errors import ConfigError
 
 M = TypeVar("M", bound=Model)
@@ -22,8 +22,7 @@ def _located(value: Any) -> Any:
     """Returns the absolute path of a user's file, or the name of a shipped map unchanged."""
     if not isinstance(value, str) or not value.endswith((".yaml", ".yml")):
         return value
-    path = Path(value).expanduser()
-    return str(value.folder / path if isinstance(value, Text) else path.absolute())
+    return str(path_in(value.folder if isinstance(value, Text) else Path.cwd(), value))
 
 
 MapName = Annotated[str, BeforeValidator(_located)]

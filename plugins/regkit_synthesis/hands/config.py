@@ -11,6 +11,7 @@ from pydantic import AfterValidator, Field, model_validator
 
 from regkit.config.document import Document
 from regkit.config.model import InputPath, Model
+from regkit.config.quantities import Angle, Duration, Share, Turn
 from regkit_synthesis.assets import ASSETS
 from regkit_synthesis.hands.gestures import Gestures
 from regkit_synthesis.hands.motion import HandMotion
@@ -27,19 +28,19 @@ _FLAT = "handywork/flat"
 class TimedPose(Model):
     """A pose at a time."""
 
-    time: Annotated[float, Field(ge=0.0)]
+    time: Duration
     """Time [s]."""
 
     pose: PoseName
     """Name of a shipped pose."""
 
-    opened: Annotated[float, Field(ge=0.0, le=1.0)] = 0.0
+    opened: Share = 0.0
     """Fraction by which the fingers, except the thumb, are opened towards a flat hand."""
 
     thumb: PoseName | None = None
     """Name of another pose for the thumb; by default the same."""
 
-    thumb_lift_deg: float = 0.0
+    thumb_lift_deg: Turn = 0.0
     """Rotation of the thumb about its base, out of the palm [deg]."""
 
     def hand(self) -> HandPose:
@@ -87,11 +88,11 @@ class GesturesConfig(Model):
     poses: TimedPoses | None = None
     """The poses, in the order of their times."""
 
-    sway: Annotated[float, Field(ge=0.0)] = 1.0
+    sway: Annotated[float, Field(ge=0.0, le=100.0)] = 1.0
     """Amplitude of the palm's oscillation about the centre of the hand, with a period of two
     seconds: 0 for none, 1 for up to 40 degrees."""
 
-    sway_phase_deg: float = 0.0
+    sway_phase_deg: Angle = 0.0
     """Initial phase of the oscillation [deg]; at 0 and 180 the palm faces the camera."""
 
     @model_validator(mode="after")

@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 
 from regkit.config.document import Document
 from regkit.config.model import InputPath, Model
+from regkit.config.quantities import Duration, Factor, Share
 from regkit.system.errors import ConfigError
 from regkit_synthesis.figure.map_files import MapName
 from regkit_synthesis.motion.bvh import read_bvh
@@ -24,13 +25,13 @@ from regkit_synthesis.motion.shipped import BVH, CLIPS, KEYFRAMES, shipped_clip
 class MotionConfig(Model, ABC):
     """A motion and its playback."""
 
-    start: float = Field(default=0.0, ge=0.0)
+    start: Duration = 0.0
     """Start time within the motion [s]."""
 
-    speed: float = Field(default=1.0, gt=0.0)
+    speed: Annotated[float, Field(ge=1e-3, le=1e3)] = 1.0
     """Playback speed; 1 is the recorded speed."""
 
-    way: float = Field(default=1.0, ge=0.0, le=1.0)
+    way: Share = 1.0
     """Fraction of the mean velocity that is kept; with 0 a walk stays in place, as on a
     treadmill."""
 
@@ -110,11 +111,11 @@ class BvhConfig(RecordedConfig):
     path: InputPath | None = None
     """A BVH file."""
 
-    scale: float = Field(default=0.01, gt=0.0)
+    scale: Factor = 0.01
     """Unit of length of the file [m]. Motion is scaled by the length of the legs, so this has an
     effect only if the body's map declares a ``root_scale``."""
 
-    skip: int = Field(default=0, ge=0)
+    skip: Annotated[int, Field(ge=0, le=10_000_000)] = 0
     """Number of frames to skip at the beginning; 1 for files that begin with an added T-pose, such
     as cgspeed's conversion of the CMU recordings."""
 

@@ -11,6 +11,7 @@ from pydantic import Field, field_validator, model_validator
 from scipy.interpolate import PchipInterpolator
 
 from regkit.config.model import Model
+from regkit.config.quantities import Coordinate, Duration
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.system.arrays import Array
 from regkit_synthesis.figure.figure import FIGURE, check_joints
@@ -20,13 +21,13 @@ from regkit_synthesis.motion.motion import Motion, Rig, SourcePose
 _ANKLE = 0.09
 """Height of the ankles of a standing figure [m]."""
 
-Triple = tuple[float, float, float]
+Triple = tuple[Coordinate, Coordinate, Coordinate]
 
 
 class Keyframe(Model):
     """A pose at a time. Joints that it does not name are interpolated between other keyframes."""
 
-    time: float = Field(ge=0.0)
+    time: Duration
     """Time [s]."""
 
     joints: dict[str, Triple] = Field(default_factory=dict)

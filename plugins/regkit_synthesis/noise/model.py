@@ -31,7 +31,7 @@ class DepthNoise(Model):
     """Flying pixels: pixels at edges with a depth between two surfaces."""
     axial: AxialNoise | None = None
     """Axial noise: Gaussian noise of the depth."""
-    inverse_depth_step: Annotated[float, Field(gt=0.0)] | None = None
+    inverse_depth_step: Annotated[float, Field(ge=1e-9, le=1e3)] | None = None
     """Quantisation step of the inverse depth [1/m]: for triangulation, the step of the disparity
     divided by focal length [px] and baseline [m] (Khoshelham and Elberink, Sensors 2012). A
     time-of-flight camera is quantised by the stored units only."""

@@ -8,11 +8,12 @@ import numpy as np
 from pydantic import Field
 
 from regkit.config.model import Model
+from regkit.config.quantities import Length
 from regkit.system.arrays import Array
 from regkit_synthesis.cameras.raycast import View
 from regkit_synthesis.noise.edges import displaced, step_across
 
-NotNegative = Annotated[float, Field(ge=0.0)]
+NotNegative = Annotated[float, Field(ge=0.0, le=1e4)]
 Share = Annotated[float, Field(ge=0.0, le=1.0)]
 
 STEEPEST = np.radians(85.0)
@@ -97,9 +98,9 @@ class FlyingPixels(Model):
 
     share: Share
     """Fraction of the pixels next to a depth step."""
-    jump: Annotated[float, Field(gt=0.0)] = 0.1
+    jump: Length = 0.1
     """Minimum difference between neighbours that counts as a depth step [m]."""
-    reach: Annotated[float, Field(gt=0.0)] = 0.3
+    reach: Length = 0.3
     """Maximum displacement of a flying pixel [m]."""
 
     def applied(self, depth: Array, random: np.random.Generator) -> Array:
@@ -122,7 +123,7 @@ class MissingPixels(Model):
     """Fraction of all pixels."""
     edge_share: Share = 0.0
     """Fraction of the pixels next to a depth step."""
-    jump: Annotated[float, Field(gt=0.0)] = 0.1
+    jump: Length = 0.1
     """Minimum difference between neighbours that counts as a depth step [m]."""
     grazing_deg: Annotated[float, Field(gt=0.0, le=90.0)] = 90.0
     """Angle between ray and normal beyond which pixels are invalid [deg]."""

@@ -72,7 +72,7 @@ def _form(value: Any) -> str:
 
 NoiseChoice = Annotated[
     Annotated[NoiseName, Tag("name")]
-    | Annotated[Annotated[float, Field(ge=0.0)], Tag("sigma")]
+    | Annotated[Annotated[float, Field(ge=0.0, le=100.0)], Tag("sigma")]
     | Annotated[DepthNoise, Tag("model")],
     Discriminator(_form),
 ]

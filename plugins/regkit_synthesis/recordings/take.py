@@ -70,12 +70,12 @@ class Take(Model):
     """The motion: the name of a shipped clip, or a motion by its ``kind``."""
     view: Viewpoint = Viewpoint()
     """The viewpoint of the camera."""
-    frames: Annotated[int, Field(ge=1)] = 60
+    frames: Annotated[int, Field(ge=1, le=100_000)] = 60
     """Number of frames."""
     subject: str | None = None
     """Name of the subject, for experiments with a template per subject; by default the name of a
     shipped body."""
-    markers: dict[str, Annotated[int, Field(ge=0)]] = Field(default_factory=dict)
+    markers: dict[str, Annotated[int, Field(ge=0, le=2**31)]] = Field(default_factory=dict)
     """Additional markers, by name: vertices of the mesh whose true positions are recorded."""
     noise: NoiseChoice | None = None
     """Noise of this take; by default that of the dataset."""

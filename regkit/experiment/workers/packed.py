@@ -22,6 +22,7 @@ from regkit.experiment.lock import FolderLock
 from regkit.experiment.resolved import resolved
 from regkit.experiment.task import Result, Task
 from regkit.system.errors import ConfigError, DataError, DependencyError, RegkitError
+from regkit.system.plugin_code import plugin_code
 
 CHECKED_EVERY = 1.0
 """Interval [s] at which a worker checks that the run still holds its folder."""
@@ -85,7 +86,8 @@ def performed(packed: Packed) -> Result:
     """Runs a task on a worker; errors of any kind become its result."""
     with _ALONE:
         try:
-            task = packed.task()
+            with plugin_code("a plug-in"):
+                task = packed.task()
         except RegkitError as error:
             return error
         try:
@@ -150,8 +152,8 @@ def _run_files(files: tuple[tuple[Path, str], ...]) -> None:
         run_plugin_file(path)
 
 
-class _NotWanted(BaseException):
-    """The run is over; a ``BaseException``, so that no error handler catches it."""
+class _NotWanted(KeyboardInterrupt):
+    """The run is over; an interrupt, so that no error handler catches it."""
 
 
 class _Wanted:

@@ -19,11 +19,12 @@ from pydantic import Field
 
 from regkit.config.document import Document
 from regkit.config.model import Model
+from regkit.config.quantities import Rate
 from regkit.interfaces import Recording
 from regkit.observation import Truth
 from regkit.system.errors import DataError, RegkitError
 
-Positive = Annotated[float, Field(gt=0.0)]
+Positive = Annotated[float, Field(ge=1e-3, le=1e6)]
 
 
 class RecordingDescription(Model):
@@ -31,7 +32,7 @@ class RecordingDescription(Model):
 
     name: Annotated[str, Field(pattern=r"^\w[\w. -]*$")] | None = None
     """Name of the recording; by default that of its folder."""
-    fps: Positive = 30.0
+    fps: Rate = 30.0
     """Frames per second."""
     depth_scale: Positive = 1000.0
     """Depth image units per metre: 1000 for millimetres."""
@@ -64,7 +65,7 @@ def recording_folders(root: Path, content: str) -> list[Path]:
     if not folders:
         raise DataError(
             f"no recording here: neither this folder nor one in it contains '{content}/' "
-            "beside a sequence.yaml",
+            "beside a sequence.yaml; a recording has either depth/ or clouds/",
             place=str(root),
         )
     return folders

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Literal
-
-from pydantic import Field
+from typing import Literal
 
 from regkit.config.model import InputPath
+from regkit.config.quantities import FrameCount, Rate
 from regkit.geometry.camera import Camera
 from regkit.interfaces import Dataset, Recording
 from regkit_plugins.datasets.itop.recording import ItopFiles, ItopRecording
@@ -43,11 +42,11 @@ class Itop(Dataset):
     """Whether to use only the pixels that the labels assign to the person. The labels are valid
     only in manually approved frames (``is_valid``), and all other frames are then left out; with
     the background kept they are included, but their joints are not evaluated."""
-    gap: Annotated[int, Field(ge=1)] = 1
+    gap: FrameCount = 1
     """Maximum increment of the frame number within a recording."""
     mirrored: bool = False
     """Whether images and joints are stored mirrored, and must be flipped."""
-    fps: Annotated[float, Field(gt=0.0)] = 30.0
+    fps: Rate = 30.0
     """Frames per second."""
 
     def found(self) -> list[Recording]:

@@ -28,11 +28,11 @@ class LocalLikelihood(Kernel):
     kind: Literal["local_likelihood"] = "local_likelihood"
     accepts: ClassVar[type[Primitives]] = Gaussians
 
-    neighbours: Annotated[int, Field(ge=1)] = 6
+    neighbours: Annotated[int, Field(ge=1, le=1000)] = 6
     """Number of Gaussians that a point is compared with."""
     outliers: Annotated[float, Field(gt=0.0, lt=1.0)] = 0.5
     """Fraction of outliers in the data, distributed uniformly over the data's bounding box."""
-    flatness: Annotated[float, Field(gt=0.0, le=1.0)] = 0.2
+    flatness: Annotated[float, Field(ge=1e-3, le=1.0)] = 0.2
     """Standard deviation of a data Gaussian along the normal, as a fraction of that along the
     surface; 1 makes it isotropic."""
 

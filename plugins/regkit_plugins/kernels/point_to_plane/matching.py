@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from regkit.config.quantities import Factor
 from regkit.interfaces import Kernel
 from regkit.observation import Observation
 from regkit.primitives import Primitives
@@ -34,13 +35,13 @@ class MatchingKernel(Kernel):
 
     robust: Robust = Robust(loss="tukey")
     """Robust loss of the residuals."""
-    noise: Annotated[float, Field(gt=0.0)] | None = 1.5
+    noise: Factor | None = 1.5
     """Scale of the loss in standard deviations of the data, if ``robust`` has none; null estimates
     it from each frame's residuals. An estimate in every pose would hide a lost limb from a tracker
     that compares energies."""
-    max_correspondence_distance: Annotated[float, Field(gt=0.0)] = 10.0
+    max_correspondence_distance: Factor = 10.0
     """Maximum distance of a pair, in scales of the loss."""
-    angle_deg: Annotated[float, Field(gt=0.0, le=180.0)] | None = None
+    angle_deg: Annotated[float, Field(ge=0.01, le=180.0)] | None = None
     """Maximum angle between the normals of a pair [deg]; it needs normals from the preprocessor."""
     matches: Literal["renewed", "fixed"] = "renewed"
     """Whether correspondences are updated at every evaluation, or fixed at the start of a solution.
@@ -49,7 +50,7 @@ class MatchingKernel(Kernel):
     function of the pose like any other, decreases with each step. If fixed, a solver converges with
     the same correspondences, as in textbook ICP; the method's ``annealing: [0, 0, 0]`` makes three
     iterations of it."""
-    reverse_weight: Annotated[float, Field(ge=0.0)] = 0.0
+    reverse_weight: Annotated[float, Field(ge=0.0, le=1e6)] = 0.0
     """Weight of pairs in the other direction, from each visible surfel to the nearest point; they
     attract parts of the body without data nearby."""
 

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Literal
 
-from pydantic import Field
-
+from regkit.config.quantities import Share
 from regkit.observation import Observation
 from regkit.primitives import Placed
 from regkit.primitives.surfels import Surfels
@@ -28,7 +27,7 @@ class PointToPlane(MatchingKernel):
     normals: Literal["model", "data"] = "model"
     """Planes of the surfels, which rotate with their segments, or of the data, with normals from
     the preprocessor."""
-    point_share: Annotated[float, Field(ge=0.0, le=1.0)] = 0.1
+    point_share: Share = 0.1
     """Fraction of the squared point-to-point distance in the residual, which keeps the ends of
     limbs in place; one is equivalent to point_to_point."""
 

@@ -10,6 +10,7 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from regkit.body import Body
+from regkit.config.quantities import Tolerance
 from regkit.gaussians.cloud_shape import CloudShape
 from regkit.interfaces import (
     Evaluation,
@@ -27,7 +28,7 @@ from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit_plugins.methods.coarse_to_fine.resolutions import Resolution, observations, resolutions
 
-Part = Annotated[float, Field(gt=0.0)]
+Part = Annotated[float, Field(ge=1e-3, le=1e3)]
 
 
 class CoarseToFine(Method):
@@ -50,13 +51,13 @@ class CoarseToFine(Method):
     """Size of the first voxels, as a fraction of the body's size."""
     finest: Part = 1.0
     """Size of the last voxels, as a fraction of the spacing of neighbouring points."""
-    resolutions: Annotated[int, Field(ge=1)] = 6
+    resolutions: Annotated[int, Field(ge=1, le=50)] = 6
     """Number of resolutions, with voxel sizes in geometric progression."""
     width: Part = 2.0
     """Standard deviation of a pair of Gaussians along the surface, in voxels."""
-    searches: Annotated[int, Field(ge=1)] = 10
+    searches: Annotated[int, Field(ge=1, le=1000)] = 10
     """Maximum number of neighbour updates at each resolution."""
-    motion_tolerance: Annotated[float, Field(ge=0.0)] = 0.1
+    motion_tolerance: Tolerance = 0.1
     """The next resolution begins when the root mean square motion of the body's points, in voxels,
     is at most this."""
 

@@ -18,7 +18,7 @@ from regkit.interfaces import (
 from regkit.registration import CoordinatesName
 from regkit_plugins.methods.direct.bound import BoundDirect
 
-Smoothing = Annotated[float, Field(ge=0.0)]
+Smoothing = Annotated[float, Field(ge=0.0, le=1e4)]
 
 
 class Direct(Method):

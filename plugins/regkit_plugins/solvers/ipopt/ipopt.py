@@ -7,6 +7,7 @@ from typing import Annotated, Any, ClassVar, Literal
 import numpy as np
 from pydantic import Field, field_validator
 
+from regkit.config.quantities import Factor, Iterations, Tolerance
 from regkit.interfaces import LimitKeeping, Multipliers, Problem, Solution, Solver
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
@@ -19,7 +20,7 @@ from regkit_plugins.solvers.ipopt.watch import SETTLED, Watch
 SAME = 1e-6
 """Values that differ by less, in units of the mean curvature, belong to the same minimum."""
 
-Tolerance = Annotated[float, Field(gt=0.0)]
+PositiveTolerance = Annotated[float, Field(gt=0.0, le=10.0)]
 
 
 class Ipopt(Solver):
@@ -34,18 +35,18 @@ class Ipopt(Solver):
         hinges="bounds", balls="smooth constraints", hard=True
     )
 
-    max_iterations: Annotated[int, Field(ge=1)] = 100
+    max_iterations: Iterations = 100
     """Maximum number of iterations."""
-    gradient_tolerance: Tolerance = 1e-8
+    gradient_tolerance: PositiveTolerance = 1e-8
     """Converged if the gradient divided by the mean curvature is at most this [rad, m]; for a
     kernel without curvature, the gradient is divided by the value at the start."""
-    value_tolerance: Annotated[float, Field(ge=0.0)] = 1e-5
+    value_tolerance: Tolerance = 1e-5
     """Converged if a step decreases the value by less than this fraction of the total decrease."""
-    constraint_tolerance: Tolerance = 1e-8
+    constraint_tolerance: PositiveTolerance = 1e-8
     """Largest limit violation of a solution [rad]."""
-    max_seconds: Tolerance | None = None
+    max_seconds: Annotated[float, Field(ge=1e-3, le=1e6)] | None = None
     """Maximum time per solution [s], after which the best point within the limits is returned."""
-    reach: Tolerance = 1.0
+    reach: Factor = 1.0
     """Largest change of a variable without bounds in one solution: of the root [m], of a hinge
     without limits [rad], of the components of a quaternion."""
     options: dict[str, bool | int | float | str] = Field(default_factory=dict)

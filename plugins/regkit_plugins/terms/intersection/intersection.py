@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
-from pydantic import Field
 
+from regkit.config.quantities import Weight
 from regkit.interfaces import Response, Scene, Similarity, Term
 from regkit.primitives import Placed, Primitives, Volumes
 from regkit.skeleton import Skeleton
@@ -28,7 +28,7 @@ class Intersection(Term):
     kind: Literal["intersection"] = "intersection"
     accepts: ClassVar[type[Primitives]] = Volumes
 
-    weight: Annotated[float, Field(gt=0.0)] = 0.3
+    weight: Weight = 0.3
     """Weight relative to the kernel's energy."""
 
     def bind(self, scene: Scene) -> BoundIntersection:

@@ -24,7 +24,7 @@ class Visibility(Term):
     accepts: ClassVar[type[Primitives]] = Volumes
     weighs: ClassVar[bool] = True
 
-    least: Annotated[float, Field(gt=0.0, le=1.0)] = 0.05
+    least: Annotated[float, Field(ge=1e-6, le=1.0)] = 0.05
     """Weight of a fully occluded primitive, with which it can become visible again."""
 
     def bind(self, scene: Scene) -> VisibilityWeights:

@@ -10,6 +10,7 @@ from pydantic import Field
 from scipy.spatial import KDTree
 
 from regkit.config.model import Model
+from regkit.config.quantities import FrameCount
 from regkit.interfaces import Evaluation, Past, Registrar, RegistrationResult
 from regkit.observation import Observation
 from regkit.search.limb_search import LimbSearch
@@ -26,15 +27,15 @@ class Recovery(Model):
     body does not explain, and keeps one that fits the frame better.
     """
 
-    samples: Annotated[int, Field(ge=2)] = 500
+    samples: Annotated[int, Field(ge=2, le=100_000)] = 500
     """Number of sampled configurations per limb."""
-    starts: Annotated[int, Field(ge=1)] = 2
+    starts: Annotated[int, Field(ge=1, le=1000)] = 2
     """Number of configurations per limb that are registered."""
     gain: Annotated[float, Field(ge=0.0, lt=1.0)] = 0.01
     """Minimum increase of the mean inlier probability for accepting a new configuration."""
-    alarm: Annotated[float, Field(ge=1.0)] = 1.3
+    alarm: Annotated[float, Field(ge=1.0, le=1e6)] = 1.3
     """Search if the fraction of outliers exceeds the usual one by this factor, plus ``gain``."""
-    every: Annotated[int, Field(ge=1)] = 20
+    every: FrameCount = 20
     """Number of frames between unconditional searches, which begin in the first frame."""
 
     def bind(self, registrar: Registrar) -> BoundRecovery:

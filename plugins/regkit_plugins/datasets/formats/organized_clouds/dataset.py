@@ -15,11 +15,9 @@ from __future__ import annotations
 
 from abc import ABC
 from pathlib import Path
-from typing import Annotated
-
-from pydantic import Field
 
 from regkit.config.model import InputPath
+from regkit.config.quantities import Length, Rate
 from regkit.interfaces import Dataset, Recording
 from regkit.system.errors import DataError
 from regkit_plugins.datasets.formats.axes import Axes
@@ -41,11 +39,11 @@ class OrganizedClouds(Dataset, ABC):
     """Sizes of the parts of a record."""
     axes: Axes = ("x", "-y", "-z")
     """Axes of the data that point right, down and forward from the camera."""
-    fps: Annotated[float, Field(gt=0.0)]
+    fps: Rate
     """Frames per second."""
     camera: bool = True
     """Fit a pinhole camera to the grid of points; otherwise frames are clouds only."""
-    foreground: Annotated[float, Field(gt=0.0)] | None = None
+    foreground: Length | None = None
     """Keep only points that are closer than the largest depth of their pixel by at least this [m].
     People must leave every place where they stood; by default everything is kept."""
 

@@ -12,7 +12,7 @@ from pydantic import Field
 from regkit.config.model import Model
 from regkit.system.errors import DataError
 
-Size = Annotated[int, Field(ge=1)]
+Size = Annotated[int, Field(ge=1, le=65_536)]
 Slots = Annotated[int, Field(ge=0)]
 
 
