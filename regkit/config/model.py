@@ -116,5 +116,8 @@ def _from_its_folder(value: Any) -> Any:
     return Path(value).expanduser().absolute() if isinstance(value, str) else value
 
 
-InputPath = Annotated[Path, BeforeValidator(_from_its_folder)]
-"""A file or folder: relative to the YAML file, or to the working directory."""
+READ = BeforeValidator(_from_its_folder)
+"""Marks the paths of what is read."""
+
+InputPath = Annotated[Path, READ]
+"""A file or folder to read: relative to the YAML file, or to the working directory."""

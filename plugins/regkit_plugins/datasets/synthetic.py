@@ -130,6 +130,14 @@ class SyntheticRecording(Recording):
         (recorded,) = DepthFolders(root=self.folder()).found()
         yield from recorded.frames()
 
+    def input_files(self) -> list[Path]:
+        """Returns no file: the fingerprint covers what is rendered."""
+        return []
+
+    def fingerprint(self) -> str:
+        """Returns the digest of the scene, under which its images are cached."""
+        return digest(self._scene(), self.dataset.seed, self.take.noise_stream)
+
     def truth(self) -> Truth:
         """Returns the exact positions of joints and markers."""
         scene = self._scene()
@@ -137,9 +145,9 @@ class SyntheticRecording(Recording):
 
     def folder(self) -> Path:
         """Returns the depth folder in the cache, rendered on first use."""
-        scene, seed = self._scene(), self.dataset.seed
+        scene = self._scene()
         try:
-            key = digest(scene, seed, self.take.noise_stream)
+            key = digest(scene, self.dataset.seed, self.take.noise_stream)
             return RecordingCache.of_user().entry(key, lambda: self._rendered(scene))
         except RegkitError as error:
             raise self._located(error) from None
