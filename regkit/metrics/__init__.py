@@ -1,5 +1,6 @@
 """Tracking metrics of the literature, and statistics over recordings."""
 
+from regkit.metrics.checked import checked_measure
 from regkit.metrics.joints import JointErrors, joint_errors, matched
 from regkit.metrics.losses import Losses
 from regkit.metrics.measure import PCK_FRACTION, TEN_CM, Measure, mean_of, measured
@@ -16,6 +17,7 @@ __all__ = [
     "Pair",
     "Summary",
     "auc",
+    "checked_measure",
     "compared",
     "fraction_within",
     "joint_errors",
