@@ -145,5 +145,8 @@ def _from_its_folder(value: Any) -> Any:
     return path_in(value.folder if isinstance(value, Text) else Path.cwd(), value)
 
 
-InputPath = Annotated[Path, BeforeValidator(_from_its_folder)]
-"""A file or folder: relative to the YAML file, or to the working directory."""
+READ = BeforeValidator(_from_its_folder)
+"""Marks the paths of what is read."""
+
+InputPath = Annotated[Path, READ]
+"""A file or folder to read: relative to the YAML file, or to the working directory."""

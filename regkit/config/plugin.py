@@ -8,10 +8,11 @@ until it is named, so a broken third-party plug-in can only harm those who name 
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, ClassVar, Self, TypeVar, cast
 
-from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler, TypeAdapter
+from pydantic import BaseModel, Field, GetCoreSchemaHandler, GetJsonSchemaHandler, TypeAdapter
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, core_schema
 
@@ -19,6 +20,7 @@ from regkit.config.complete import check_complete
 from regkit.config.defaults import default_name
 from regkit.config.document import Document
 from regkit.config.former import check_former
+from regkit.config.input_files import input_paths
 from regkit.config.installed import Installed, installed
 from regkit.config.model import Model, did_you_mean
 from regkit.config.preset import YAML, presets_of
@@ -45,6 +47,15 @@ class Plugin(Model):
 
     kind: str
     """Name of the plug-in, equal to its entry-point name."""
+
+    def input_files(self) -> Iterable[Path]:
+        """Returns the files and folders that the plug-in reads, without those of its own package.
+
+        Results are bound to the content of these files: a run is not continued after a change. The
+        default are the paths in fields of the type ``InputPath``; plug-ins within this one answer
+        for themselves. Override it for files that no such field names.
+        """
+        return input_paths(self, Plugin)
 
     @classmethod
     def available(cls) -> dict[str, Installed | type[Self]]:
@@ -147,6 +158,21 @@ class Plugin(Model):
     @classmethod
     def _slot_json_schema(cls, _: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
         return slot_schema(cls, handler)
+
+
+def plugins_in(value: Any, place: str = "") -> Iterator[tuple[str, Plugin]]:
+    """Yields the plug-ins in a configuration with the paths of their fields, also nested ones."""
+    if isinstance(value, Plugin):
+        yield place, value
+    parts: Mapping[Any, Any] = {}
+    if isinstance(value, BaseModel):
+        parts = {name: getattr(value, name) for name in type(value).model_fields}
+    elif isinstance(value, Mapping):
+        parts = value
+    elif isinstance(value, list | tuple):
+        parts = dict(enumerate(value))
+    for name, part in parts.items():
+        yield from plugins_in(part, f"{place}.{name}" if place else str(name))
 
 
 def slot_default(slot: type[Plugin], purpose: str = "", **fields: Any) -> Any:

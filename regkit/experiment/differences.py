@@ -16,6 +16,11 @@ def differences(there: Any, here: Any) -> str:
     return ", ".join(found[:SHOWN]) + (f", and {more} more" if more > 0 else "")
 
 
+def different(there: Any, here: Any) -> list[str]:
+    """Returns the fields in which two configurations differ."""
+    return [field for field, *_ in _all("", there, here)]
+
+
 def _all(field: str, there: Any, here: Any) -> Iterator[tuple[str, str, str]]:
     if isinstance(there, list) and isinstance(here, list):
         there, here = dict(enumerate(there)), dict(enumerate(here))

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-import json
 import os
 import platform
 from contextlib import suppress
 from datetime import datetime
+from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
 from regkit import __version__
 from regkit.experiment.results_format import FORMAT
+from regkit.system.errors import RegkitError
+from regkit.system.files import read_json
 
 LIBRARIES = (
     "numpy",
@@ -36,8 +38,8 @@ def environment(earlier: Path, workers: str) -> dict[str, Any]:
         workers: Description of the current workers, whose frames per second are measured.
     """
     known, begun = [], f"{datetime.now().astimezone():%Y-%m-%d %H:%M %z}"
-    with suppress(OSError, ValueError, KeyError, TypeError):
-        before = json.loads(earlier.read_text(encoding="utf-8"))
+    with suppress(RegkitError, KeyError, TypeError):
+        before = read_json(earlier)
         known, begun = list(before["workers"]), str(before["date"])
     return {
         "date": begun,
@@ -52,8 +54,9 @@ def environment(earlier: Path, workers: str) -> dict[str, Any]:
     }
 
 
+@cache
 def installed(distribution: str) -> str | None:
-    """Returns the version of an installed distribution, or None."""
+    """Returns the version of an installed distribution, or None; a process keeps what it loaded."""
     try:
         return version(distribution)
     except PackageNotFoundError:

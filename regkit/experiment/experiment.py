@@ -43,8 +43,8 @@ Name = Annotated[
 ]
 
 RESERVED = (
-    "config.yaml", "environment.json", "metrics.json", "report.html", "report.md",
-    "starts", "figures", "tables",
+    "config.yaml", "environment.json", "setup.json", "metrics.json", "report.html", "report.md",
+    "inputs", "starts", "figures", "tables",
 )  # fmt: skip
 """Names in a results folder that are not available for methods."""
 

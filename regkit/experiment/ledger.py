@@ -6,11 +6,15 @@ import time
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from regkit.experiment.earlier import EarlierResults
 from regkit.experiment.experiment import Experiment
+from regkit.experiment.opening import Opening
+from regkit.experiment.provenance.setup import Setup
 from regkit.experiment.reporting import report, summarise
 from regkit.experiment.resolved import resolved
 from regkit.experiment.results import Results
 from regkit.experiment.task import Task
+from regkit.interfaces import Recording
 from regkit.metrics import Measure
 from regkit.system.errors import RegkitError
 
@@ -41,52 +45,53 @@ class Ledger:
         experiment: The experiment.
         results: Its results folder.
         methods: Names of the methods in this run.
-        lengths: Number of frames of each recording, by name.
+        recordings: The recordings, by name.
         setting: Name of the experiment within a sweep; empty without one.
     """
 
     experiment: Experiment
     results: Results
     methods: list[str]
-    lengths: dict[str, int]
+    recordings: dict[str, Recording]
     setting: str = ""
     _measures: dict[Track, Measure] = field(default_factory=dict)
     _failures: dict[Track, str] = field(default_factory=dict)
     _due: float = 0.0
 
-    def open(self, workers: str) -> None:
-        """Creates the folder of an experiment within the folder of its sweep.
+    @property
+    def opening(self) -> Opening:
+        """The experiment's folder, to be opened."""
+        setup = Setup.of(self.experiment)
+        return Opening(self.results.folder, resolved(self.experiment), self.experiment, setup)
 
-        Raises:
-            RegkitError: If it holds other results.
-        """
-        self.results.folder.mkdir(exist_ok=True)
-        Results.opened(self.results.folder, resolved(self.experiment), workers)
-
-    def read(self) -> Iterator[tuple[str, RegkitError]]:
-        """Reads the existing results and yields failures; damaged results count as failures.
+    def read(self, moved: str = "") -> EarlierResults:
+        """Reads the existing results, and returns them to keep what they tell of the recordings.
 
         Earlier failures of methods outside this run are included.
+
+        Args:
+            moved: Paths that differ from those of an earlier start of the run, in a few words.
+
+        Raises:
+            ConfigError: If paths in the configuration differ, and the content there too.
         """
-        failed = self.results.failures()
-        for method in self.experiment.methods:
-            for recording in self.lengths:
-                track = (method, recording)
-                try:
-                    measure = self.results.finished(method, recording)
-                except RegkitError as error:
-                    self._failures[track] = str(error)
-                    yield self._task(recording, method).label, error
-                else:
-                    if measure is not None:
-                        self._measures[track] = measure
-                    elif method not in self.methods and recording in failed.get(method, {}):
-                        self._failures[track] = failed[method][recording]
+        earlier = EarlierResults(self.experiment, self.results, self.methods, self.setting, moved)
+        failed = earlier.failures()
+        for recording in self.recordings.values():
+            measures = earlier.measures(recording)
+            for method in self.experiment.methods:
+                track = (method, recording.name)
+                if method in measures:
+                    self._measures[track] = measures[method]
+                elif method not in self.methods and recording.name in failed.get(method, {}):
+                    self._failures[track] = failed[method][recording.name]
+        earlier.tell_others(list(self.recordings))
+        return earlier
 
     def tracks(self) -> Iterator[tuple[Task, list[Task]]]:
         """Yields each recording's preparation with its unfinished tracks."""
         known = self._measures.keys() | self._failures.keys()
-        for recording in self.lengths:
+        for recording in self.recordings:
             missing = [method for method in self.methods if (method, recording) not in known]
             if missing:
                 opening = self._task(recording, missing[0], opening=True)
@@ -95,17 +100,17 @@ class Ledger:
     @property
     def planned(self) -> int:
         """Returns the number of tracks in this run."""
-        return len(self.methods) * len(self.lengths)
+        return len(self.methods) * len(self.recordings)
 
     def frames(self, task: Task) -> int | None:
         """Returns the number of frames that a task reports."""
-        return None if task.method is None else self.lengths[task.recording]
+        return None if task.method is None else self.recordings[task.recording].length
 
     @property
     def finished(self) -> int:
         """Returns the number of tracks in this run that are finished or have failed already."""
         known = self._measures.keys() | self._failures.keys()
-        return sum((m, s) in known for m in self.methods for s in self.lengths)
+        return sum((m, s) in known for m in self.methods for s in self.recordings)
 
     def ended(self, task: Task, result: Measure | RegkitError) -> None:
         """Records the result of a track."""
@@ -124,9 +129,9 @@ class Ledger:
         measures: dict[str, dict[str, Measure]] = {}
         failures: dict[str, dict[str, str]] = {}
         for method in self.experiment.methods:
-            found = {s: self._measures[t] for s in self.lengths
+            found = {s: self._measures[t] for s in self.recordings
                      if (t := (method, s)) in self._measures}  # fmt: skip
-            failed = {s: self._failures[t] for s in self.lengths
+            failed = {s: self._failures[t] for s in self.recordings
                       if (t := (method, s)) in self._failures}  # fmt: skip
             if found or failed or method in self.methods:
                 measures[method], failures[method] = found, failed

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
-from regkit.config.document import Document
-from regkit.config.yaml_source import yaml_source
+from regkit.experiment.provenance import manifest
+from regkit.experiment.provenance.contents import Contents
 from regkit.experiment.results import Results
 from regkit.experiment.results_format import check_format
+from regkit.experiment.stated import read_config, read_environment
+from regkit.experiment.summary_file import SummaryFile
 from regkit.metrics import Measure
 from regkit.report import Run, write_report, write_summary
 from regkit.system.errors import DataError
 from regkit.system.links import check_links
+from regkit.system.notes import note
 
 Measures = Mapping[str, Mapping[str, Measure]]
 """Metrics by method and recording; a method of a sweep is named ``SETTING/METHOD``."""
@@ -54,11 +55,7 @@ def report(
     """
     results = Results(folder)
     records = {
-        method: {
-            recording: record
-            for recording in by_recording
-            if (record := results.record(method, recording)) is not None
-        }
+        method: {recording: results.record(method, recording) for recording in by_recording}
         for method, by_recording in measures.items()
     }
     run = replace(_run(folder, measures, failures), records=records, chosen=tuple(pairs))
@@ -73,7 +70,8 @@ def found(folder: Path) -> tuple[dict[str, dict[str, Measure]], dict[str, dict[s
     by those that neither contains.
 
     Raises:
-        DataError: If it is not a results folder, has another format, or a file is damaged.
+        DataError: If it is not a results folder, has another format, or a file is damaged. A track
+            of other data than the recording's latest is told and left out.
     """
     if not folder.exists():
         raise DataError("there is no such folder; name the results of a run", place=str(folder))
@@ -85,50 +83,39 @@ def found(folder: Path) -> tuple[dict[str, dict[str, Measure]], dict[str, dict[s
         )
     check_links(folder)
     check_format(folder)
-    results, metrics = Results(folder), folder / "metrics.json"
-    written_metrics = _json(metrics).get("methods", {}) if metrics.exists() else {}
-    config = Document.read(folder / "config.yaml").data
-    named = [] if "sweep" in config else config.get("methods", {})
-    written = [path.parent.relative_to(folder) for path in sorted(folder.rglob("measure.json"))]
+    results, listed = Results(folder), SummaryFile.read(folder)
+    config = read_config(folder)
+    named = [] if "sweep" in config else config["methods"]
+    written = [path.parent.relative_to(folder) for path in sorted(folder.rglob(manifest.FILE))]
     measures: dict[str, dict[str, Measure]] = {}
     failures: dict[str, dict[str, str]] = {}
+    failed, contents = listed.failures(), Contents(folder)
     for method in dict.fromkeys(
-        [*named, *written_metrics, *(one.parent.as_posix() for one in written)]
+        [*named, *listed.methods, *(one.parent.as_posix() for one in written)]
     ):
-        recordings = written_metrics.get(method, {}).get("recordings", {})
+        recordings = listed.methods[method].recordings if method in listed.methods else {}
         own = [one.name for one in written if one.parent.as_posix() == method]
         measures[method], failures[method] = {}, {}
         for recording in dict.fromkeys([*recordings, *own]):
-            measure = results.finished(method, recording)
+            measure = None
+            if recording in own and contents.current(method, recording):
+                measure = results.finished(method, recording)
             if measure is not None:
                 measures[method][recording] = measure
-            elif "error" in recordings.get(recording, {}):
-                failures[method][recording] = recordings[recording]["error"]
+            elif recording in failed.get(method, {}):
+                failures[method][recording] = failed[method][recording]
+            elif recording not in own:
+                note(f"{method} on {recording} was finished and is missing; the report leaves it "
+                     "out", place=folder)  # fmt: skip
     return measures, failures
 
 
 def _run(folder: Path, measures: Measures, failures: Failures) -> Run:
-    config = folder / "config.yaml"
     return Run(
-        config=Document.read(config).data,
-        text=yaml_source(config),
-        environment=_json(folder / "environment.json"),
+        config=read_config(folder),
+        text=(folder / "config.yaml").read_text(encoding="utf-8"),
+        environment=read_environment(folder),
         measures=measures,
         failures=failures,
         records={},
     )
-
-
-def _json(file: Path) -> dict[str, Any]:
-    """Returns a JSON object from a file.
-
-    Raises:
-        DataError: If it is missing or damaged.
-    """
-    try:
-        data = json.loads(file.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise DataError(f"missing or damaged ({error})", place=str(file)) from None
-    if not isinstance(data, dict):
-        raise DataError("damaged: it holds no JSON object", place=str(file))
-    return data

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 from regkit import __version__
-from regkit.system.errors import DataError
+from regkit.system.errors import DataError, RegkitError
+from regkit.system.files import read_json
 
-FORMAT = 2
+FORMAT = 3
 """Incremented when a file, field or metric in results folders is renamed or redefined.
 
-Format 1 is that of regkit 0.1, which did not record the number.
+Format 1 is that of regkit 0.1, which did not record the number. Format 3 binds results to their
+inputs by digests and checksums, which those of format 2 lack.
 """
 
 
@@ -27,11 +28,12 @@ def check_format(folder: Path) -> None:
     if not file.is_file():
         return
     try:
-        environment = json.loads(file.read_text(encoding="utf-8"))
+        environment = read_json(file)
         written, author = int(environment.get("format", 1)), str(environment["regkit"])
-    except (OSError, ValueError, TypeError, KeyError, AttributeError) as error:
+    except (RegkitError, ValueError, TypeError, KeyError, AttributeError) as error:
+        reason = error.message if isinstance(error, RegkitError) else error
         raise DataError(
-            f"damaged ({error}); the file records the format of the results. Run the experiment "
+            f"damaged ({reason}); the file records the format of the results. Run the experiment "
             "again in another folder",
             place=str(file),
         ) from None

@@ -9,6 +9,7 @@ from regkit.config.model import did_you_mean
 from regkit.experiment.experiment import Experiment
 from regkit.experiment.ledger import Ledger, Outcome
 from regkit.experiment.lock import locked
+from regkit.experiment.opening import Opening
 from regkit.experiment.progress import Progress, Silent
 from regkit.experiment.reporting import report, summarise
 from regkit.experiment.results import Results
@@ -16,6 +17,7 @@ from regkit.experiment.sweeps.study import Study
 from regkit.experiment.workers.packed import check_shared
 from regkit.experiment.workers.team import ThisProcess, Workers
 from regkit.experiment.workers.working import work
+from regkit.interfaces import Recording
 from regkit.system.errors import ConfigError
 
 REPORTING = "writing the report"
@@ -62,10 +64,7 @@ def run(
         raise ConfigError("this is a file, not a folder", place=str(folder))
     with workers.team() as team, locked(folder) as lock:
         team.serve(lock)
-        Results.opened(folder, study.config(), workers.described)
-        if study.lists:
-            for ledger in ledgers:
-                ledger.open(workers.described)
+        _open(study, folder, ledgers, workers.described)
         try:
             work(ledgers, team, progress)
         finally:
@@ -83,6 +82,23 @@ def run(
     return outcome
 
 
+def _open(study: Study, folder: Path, ledgers: list[Ledger], workers: str) -> None:
+    """Opens the folder, and those of a sweep's experiments within it, and reads their results.
+
+    Raises:
+        RegkitError: If one cannot be continued; then none is changed.
+    """
+    openings = [ledger.opening for ledger in ledgers]
+    if study.lists:
+        openings.insert(0, Opening(folder, study.config(), ledgers[0].experiment, None))
+    moved = [opening.check() for opening in openings][-len(ledgers) :]
+    earlier = [ledger.read(told) for ledger, told in zip(ledgers, moved, strict=True)]
+    for opening in openings:
+        opening.write(workers)
+    for results in earlier:
+        results.keep()
+
+
 def _ledgers(study: Study, folder: Path, only: tuple[str, ...]) -> list[Ledger]:
     """Returns the state of each experiment before the run.
 
@@ -93,16 +109,16 @@ def _ledgers(study: Study, folder: Path, only: tuple[str, ...]) -> list[Ledger]:
     ledgers: list[Ledger] = []
     for name, one in study.experiments.items():
         if ledgers and one.dataset == ledgers[-1].experiment.dataset:
-            lengths = ledgers[-1].lengths
+            recordings = ledgers[-1].recordings
         else:
             with study.located(name):
-                lengths = _lengths(one)
-        ledgers.append(Ledger(one, Results(folder / name), methods, lengths, name))
+                recordings = _recordings(one)
+        ledgers.append(Ledger(one, Results(folder / name), methods, recordings, name))
     return ledgers
 
 
-def _lengths(experiment: Experiment) -> dict[str, int]:
-    """Returns the number of frames of each recording, by name."""
+def _recordings(experiment: Experiment) -> dict[str, Recording]:
+    """Returns the recordings by name."""
     recordings = experiment.dataset.chosen()
     unknown = experiment.subjects.keys() - {recording.subject for recording in recordings}
     if unknown:
@@ -115,7 +131,7 @@ def _lengths(experiment: Experiment) -> dict[str, int]:
                 + did_you_mean(name, known),
                 place=f"subjects.{name}",
             )
-    return {recording.name: recording.length for recording in recordings}
+    return {recording.name: recording for recording in recordings}
 
 
 def _chosen(known: list[str], only: tuple[str, ...]) -> list[str]:

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
-import json
+from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Self
 
 import numpy as np
+from pydantic import TypeAdapter
 
+from regkit.interfaces import Template
 from regkit.skeleton import Pose
 from regkit.start import Start
-from regkit.system.errors import DataError
+from regkit.system.digests import data_digest
+from regkit.system.errors import DataError, RegkitError
 from regkit.system.files import write_json
+from regkit.system.guard import reading
+from regkit.system.notes import note
 from regkit.tracking import Session
 
 
@@ -19,38 +25,87 @@ def start_file(folder: Path, recording: str) -> Path:
     return folder / "starts" / f"{recording}.json"
 
 
-def kept_start(session: Session, folder: Path) -> Start:
+@dataclass(frozen=True)
+class StoredStart:
+    """A start as stored; JSON keeps floating-point numbers to the last bit.
+
+    Attributes:
+        inputs: Digest of the recording's content in which it was found.
+        size: Size of the body [m].
+        root: T_camera_root (4, 4) [m].
+        balls: Unit quaternions of the ball joints (n_ball, 4).
+        hinges: Hinge angles (n_hinge,) [rad].
+        checksum: Digest of the other fields.
+    """
+
+    inputs: str
+    size: float
+    root: list[list[float]]
+    balls: list[list[float]]
+    hinges: list[float]
+    checksum: str = ""
+
+    @classmethod
+    def of(cls, start: Start, inputs: str) -> Self:
+        """Returns a start in the form in which it is stored."""
+        pose = start.pose
+        arrays = (pose.root.tolist(), pose.balls.tolist(), pose.hinges.tolist())
+        plain = cls(inputs, float(start.body.size), *arrays)
+        return cls(**asdict(plain) | {"checksum": plain.digest()})
+
+    @classmethod
+    def read(cls, file: Path) -> Self:
+        """Returns the stored start.
+
+        Raises:
+            DataError: If it is missing, damaged, or not what was written.
+        """
+        with reading(file, "a start"):
+            stored: Self = TypeAdapter(cls).validate_json(file.read_bytes())
+            if stored.checksum != stored.digest():
+                raise DataError("damaged: it is not what the run wrote")
+            return stored
+
+    def digest(self) -> str:
+        """Returns the digest of all fields but the checksum."""
+        return data_digest(asdict(self) | {"checksum": ""})
+
+    def start(self, template: Template) -> Start:
+        """Returns the start of a template's body."""
+        body = template.body(self.size)
+        rest = body.skeleton.rest()
+        pose = Pose(
+            np.array(self.root, dtype=float).reshape(rest.root.shape),
+            np.array(self.balls, dtype=float).reshape(rest.balls.shape),
+            np.array(self.hinges, dtype=float).reshape(rest.hinges.shape),
+        )
+        return Start(body, pose)
+
+
+def kept_start(session: Session, folder: Path, inputs: str) -> Start:
     """Returns the session's given start, the stored one, or a newly found one.
 
-    JSON stores floating-point numbers exactly, so a stored start equals the found one to the last
-    bit.
+    A stored start of other content, or a damaged one, is found again.
+
+    Args:
+        session: The recording with its template.
+        folder: The results folder.
+        inputs: Digest of the recording's content.
 
     Raises:
-        RegkitError: If no start is found, or the stored one is damaged.
+        RegkitError: If no start is found.
     """
     if session.start is not None:
         return session.begin()
     file = start_file(folder, session.recording.name)
-    if not file.exists():
-        found = session.begin()
-        kept = {
-            "size": float(found.body.size),
-            "root": found.pose.root.tolist(),
-            "balls": found.pose.balls.tolist(),
-            "hinges": found.pose.hinges.tolist(),
-        }
-        write_json(file, kept)
-    try:
-        kept = json.loads(file.read_text(encoding="utf-8"))
-        body = session.template.body(kept["size"])
-        rest = body.skeleton.rest()
-        pose = Pose(
-            np.array(kept["root"], dtype=float).reshape(rest.root.shape),
-            np.array(kept["balls"], dtype=float).reshape(rest.balls.shape),
-            np.array(kept["hinges"], dtype=float).reshape(rest.hinges.shape),
-        )
-    except (ValueError, TypeError, KeyError) as error:
-        raise DataError(
-            f"damaged ({error}); delete the file to find the start again", place=str(file)
-        ) from None
-    return Start(body, pose)
+    if file.exists():
+        try:
+            stored = StoredStart.read(file)
+        except RegkitError as error:
+            note(f"{error.message}; the start is found again", place=file)
+        else:
+            if stored.inputs == inputs:
+                return stored.start(session.template)
+    found = StoredStart.of(session.begin(), inputs)
+    write_json(file, asdict(found))
+    return found.start(session.template)

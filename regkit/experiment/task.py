@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from glob import escape
 from pathlib import Path
 
 from regkit.experiment.experiment import Experiment
+from regkit.experiment.provenance.recording import RecordingInputs, kept_inputs, prepared_inputs
+from regkit.experiment.provenance.setup import Setup
 from regkit.experiment.results import Results
 from regkit.experiment.starts import kept_start, start_file
 from regkit.interfaces import Registrar
@@ -64,10 +67,9 @@ class Task:
         results = Results(self.folder)
         try:
             with one_thread(), plugin_code(f"a plug-in of {self.label}"):
+                Setup.of(self.experiment).check(self.folder, part=True)
                 if self.method is not None:
-                    finished = results.finished(self.method, self.recording)
-                    # A worker may have died after writing the files, before returning the result.
-                    return finished or self._tracked(results, self.method, each_frame)
+                    return self._tracked(results, self.method, each_frame)
                 self._made_ready()
                 return None
         except Exception as error:
@@ -81,7 +83,8 @@ class Task:
         kept = start_file(self.folder, self.recording)
         remove_unfinished(kept.parent, escape(kept.name))
         session = self._session()
-        start = kept_start(session, self.folder)
+        inputs = kept_inputs(self.folder, session.recording, self.experiment.dataset)
+        start = kept_start(session, self.folder, inputs.digest)
         truth = self._truth(session)
         if truth is not None:
             # Report a misspelt joint or a wrong unit before hours of computing, not after them.
@@ -95,7 +98,13 @@ class Task:
     def _tracked(self, results: Results, name: str, each_frame: Callable[[], None]) -> Measure:
         remove_unfinished(results.recording_folder(name, self.recording))
         session = self._session()
-        start = kept_start(session, self.folder)
+        inputs = prepared_inputs(self.folder, session.recording, self.experiment.dataset)
+        with suppress(RegkitError):
+            # A worker may have died after writing the files, before returning the result.
+            finished = results.finished(name, self.recording, inputs.digest)
+            if finished is not None:
+                return finished
+        start = kept_start(session, self.folder, inputs.digest)
         method = self.experiment.methods[name]
         registrar = method.bind(start.body)
         recorder = TrackRecorder(session, registrar)
@@ -103,17 +112,22 @@ class Task:
         for frame in session.tracked(registrar, tracker, start.pose):
             recorder.add(frame)
             each_frame()
-        return self._recorded(results, name, session, registrar, recorder)
+        return self._recorded(results, name, session, inputs, registrar, recorder)
 
     def _recorded(
         self,
         results: Results,
         name: str,
         session: Session,
+        inputs: RecordingInputs,
         registrar: Registrar,
         recorder: TrackRecorder,
     ) -> Measure:
-        """Computes the metrics of a track, draws its overlay and writes its files."""
+        """Computes the metrics of a track, draws its overlay and writes its files.
+
+        Raises:
+            RegkitError: If the data or the setup have changed while the recording was tracked.
+        """
         track, body, truth = recorder.track(), registrar.body, self._truth(session)
         errors = None
         if truth is not None:
@@ -121,7 +135,9 @@ class Task:
         fps = session.recording.fps
         measure = measured(track, body, errors, fps)
         record = Record.of(track, recorder.snapshot, registrar, errors, truth, fps)
-        results.write(name, self.recording, track, body, measure, record)
+        Setup.of(self.experiment).check(self.folder, part=True)
+        inputs.check(session.recording, self.experiment.dataset)
+        results.write(name, self.recording, inputs.digest, track, body, measure, record)
         return measure
 
     def _session(self) -> Session:

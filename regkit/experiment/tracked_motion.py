@@ -3,44 +3,52 @@
 from __future__ import annotations
 
 import os
-import zipfile
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import TypeAdapter
 
 from regkit.body import Body
 from regkit.config.document import Document
+from regkit.experiment.provenance import manifest
+from regkit.experiment.provenance.manifest import Manifest
+from regkit.experiment.provenance.setup import Setup
 from regkit.experiment.results_format import check_format
 from regkit.geometry.rigid import rigid
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.interchange.motion import TrackedMotion
 from regkit.interfaces import Template
 from regkit.skeleton import Pose
+from regkit.system.archives import read_arrays
 from regkit.system.arrays import Array
-from regkit.system.errors import ConfigError, DataError
+from regkit.system.errors import ConfigError, DataError, RegkitError
 from regkit.system.links import check_links
+from regkit.system.notes import note
 
-NEEDED = ("root", "balls", "hinges", "markers", "size")
+MOVING = ("root", "balls", "hinges", "markers")
+NEEDED = (*MOVING, "size")
 """Arrays of ``poses.npz`` that define a motion."""
 
 SAME = 1e-6
-"""Tolerance [m] between stored markers and those of the body from the configuration."""
+"""Tolerance [m] between stored markers and those of the body."""
 
 
 def read_tracked_motion(folder: Path, fps: float | None = None) -> TrackedMotion:
-    """Returns the motion in ``RESULTS/METHOD/RECORDING``, with its body from the configuration.
+    """Returns the motion in ``RESULTS/METHOD/RECORDING``, with its body from ``setup.json``.
+
+    The bones and markers of the run's templates are in the results; a mesh is read from its place,
+    if it is still that of the run.
 
     Args:
         folder: The folder of a finished recording.
         fps: Frames per second; by default those of the recording.
 
     Raises:
-        RegkitError: If there is no finished recording, or the template has changed since.
+        RegkitError: If there is no finished track, or a file of it is damaged.
     """
     results = Path(os.path.abspath(folder)).parent.parent  # noqa: PTH100 - links must remain.
     if (results / "config.yaml").exists():
@@ -49,14 +57,24 @@ def read_tracked_motion(folder: Path, fps: float | None = None) -> TrackedMotion
     check_format(results)
     given = _fps(folder, arrays) if fps is None else fps
     name = f"{folder.resolve().parent.name} {folder.resolve().name}"
-    for template in _templates(results / "config.yaml"):
-        body = template.body(float(arrays["size"]))
+    setup, size = Setup.read(results), float(arrays["size"])
+    for field in setup.templates:
+        template = _present(results, field, setup)
+        body = setup.body(field, name, size) if template is None else template.body(size)
         transforms = _placed(body, arrays)
         if transforms is not None:
-            return TrackedMotion(name, body, transforms, given, _skin(template, body))
+            skin = None
+            if template is not None:
+                skin = _skin(template, body)
+            elif setup.files:
+                note(
+                    "the template's files are missing or have changed since the run; the motion is "
+                    "exported with the run's bones and markers, without mesh and surface",
+                    place=str(results),
+                )
+            return TrackedMotion(name, body, transforms, given, skin)
     raise DataError(
-        "the template has changed since these poses were estimated; run the experiment again",
-        place=str(folder),
+        "no template of the run has these markers; run the experiment again", place=str(folder)
     )
 
 
@@ -78,25 +96,37 @@ def _placed(body: Body, arrays: Mapping[str, NDArray[Any]]) -> Array | None:
 
 
 def _arrays(folder: Path) -> dict[str, NDArray[Any]]:
-    """Returns the arrays of ``poses.npz``.
+    """Returns the arrays of ``poses.npz`` of a finished track, whose files are intact.
 
     Raises:
-        ConfigError: If the file does not exist.
-        DataError: If it is damaged.
+        ConfigError: If there is no finished track.
+        DataError: If it is damaged, or of another format.
     """
-    file = folder / "poses.npz"
-    if not file.is_file():
-        others = sorted(folder.glob("**/poses.npz"))
+    results = folder.resolve().parents[1] if len(folder.resolve().parents) > 1 else folder
+    if not (folder / "poses.npz").is_file() and not (folder / manifest.FILE).is_file():
+        others = sorted(folder.glob(f"**/{manifest.FILE}"))
         hint = f"; there are: {', '.join(str(other.parent) for other in others)}" if others else ""
-        lack = "no poses.npz is here" if folder.exists() else "there is no such folder"
+        lack = "no finished track is here" if folder.exists() else "there is no such folder"
         raise ConfigError(
             f"{lack}; give the folder of a finished recording, RESULTS/METHOD/RECORDING{hint}",
             place=str(folder),
         )
-    arrays = _read(file)
+    check_format(results)
+    track = Manifest.read(folder)
+    if track is None:
+        raise ConfigError(
+            f"the track is not finished ({manifest.FILE} is missing); continue the run",
+            place=str(folder),
+        )
+    track.check(folder)
+    file = folder / "poses.npz"
+    arrays = read_arrays(file, "the poses of regkit run")
     missing = [name for name in NEEDED if name not in arrays]
     if missing:
         raise DataError(f"lacks the arrays {', '.join(missing)}", place=str(file))
+    frames = len(arrays["root"])
+    if not all(len(arrays[name]) == frames and np.isfinite(arrays[name]).all() for name in MOVING):
+        raise DataError(f"damaged: not {frames} finite poses", place=str(file))
     return arrays
 
 
@@ -107,7 +137,7 @@ def _fps(folder: Path, arrays: Mapping[str, NDArray[Any]]) -> float:
         ConfigError: If the results do not contain it.
     """
     record = folder / "record.npz"
-    source = _read(record) if "fps" not in arrays and record.is_file() else arrays
+    source = arrays if "fps" in arrays else read_arrays(record, "a record of regkit run")
     if "fps" not in source:
         raise ConfigError(
             f"the results in {folder} do not contain the frames per second; give them",
@@ -116,27 +146,15 @@ def _fps(folder: Path, arrays: Mapping[str, NDArray[Any]]) -> float:
     return float(source["fps"])
 
 
-def _read(file: Path) -> dict[str, NDArray[Any]]:
-    try:
-        with np.load(file) as content:
-            return {key: content[key] for key in content.files}
-    except (OSError, ValueError, EOFError, zipfile.BadZipFile) as error:
-        raise DataError(f"damaged ({error})", place=str(file)) from None
-
-
-def _templates(config: Path) -> tuple[Template, ...]:
-    """Returns the templates of an experiment's configuration, without validating the rest.
-
-    Raises:
-        RegkitError: If there is none, or one is invalid.
-    """
-    document = Document.read(config)
-    if "template" not in document.data:
-        raise ConfigError("there is no template; this is not a results folder", place=str(config))
-    subjects: dict[str, Template] = {}
-    if "subjects" in document.data:
-        subjects = document.field("subjects", TypeAdapter(dict[str, Template]).validate_python)
-    return (Template.of(document, "template"), *subjects.values())
+def _present(results: Path, field: str, setup: Setup) -> Template | None:
+    """Returns the template in ``config.yaml``, if it is still that of the run."""
+    with suppress(RegkitError, KeyError, TypeError):
+        document = Document.read(results / "config.yaml")
+        head, _, subject = field.partition(".")
+        data = document.data[head][subject] if subject else document.data[head]
+        template = Template.of(Document({head: data}, document.places), head)
+        return template if setup.holds(field, template) else None
+    return None
 
 
 def _skin(template: Template, body: Body) -> SkinnedMesh | None:

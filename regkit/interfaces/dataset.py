@@ -11,6 +11,7 @@ from typing import Any, ClassVar
 
 from pydantic import Field
 
+from regkit.config.input_files import paths_in
 from regkit.config.model import did_you_mean
 from regkit.config.plugin import Plugin
 from regkit.config.quantities import FrameCount
@@ -80,6 +81,26 @@ class Recording(ABC):
             DataError: If the reference is damaged.
         """
 
+    def input_files(self) -> Iterable[Path] | None:
+        """Returns the files that the frames and the reference joints are read from.
+
+        Results on the recording are bound to their content: after a change they are done again.
+        The default, None, stands for all files that the dataset's configuration names, with the
+        content of folders.
+        """
+        return None
+
+    def fingerprint(self) -> str:
+        """Returns a text that changes with the content of the recording beyond its files.
+
+        A recording that is computed returns the digest of what it is computed from; the
+        configuration and the version of the plug-in need not be part of it. The default is empty.
+
+        Raises:
+            RegkitError: If what it is computed from is missing or damaged.
+        """
+        return ""
+
 
 SHOWN = 5
 """Maximum number of recordings in a message."""
@@ -113,6 +134,10 @@ class Dataset(Plugin, ABC):
         Raises:
             DataError: If there is none, or one is damaged.
         """
+
+    def input_files(self) -> Iterable[Path]:
+        """Returns all paths in the configuration: a dataset only reads."""
+        return paths_in(self, Plugin)
 
     def wanted(self, name: str) -> bool:
         """Returns whether a recording is used; others need not be read."""

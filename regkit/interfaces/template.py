@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,7 @@ import numpy as np
 
 from regkit.body import Body, BodyDescription
 from regkit.clouds.reading import READABLE
+from regkit.config.input_files import paths_in
 from regkit.config.plugin import Plugin
 from regkit.config.preset import YAML
 
@@ -34,6 +36,11 @@ class Template(Plugin, ABC):
         Raises:
             RegkitError: If the file is missing or invalid.
         """
+
+    def input_files(self) -> Iterable[Path]:
+        """Returns all paths in the configuration, and the mesh of the description."""
+        mesh = self.description().mesh
+        return [*paths_in(self, Plugin), *([] if mesh is None else [mesh])]
 
     @abstractmethod
     def given_size(self) -> float | None:

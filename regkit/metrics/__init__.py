@@ -1,5 +1,6 @@
 """Tracking metrics of the literature, and statistics over recordings."""
 
+from regkit.metrics.checked import checked_measure
 from regkit.metrics.joints import JointErrors, joint_errors
 from regkit.metrics.losses import Losses
 from regkit.metrics.matching import check_unit, matched, tell_unmatched
@@ -19,6 +20,7 @@ __all__ = [
     "Summary",
     "auc",
     "check_unit",
+    "checked_measure",
     "compared",
     "fraction_within",
     "joint_errors",

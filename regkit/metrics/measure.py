@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, fields
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
+from pydantic import Field, Strict
 
 from regkit.body import Body
 from regkit.metrics.joints import JointErrors
@@ -25,9 +26,17 @@ AUC_FRACTION = 2.0 * PCK_FRACTION
 """The largest threshold of the AUC as a fraction of the body's size: 20 cm for a tall person."""
 
 
+Positive = Annotated[float, Field(gt=0.0)]
+Amount = Annotated[float, Field(ge=0.0)]
+Percent = Annotated[float, Field(ge=0.0, le=100.0)]
+Fraction = Annotated[float, Field(ge=0.0, le=1.0)]
+
+
 @dataclass(frozen=True)
 class Measure:
     """Metrics of one tracked recording; a metric that is not defined is None.
+
+    The bounds of the fields are those of ``checked_measure``.
 
     Attributes:
         joint_error_raw_cm: Mean distance between markers and reference joints.
@@ -59,29 +68,30 @@ class Measure:
         reason: Why it is doubtful or lost, or how many frames have no data; None if neither.
     """
 
-    joint_error_raw_cm: float | None
-    joint_error_adjusted_cm: float | None
-    within_10cm_percent: float | None
-    within_10cm_adjusted_percent: float | None
-    pck_percent: float | None
-    auc_percent: float | None
-    auc_adjusted_percent: float | None
-    frames: float | None
-    lost_frames: float | None
-    recovery_s: float | None
-    lost_at_end: float | None
-    unconverged_frames: float | None
-    found_percent: float | None
-    inlier_percent: float | None
-    coverage_percent: float | None
-    frames_without_data: float | None
-    surface_distance_mm: float | None
-    limit_violation_deg: float | None
-    evaluations_per_frame: float | None
-    preprocessing_ms: float | None
-    registering_ms: float | None
-    fps: float | None
-    verdict: Verdict | None = None
+    joint_error_raw_cm: Amount | None
+    joint_error_adjusted_cm: Amount | None
+    within_10cm_percent: Percent | None
+    within_10cm_adjusted_percent: Percent | None
+    pck_percent: Percent | None
+    auc_percent: Percent | None
+    auc_adjusted_percent: Percent | None
+    frames: Positive | None
+    lost_frames: Amount | None
+    recovery_s: Positive | None
+    lost_at_end: Fraction | None
+    unconverged_frames: Amount | None
+    found_percent: Percent | None
+    inlier_percent: Percent | None
+    coverage_percent: Percent | None
+    frames_without_data: Amount | None
+    surface_distance_mm: Amount | None
+    limit_violation_deg: Amount | None
+    evaluations_per_frame: Amount | None
+    preprocessing_ms: Amount | None
+    registering_ms: Amount | None
+    fps: Positive | None
+    # JSON holds the verdict as text.
+    verdict: Annotated[Verdict, Strict(strict=False)] | None = None
     reason: str | None = None
 
     def to_dict(self) -> dict[str, Any]:

@@ -149,16 +149,30 @@ class FrameDrawing:
 
         Raises:
             KeyError: If an array is missing.
+            ValueError: If an array has a wrong shape.
         """
-        many = {name: np.asarray(array, dtype=float) for name, array in named.items()
-                if array.dtype == np.float32}  # fmt: skip
-        primitives = ("centres", "axes", "scales", "weights", "halves", "radii", "surfaces")
-        own = ("points", "bones", "markers", "reference")
+
+        def many(name: str, *shape: int) -> Array:
+            return np.asarray(named[name], dtype=float).reshape(-1, *shape)
+
+        surfaces = np.asarray(named["surfaces"], dtype=float)
         return cls(
             frame=int(named["frame"]),
             why=str(named["why"]),
-            primitives=DrawnPrimitives(str(named["kind"]), *(many[name] for name in primitives)),
-            **{name: many[name] for name in own},
+            primitives=DrawnPrimitives(
+                kind=str(named["kind"]),
+                centres=many("centres", 3),
+                axes=many("axes", 3, 3),
+                scales=many("scales", 3),
+                weights=many("weights"),
+                halves=many("halves"),
+                radii=many("radii", 2),
+                surfaces=surfaces.reshape(len(surfaces), -1, 3) if surfaces.size else surfaces,
+            ),
+            points=many("points", 3),
+            bones=many("bones", 2, 3),
+            markers=many("markers", 3),
+            reference=many("reference", 3),
         )
 
 

@@ -18,6 +18,9 @@ from regkit.tracking import Snapshot, Track, Verdict
 
 Arrays = dict[str, np.ndarray[Any, Any]]
 
+PER_FRAME = ("surface_distances", "seconds", "preprocessing", "evaluations")
+"""Arrays with a value for each frame."""
+
 
 @dataclass(frozen=True)
 class Record:
@@ -129,11 +132,19 @@ class Record:
 
         Raises:
             KeyError: If an array is missing.
+            ValueError: If an array has another shape than the others.
         """
+        frames = len(named["seconds"])
+        for name in PER_FRAME:
+            if named[name].shape != (frames,):
+                raise ValueError(f"'{name}' has the shape {named[name].shape} of {frames} frames")
         errors = None
         if "joints" in named:
             joints = tuple(str(joint) for joint in named["joints"])
-            errors = JointErrors(joints, named["raw"], named["adjusted"])
+            errors = JointErrors(joints, *(
+                np.asarray(named[name], dtype=float).reshape(frames, len(joints))
+                for name in ("raw", "adjusted")
+            ))  # fmt: skip
         drawings: list[FrameDrawing] = []
         while any(name.startswith(prefix := f"drawing{len(drawings)}_") for name in named):
             own = {

@@ -1,4 +1,4 @@
-"""Atomic writing of files."""
+"""Atomic writing of files, and reading of JSON."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ import numpy as np
 
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
+from regkit.system.guard import reading
 
 
 @contextmanager
@@ -50,6 +51,16 @@ def write_text(path: Path, text: str) -> None:
 def write_json(path: Path, data: Any) -> None:
     """Writes ``data`` as indented JSON, atomically; NaN is not allowed and must be None."""
     write_text(path, json.dumps(data, indent=2, allow_nan=False) + "\n")
+
+
+def read_json(path: Path) -> Any:
+    """Returns the content of a JSON file.
+
+    Raises:
+        DataError: If it is missing or damaged.
+    """
+    with reading(path, "a JSON file"):
+        return json.loads(path.read_text(encoding="utf-8"))
 
 
 def write_arrays(path: Path, arrays: Mapping[str, Array | np.ndarray[Any, Any]]) -> None:

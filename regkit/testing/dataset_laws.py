@@ -9,6 +9,7 @@ import pytest
 
 from regkit.interfaces import Dataset, Recording
 from regkit.testing.laws import Laws
+from regkit.testing.opened import opened_files
 from regkit.testing.verdict import require, same
 
 FRAMES = 2
@@ -102,6 +103,35 @@ class DatasetLaws(Laws):
             dataset, f"yields other frames of '{first.name}' when it is read again",
             look_at=type(first).frames,
         )  # fmt: skip
+
+    def test_dataset_lists_the_files_that_it_reads(
+        self, dataset: Dataset, recordings: list[Recording]
+    ) -> None:
+        """Results are bound to them: a file that is not listed could change unseen."""
+        named = [path.absolute() for path in dataset.input_files()]
+        for recording in recordings[:RECORDINGS]:
+            at = type(recording).input_files
+            with opened_files() as opened:
+                list(recording.frames())
+                recording.truth()
+            given = recording.input_files()
+            listed = named if given is None else [path.absolute() for path in given]
+            for path in listed:
+                require(
+                    path.exists(), dataset, f"lists a file of '{recording.name}' that is not "
+                    f"there: {path}", look_at=at,
+                )  # fmt: skip
+            own = [path for path in opened if any(path.is_relative_to(one) for one in named)]
+            missed = [path for path in own if not any(path.is_relative_to(one) for one in listed)]
+            require(
+                not missed, dataset, f"does not list a file that '{recording.name}' reads: "
+                f"{missed[:1]}", look_at=at,
+            )  # fmt: skip
+            require(
+                recording.fingerprint() == recording.fingerprint(), dataset,
+                f"gives another fingerprint of '{recording.name}' when it is asked again",
+                look_at=type(recording).fingerprint,
+            )  # fmt: skip
 
     def test_dataset_reads_some_frames_as_it_reads_all(
         self, dataset: Dataset, recordings: list[Recording]

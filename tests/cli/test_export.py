@@ -6,10 +6,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from messages import tells
 from small_experiment import QUICK
 
 from regkit.body import BodyDescription
 from regkit.config.document import Document
+from regkit.experiment.provenance.manifest import Manifest
 from regkit.interchange.bvh.bvh import Bvh
 from regkit.interchange.gltf.gltf import RiggedBody
 from regkit_plugins.templates.human import Human
@@ -28,6 +30,14 @@ def tracked(regkit, files) -> Path:
 def markers(folder: Path) -> dict[str, np.ndarray]:
     with np.load(folder / "poses.npz") as arrays:
         return dict(zip(arrays["marker_names"], arrays["markers"][0], strict=True))
+
+
+def rewrite(file: Path, **changed: object) -> None:
+    """Change arrays of a finished track's file, and its checksum with it; None removes one."""
+    with np.load(file) as arrays:
+        kept = {name: arrays[name] for name in arrays.files if name not in changed}
+    np.savez(file, **kept, **{name: one for name, one in changed.items() if one is not None})
+    Manifest.of(file.parent, "").write(file.parent)
 
 
 def test_all_formats_hold_the_tracked_motion(regkit, tmp_path, tracked):
@@ -72,45 +82,45 @@ def test_frames_per_second_can_be_given(regkit, tmp_path, tracked):
 
 
 def test_results_without_a_rate_need_one(regkit, tmp_path, tracked):
-    with np.load(tracked / "poses.npz") as arrays:
-        kept = {name: arrays[name] for name in arrays.files if name != "fps"}
-    np.savez(tracked / "poses.npz", **kept)
-    (tracked / "record.npz").unlink(missing_ok=True)
+    rewrite(tracked / "record.npz", fps=None)
     ended = regkit("export", tracked, "--to", tmp_path / "motion.bvh")
     assert ended.code == 1
     assert ended.err.startswith("error: --fps: ")
     assert "frames" in ended.err
     assert regkit("export", tracked, "--to", tmp_path / "motion.bvh", "--fps", 5).code == 0
-    np.savez(tracked / "record.npz", fps=20.0)
+    rewrite(tracked / "record.npz", fps=20.0)
     assert regkit("export", tracked, "--to", tmp_path / "motion.bvh").code == 0
     assert Bvh.read(tmp_path / "motion.bvh").frame_time == pytest.approx(0.05)
 
 
-def test_poses_of_another_template_are_refused(regkit, tmp_path, tracked):
-    config = tracked.parents[1] / "config.yaml"
-    text = config.read_text()
-    config.write_text(text.replace("kind: human\n  build: average\n  height: 1.7", "kind: hand"))
+def test_poses_of_no_template_of_the_run_are_refused(regkit, tmp_path, tracked):
+    with np.load(tracked / "poses.npz") as arrays:
+        rewrite(tracked / "poses.npz", markers=arrays["markers"] + 0.01)
     ended = regkit("export", tracked, "--to", tmp_path / "motion.bvh")
     assert ended.code == 1
-    assert "the template has changed since these poses" in ended.err
-    config.write_text(text.replace("kind: human\n", "kind: humn\n"))
-    ended = regkit("export", tracked, "--to", tmp_path / "motion.bvh")
-    assert ended.code == 1
-    assert "config.yaml:" in ended.err
-    assert "did you mean 'human'?" in ended.err
+    assert tells(ended.err, at=str(tracked), of=("template", "markers"))
 
 
-def test_the_template_of_a_subject_is_found(regkit, tmp_path, tracked):
-    config = tracked.parents[1] / "config.yaml"
-    human = "kind: human\n  build: average\n  height: 1.7"
-    others = (
-        "kind: hand\nsubjects: {her: {kind: human, height: 1.6}, him: {kind: human, height: 1.7}}"
-    )
-    assert human in config.read_text()
-    text = config.read_text().replace("subjects: {}\n", "")
-    config.write_text(text.replace(human, others))
-    ended = regkit("export", tracked, "--to", tmp_path / "motion.bvh")
+@pytest.mark.filterwarnings("default::regkit.system.notes.RegkitWarning")
+def test_motion_is_exported_without_the_templates_files(regkit, tmp_path, files):
+    """The results hold what is needed of the template but for its mesh, which is told."""
+    shipped, mesh = Human().description().mesh, "human_mesh.npz"
+    assert shipped is not None
+    for name in ("human.yaml", mesh):
+        shutil.copy(shipped.with_name(name), tmp_path / name)
+    template = f"template={{kind: file, path: {tmp_path}/human.yaml, size: 1.7}}"
+    ended = regkit("run", files.experiment, "--out", files.out, *QUICK, "--set", template)
     assert ended.code == 0, ended.err
+    track = files.out / "gsog" / "first"
+    whole, alone = (tmp_path / name for name in ("whole.bvh", "alone.bvh"))
+    assert regkit("export", track, "--to", whole).err == ""
+    (tmp_path / mesh).unlink()
+    ended = regkit("export", track, "--to", alone)
+    assert ended.code == 0, ended.err
+    assert ended.err.startswith("warning: ")
+    assert whole.read_text() == alone.read_text()
+    (tmp_path / "human.yaml").unlink()
+    assert regkit("export", track, "--to", tmp_path / "alone.glb").code == 0
 
 
 def test_what_is_no_result_is_refused(regkit, tmp_path, tracked):
@@ -124,7 +134,7 @@ def test_what_is_no_result_is_refused(regkit, tmp_path, tracked):
     shutil.copytree(tracked, copy)
     ended = regkit("export", copy, "--to", tmp_path / "motion.bvh")
     assert ended.code == 1
-    assert f"{tmp_path / 'other' / 'config.yaml'}: there is no such file" in ended.err
+    assert f"{tmp_path / 'other' / 'setup.json'}: there is no such file" in ended.err
     (tracked / "poses.npz").write_bytes(b"PK")
     ended = regkit("export", tracked, "--to", tmp_path / "motion.bvh")
     assert ended.code == 1

@@ -96,7 +96,7 @@ def test_damaged_record_is_told(regkit, results):
     ended = regkit("report", results)
     assert ended.code == 1
     assert ended.err.startswith(f"error: {damaged}: damaged")
-    assert "delete measure.json beside it" in ended.err
+    assert "continue the run" in ended.err
 
 
 def test_record_of_a_recording_is_small(results):

@@ -87,8 +87,12 @@ def test_faulty_solver_breaks_its_law(faulty, old, new, law, expected):
          lambda laws, made, found:
             laws.test_dataset_truth_has_a_row_for_each_frame(made, found),
          "has two reference joints with the same name in 'lump'"),
+        ("return self.files", "return self.files[:1]",
+         lambda laws, made, found:
+            laws.test_dataset_lists_the_files_that_it_reads(made, found),
+         "does not list a file that 'lump' reads"),
     ],
-    ids=["frames", "length", "millimetres", "joints"],
+    ids=["frames", "length", "millimetres", "joints", "files"],
 )  # fmt: skip
 def test_faulty_dataset_breaks_its_law(faulty, tmp_path, old, new, law, expected):
     made = faulty("dataset", "dataset.py", old, new, root=tmp_path)

@@ -30,6 +30,9 @@ def written_by(done, folder: Path, version: str, number: int | None) -> Path:
     if number is None:
         del environment["format"]
     file.write_text(json.dumps(environment))
+    setup = json.loads((folder / "setup.json").read_text())
+    setup["versions"]["regkit"] = version
+    (folder / "setup.json").write_text(json.dumps(setup))
     return folder
 
 
@@ -63,10 +66,16 @@ def test_results_of_another_format_are_refused(regkit, done, tmp_path, version, 
     assert {path: path.stat().st_mtime_ns for path in folder.rglob("*")} == before
 
 
-def test_results_of_another_version_and_the_same_format_are_used(regkit, done, tmp_path):
+def test_results_of_another_version_and_the_same_format_are_read_and_not_continued(
+    regkit, done, tmp_path
+):
     folder = written_by(done, tmp_path / "results", "0.2.9", FORMAT)
-    for command in commands(done, folder):
+    run, *others = commands(done, folder)
+    for command in others:
         assert regkit(*command).code == 0
+    ended = regkit(*run)
+    assert ended.code == 1
+    assert f"regkit is 0.2.9 there and {__version__} here" in ended.err
 
 
 def test_damaged_format_is_told(regkit, done, tmp_path):

@@ -31,13 +31,14 @@ def done(tmp_path_factory) -> Files:
 
 
 def test_run_writes_what_is_documented(done):
-    for name in ("config.yaml", "environment.json", "metrics.json", "report.md", "report.html"):
+    whole = ("config.yaml", "environment.json", "setup.json", "metrics.json", "report.md")
+    for name in (*whole, "report.html", "inputs/first.json", "inputs/second.json"):
         assert (done.out / name).is_file()
     expected = {
         f"{method}/{recording}/{name}"
         for method in ("sog", "gsog")
         for recording in ("first", "second")
-        for name in ("measure.json", "poses.npz", "record.npz", "overlay.png")
+        for name in ("checksums.json", "measure.json", "poses.npz", "record.npz", "overlay.png")
     }
     assert set(done.written()) == expected
     assert not list(done.out.rglob(".*"))

@@ -13,6 +13,7 @@ from regkit.interfaces import Dataset, Recording
 from regkit.observation import Frame, Truth
 from regkit_plugins.datasets.formats.recording_folders import (
     RecordingDescription,
+    existing,
     numbered_files,
     read_truth,
     recordings_in,
@@ -70,6 +71,11 @@ class CloudRecording(Recording):
         for index in sorted(set(indices)):
             path = self.files[index]
             yield index, Frame(read_cloud(path), place=str(path))
+
+    def input_files(self) -> list[Path]:
+        """Returns the frames' files, and those beside them that exist."""
+        beside = existing(self.folder, "sequence.yaml", "truth.csv")
+        return [*self.files, *beside]
 
     def truth(self) -> Truth | None:
         """Returns the joints of ``truth.csv``, or None without it."""

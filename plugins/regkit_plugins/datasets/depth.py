@@ -15,6 +15,7 @@ from regkit.observation.depth_image import read_depth
 from regkit.system.errors import DataError
 from regkit_plugins.datasets.formats.recording_folders import (
     RecordingDescription,
+    existing,
     numbered_files,
     read_truth,
     recordings_in,
@@ -76,6 +77,11 @@ class DepthRecording(Recording):
             except DataError as error:
                 raise error.at(str(path)) from None
             yield index, Frame(points, camera, depth, place=str(path))
+
+    def input_files(self) -> list[Path]:
+        """Returns the frames' files, and those beside them that exist."""
+        beside = existing(self.folder, "sequence.yaml", "camera.json", "truth.csv")
+        return [*self.files, *beside]
 
     def truth(self) -> Truth | None:
         """Returns the joints of ``truth.csv``, or None without it."""

@@ -137,6 +137,10 @@ class Pdt13Recording(Recording):
             place = f"{self.depth_file}: frame {index}"
             yield Frame(camera.back_projected(depth), camera, depth, place=place)
 
+    def input_files(self) -> list[Path]:
+        """Returns both files, the second one if it exists."""
+        return [self.depth_file, *([self.joint_file] if self.joint_file.is_file() else [])]
+
     def truth(self) -> Truth | None:
         """Returns the reference positions; non-finite or all-zero ones count as unseen."""
         if not self.joint_file.exists():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
@@ -131,6 +132,14 @@ class SyntheticRecording(Recording):
         (recorded,) = DepthFolders(root=self.folder()).found()
         yield from recorded.frames()
 
+    def input_files(self) -> list[Path]:
+        """Returns no file: the fingerprint covers what is rendered."""
+        return []
+
+    def fingerprint(self) -> str:
+        """Returns the digest of the scene, under which its images are cached."""
+        return self._key
+
     def truth(self) -> Truth:
         """Returns the exact positions of joints and markers."""
         scene = self._scene()
@@ -138,12 +147,16 @@ class SyntheticRecording(Recording):
 
     def folder(self) -> Path:
         """Returns the depth folder in the cache, rendered on first use."""
-        scene, seed = self._scene(), self.dataset.seed
+        key = self._key
         try:
-            key = digest(scene, seed, self.take.noise_stream)
-            return RecordingCache.of_user().entry(key, lambda: self._rendered(scene))
+            return RecordingCache.of_user().entry(key, lambda: self._rendered(self._scene()))
         except RegkitError as error:
             raise self._located(error) from None
+
+    @cached_property
+    def _key(self) -> str:
+        """The digest of the scene as this recording renders it."""
+        return digest(self._scene(), self.dataset.seed, self.take.noise_stream)
 
     def _scene(self) -> Scene:
         try:

@@ -100,6 +100,10 @@ class UtdRecording(Recording):
             except DataError as error:
                 raise error.at(place) from None
 
+    def input_files(self) -> list[Path]:
+        """Returns both files, the second one if it exists."""
+        return [self.depth_file, *([self.skeleton_file] if self.skeleton_file.is_file() else [])]
+
     def truth(self) -> Truth | None:
         """Returns the Kinect's joints in the camera's frame, with x flipped like the images.
 

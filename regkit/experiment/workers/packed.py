@@ -2,25 +2,22 @@
 
 from __future__ import annotations
 
-import hashlib
 import time
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from threading import Lock
 from typing import Any
 
-from pydantic import BaseModel
-
 from regkit import __version__
 from regkit.config.document import Document
-from regkit.config.plugin import Plugin
+from regkit.config.plugin import plugins_in
 from regkit.config.registry import from_file, plugin_files, run_plugin_file
 from regkit.experiment.experiment import Experiment
 from regkit.experiment.lock import FolderLock
 from regkit.experiment.resolved import resolved
 from regkit.experiment.task import Result, Task
+from regkit.system.digests import file_digest
 from regkit.system.errors import ConfigError, DataError, DependencyError, RegkitError
 from regkit.system.plugin_code import plugin_code
 
@@ -77,7 +74,7 @@ class Packed:
         for path in self.plugins:
             if not path.is_file():
                 raise DataError("the worker does not see this file", place=str(path))
-        _run_files(tuple((path, _digest(path)) for path in self.plugins))
+        _run_files(tuple((path, file_digest(path)) for path in self.plugins))
         experiment = Document(self.config, {(): "on a worker"}).validated(Experiment)
         return Task(experiment, self.folder, self.recording, self.method, self.setting)
 
@@ -119,7 +116,7 @@ def check_shared(experiment: Experiment) -> None:
     Raises:
         ConfigError: If one exists in this process only.
     """
-    for plugin in _plugins_in(experiment):
+    for _, plugin in plugins_in(experiment):
         origin = type(plugin).available().get(plugin.kind)
         installed = origin is not None and not isinstance(origin, type)
         if not installed and not from_file(type(plugin)):
@@ -127,22 +124,6 @@ def check_shared(experiment: Experiment) -> None:
                 f"the plug-in '{plugin.kind}' was registered in this process, and workers do not "
                 "know it; move it to a plug-in file or an installed package, or run without workers"
             )
-
-
-def _plugins_in(value: Any) -> Iterator[Plugin]:
-    if isinstance(value, Plugin):
-        yield value
-    if isinstance(value, BaseModel):
-        value = [getattr(value, name) for name in type(value).model_fields]
-    if isinstance(value, dict):
-        value = list(value.values())
-    if isinstance(value, list | tuple):
-        for item in value:
-            yield from _plugins_in(item)
-
-
-def _digest(path: Path) -> str:
-    return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 @lru_cache(maxsize=1)

@@ -16,9 +16,6 @@ def work(ledgers: list[Ledger], team: Team, progress: Progress) -> None:
     Raises:
         RegkitError: If all workers are lost.
     """
-    for ledger in ledgers:
-        for label, error in ledger.read():
-            progress.end(label, 0, error)
     progress.planned(
         sum(ledger.planned for ledger in ledgers), sum(ledger.finished for ledger in ledgers)
     )

@@ -111,6 +111,11 @@ def numbered_files(folder: Path, suffixes: tuple[str, ...]) -> list[Path]:
     return files
 
 
+def existing(folder: Path, *names: str) -> list[Path]:
+    """Returns those of the named files that the folder holds."""
+    return [folder / name for name in names if (folder / name).is_file()]
+
+
 def read_truth(path: Path, length: int) -> Truth | None:
     """Returns the reference joints of the first ``length`` frames; None if the file is missing.
 

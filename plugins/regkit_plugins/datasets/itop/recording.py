@@ -130,6 +130,10 @@ class ItopRecording(Recording):
                 place = f"{self.files.images}: data[{index}]"
                 yield Frame(camera.back_projected(depth), camera, depth, place=place)
 
+    def input_files(self) -> list[Path]:
+        """Returns both files, which all recordings share."""
+        return [self.files.images, self.files.labels]
+
     def truth(self) -> Truth | None:
         """Returns the joints of the valid frames; the others are NaN."""
         indices = list(self.indices[: self.length])

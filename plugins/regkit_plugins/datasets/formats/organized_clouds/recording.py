@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -57,6 +58,10 @@ class OrganizedRecording(Recording):
             points, seen = points[grid.turned], seen[grid.turned]
             depth = np.where(seen, points[..., 2], 0.0)
             yield Frame(points[seen], grid.camera, depth, place=place)
+
+    def input_files(self) -> list[Path]:
+        """Returns the file."""
+        return [self.file.path]
 
     def truth(self) -> Truth | None:
         """Returns the markers by their names, and the joints as ``joint_0``, ``joint_1``, ...

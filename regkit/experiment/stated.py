@@ -1,0 +1,53 @@
+"""What a results folder states of its run, for the report: its configuration and its machine."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict
+
+from regkit.config.document import Document
+from regkit.system.files import read_json
+from regkit.system.guard import reading
+
+
+class _Config(BaseModel):
+    """The parts of a configuration that the report reads; plug-ins need not be installed."""
+
+    model_config = ConfigDict(extra="allow")
+
+    name: str
+    methods: dict[str, dict[str, Any]]
+
+
+class _Environment(BaseModel):
+    """The parts of ``environment.json`` that the report reads."""
+
+    model_config = ConfigDict(extra="allow")
+
+    libraries: dict[str, str] = {}
+
+
+def read_config(folder: Path) -> dict[str, Any]:
+    """Returns ``config.yaml`` of a results folder, with the parts that the report reads.
+
+    Raises:
+        RegkitError: If it is missing or damaged.
+    """
+    document = Document.read(folder / "config.yaml")
+    document.validated(_Config)
+    return document.data
+
+
+def read_environment(folder: Path) -> dict[str, Any]:
+    """Returns ``environment.json`` of a results folder.
+
+    Raises:
+        DataError: If it is missing or damaged.
+    """
+    file = folder / "environment.json"
+    with reading(file, "an environment of regkit run"):
+        data: dict[str, Any] = read_json(file)
+        _Environment.model_validate(data)
+        return data
