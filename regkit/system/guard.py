@@ -31,6 +31,9 @@ def reading(path: Path | str, what: str) -> Iterator[None]:
         yield
     except RegkitError as error:
         raise error.at(str(path)) from None
+    except Warning:
+        # A note that the user turns into an error is not damage.
+        raise
     except FileNotFoundError:
         raise DataError("there is no such file", place=str(path)) from None
     except IsADirectoryError:
