@@ -1,6 +1,7 @@
 """``regkit align``: what it prints and writes, and how it ends."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -184,3 +185,28 @@ def test_rigid_method_on_a_jointed_body_is_told(regkit, tmp_path):
     assert "method 'open3d_icp' is rigid, but the template 'human' has 15 segm" in ended.err
     report = (tmp_path / "out" / "report.md").read_text()
     assert "is rigid, but the template 'human' has 15 segments" in report
+
+
+def test_printed_matrix_moves_far_points_as_the_result_does(regkit, tmp_path, lump):
+    """Coordinates of maps are millions of metres, where six decimals of a rotation are metres."""
+    points = 20.0 * lump + [539_700.0, 4_065_700.0, 10.0]
+    centre = points.mean(axis=0)
+    about = rigid(np.eye(3), centre) @ rigid(vector_to_matrix(np.array([0, 0, 0.05])), np.ones(3))
+    truth = about @ rigid(np.eye(3), -centre)
+    files = [tmp_path / "source.csv", tmp_path / "target.csv"]
+    for file, cloud in zip(files, (points, transformed(truth, points)), strict=True):
+        write_cloud(file, cloud)
+    ended = regkit("align", *files, "--voxel", "0")
+    # The matrix stands in the table or below it.
+    numbers = re.findall(r"-?\d+\.\d+", ended.out.split("T_target_source")[-1])[:16]
+    printed = np.array(numbers, dtype=float).reshape(4, 4)
+    moved = transformed(printed, points)
+    # The object is 9 m large, and the method stops within a few millimetres.
+    assert np.abs(moved - transformed(truth, points)).max() < 5e-3
+    found = json.loads(regkit("align", *files, "--voxel", "0", "--json").out)
+    given = transformed(np.array(found["T_target_source"]), points)
+    assert np.abs(moved - given).max() < 2e-4
+    # The printed matrix is also a start.
+    (tmp_path / "start.txt").write_text(" ".join(numbers))
+    again = regkit("align", *files, "--start", tmp_path / "start.txt", "--voxel", "0", "--json")
+    assert json.loads(again.out)["fitness_at_start"] == 1.0

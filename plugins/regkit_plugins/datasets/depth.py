@@ -16,9 +16,9 @@ from regkit.system.errors import DataError
 from regkit_plugins.datasets.formats.recording_folders import (
     RecordingDescription,
     numbered_files,
-    read_truth,
     recordings_in,
 )
+from regkit_plugins.datasets.formats.truth_file import read_truth
 
 
 class DepthFolders(Dataset):
