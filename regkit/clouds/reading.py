@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
+
 from regkit.clouds.formats.gltf import read_gltf
 from regkit.clouds.formats.mesh import surface_points
 from regkit.clouds.formats.obj import read_obj
@@ -14,7 +16,7 @@ from regkit.clouds.formats.ply import read_ply
 from regkit.clouds.formats.stl import read_stl
 from regkit.clouds.formats.text import read_text
 from regkit.system.archives import read_arrays
-from regkit.system.arrays import Array, Indices, checked_points, measured_points
+from regkit.system.arrays import Array, Indices, measured_points, without_missing
 from regkit.system.errors import DataError
 from regkit.system.guard import reading
 
@@ -44,7 +46,7 @@ def read_cloud(path: Path) -> Array:
         DataError: If the file is missing, damaged, empty, ambiguous or of an unknown format, or if
             all its points are missing measurements.
     """
-    return checked_points(_stored(path), place=str(path))
+    return without_missing(_stored(path), place=str(path))
 
 
 def read_measured(path: Path) -> Array:
@@ -70,7 +72,8 @@ def _stored(path: Path) -> Array:
             f"{' '.join(READABLE)}",
             place=place,
         )
-    with reading(path, f"a {suffix} file of points"):
+    # Casting a signalling NaN would warn; it is a missing measurement like any other.
+    with reading(path, f"a {suffix} file of points"), np.errstate(invalid="ignore"):
         if suffix == ".npz":
             points = _archived(path)
         elif suffix == ".pcd":

@@ -27,7 +27,24 @@ def read_only(values: ArrayLike) -> Array:
 
 
 def checked_points(points: ArrayLike, *, place: str | None = None) -> Array:
-    """Returns the measured points (N, 3) [m] of points from a user or a file.
+    """Returns points (N, 3) [m] that must all be finite, such as those of a frame.
+
+    Raises:
+        DataError: If the shape is not (N, 3), or a coordinate is not finite or absurdly large.
+    """
+    array = np.asarray(points, dtype=np.float64)
+    if len(measured_points(array, place=place)) < len(array):
+        bad = np.flatnonzero(~np.isfinite(array).all(axis=1))
+        raise DataError(
+            f"{len(bad)} of {len(array)} points have a NaN or infinite coordinate, first at "
+            f"point {bad[0]}: {array[bad[0]].tolist()}; remove them",
+            place=place,
+        )
+    return array
+
+
+def without_missing(points: ArrayLike, *, place: str | None = None) -> Array:
+    """Returns the measured points (M, 3) [m] of points (N, 3) from a user or a file.
 
     Sensors write NaN or infinity where they measured nothing; such rows are dropped, and told.
 

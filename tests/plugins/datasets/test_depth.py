@@ -16,6 +16,7 @@ from regkit_plugins.datasets.depth import DepthFolders
 
 SMALL = Camera(width=24, height=18, fx=20.0, fy=22.0, cx=11.5, cy=8.5)
 FRAMES = 3
+CASES = Path(__file__).parents[2] / "cases"
 
 
 def plane(frame: int = 0) -> np.ndarray:
@@ -256,3 +257,15 @@ def test_damaged_frame_does_not_harm_those_before_it(recording):
     assert len(next(frames).points)
     with pytest.raises(DataError):
         next(frames)
+
+
+@pytest.mark.parametrize("name", ["walk_rows_3x3", "by_rows_flat"])
+def test_matrix_by_rows_puts_the_points_where_the_body_is(name):
+    """Read by columns, the principal point is the corner, and the body a metre to the side."""
+    (recording,) = DepthFolders(root=CASES / "11-intrinsics" / name).chosen()
+    truth = recording.truth()
+    for index, frame in enumerate(recording.frames()):
+        centre = frame.points.mean(axis=0)
+        joints = [0.0, 0.0] if truth is None else np.nanmean(truth.positions[index], axis=0)[:2]
+        np.testing.assert_allclose(centre[:2], joints, atol=0.15)
+        assert (frame.camera.cx, frame.camera.cy) != (0.0, 0.0)

@@ -10,6 +10,9 @@ from regkit.clouds.formats.text.delimiter import Delimiter
 from regkit.system.errors import DataError
 from regkit.system.notes import note
 
+_LABEL = re.compile(r"^\w+:\s+")
+"""A word before the names in a comment, such as ``columns:``."""
+
 
 def named_columns(
     path: Path,
@@ -37,29 +40,31 @@ def named_columns(
         above = above[:-1]
     for number, line in [*above[-1:], *reversed(comments)]:
         place = f"{path}:{number}"
-        for names in _names(line, delimiter, cells):
-            try:
-                columns = columns_named(names, units)
-            except ValueError as error:
-                raise DataError(str(error), place=place) from None
-            if columns is None:
-                continue
+        try:
+            named = [
+                (names, columns)
+                for names in _names(line, delimiter, cells)
+                if (columns := columns_named(names, units)) is not None
+            ]
+        except ValueError as error:
+            raise DataError(str(error), place=place) from None
+        for names, columns in named:
             if len(names) == width:
                 _tell_passed(path, [at for at, _ in above if at < number])
                 return columns
-            # Comments above the numbers often list the names of the first columns only.
-            if (number, line) not in comments or columns.indices != (0, 1, 2):
-                raise DataError(
-                    f"the header names {len(names)} columns, but line {first} has {width}, "
-                    f"separated by {delimiter}",
-                    place=place,
-                )
-            return columns
+        # Comments often name the first columns only; three columns are x, y and z in any case.
+        certain = width == 3 or all(columns.indices == (0, 1, 2) for _, columns in named)
+        if named and not ((number, line) in comments and certain):
+            raise DataError(
+                f"the header names {len(named[0][0])} columns, but line {first} has {width}, "
+                f"separated by {delimiter}",
+                place=place,
+            )
     if above:
         number, line = above[-1]
-        named = ", ".join(delimiter.cells(line))
+        shown = ", ".join(delimiter.cells(line))
         raise DataError(
-            f"the header names no x, y and z; it names: {named[:200]}", place=f"{path}:{number}"
+            f"the header names no x, y and z; it names: {shown[:200]}", place=f"{path}:{number}"
         )
     return None
 
@@ -69,11 +74,14 @@ def _names(line: str, delimiter: Delimiter, row: list[str]) -> list[list[str]]:
 
     A trailing delimiter in the rows or the header adds an empty cell.
     """
+    # The brackets of a unit belong to the name before them.
+    line = re.sub(r"\s+(?=[\[(])", "", line)
     own = delimiter.cells(line)
     if len(own) == len(row) - 1 and not row[-1]:
         own = [*own, ""]
     elif len(own) == len(row) + 1 and not own[-1]:
         own = own[:-1]
+    line = _LABEL.sub("", line)
     loose = [name for name in re.split(r"[\s,;|]+", line.strip()) if name]
     return [own, loose]
 

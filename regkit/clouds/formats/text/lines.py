@@ -25,7 +25,8 @@ def lines_of(path: Path) -> list[str]:
     Raises:
         DataError: If the file holds NUL bytes, as binary files do.
     """
-    content = path.read_bytes()
+    # Control-Z ended files of DOS.
+    content = path.read_bytes().rstrip(b"\x1a")
     encoding = next((name for mark, name in _MARKS if content.startswith(mark)), None)
     if encoding is None and b"\0" in content:
         line = content[: content.index(b"\0")].count(b"\n") + 1
