@@ -13,7 +13,6 @@ from regkit.body.cloud import cloud_body
 from regkit.clouds import spacing, voxel_downsampled, voxel_for
 from regkit.clouds.agreement import Agreement, agreement
 from regkit.clouds.checks import check_shape, check_sizes
-from regkit.geometry.rigid import rigid
 from regkit.interfaces import Method
 from regkit.observation import Observation
 from regkit.system.arrays import Array
@@ -99,13 +98,16 @@ def align(
                 place="voxel",
             )
         initial = initial_alignment(start, few, seen, method)
-        # With the origin at the centroid, rotation and translation are decoupled.
-        centre = few.mean(axis=0)
+        # With the origin at the centroids, rotation and translation are decoupled, and numbers are
+        # small: coordinates of maps, of millions of metres, would cost half of their digits.
+        centre, origin = few.mean(axis=0), seen.mean(axis=0)
         body = cloud_body("source", few - centre)
-        observation = Observation(seen, np.ones(len(seen)), np.full(len(seen), spacing(seen) ** 2))
-        pose = body.skeleton.rest(initial.transform @ rigid(np.eye(3), centre))
-        found = method.bind(body).register(observation, [pose])
-        transform = found.pose.root @ rigid(np.eye(3), -centre)
+        observation = Observation(
+            seen - origin, np.ones(len(seen)), np.full(len(seen), spacing(seen) ** 2)
+        )
+        begin = _moved(initial.transform, -origin, centre)
+        found = method.bind(body).register(observation, [body.skeleton.rest(begin)])
+        transform = _moved(found.pose.root, origin, -centre)
         seconds = time.perf_counter() - begun
     distance = MAX_DISTANCE * max(spacing(few), spacing(seen))
     return Alignment(
@@ -120,3 +122,10 @@ def align(
         converged=found.converged,
         message=found.message,
     )
+
+
+def _moved(transform: Array, origin: Array, centre: Array) -> Array:
+    """Returns T (4, 4) with a shift by ``centre`` (3,) [m] before it and ``origin`` (3,) after."""
+    moved = transform.copy()
+    moved[:3, 3] = transform[:3, 3] + (transform[:3, :3] @ centre + origin)
+    return moved

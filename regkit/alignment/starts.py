@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -9,12 +10,14 @@ import numpy as np
 
 from regkit.alignment.features import by_features
 from regkit.clouds import voxel_downsampled, voxel_for
+from regkit.clouds.formats.text.lines import lines_of
 from regkit.config.model import did_you_mean
-from regkit.geometry.rigid import transformed
+from regkit.geometry.rigid import checked_rigid, transformed
 from regkit.interfaces import Method
 from regkit.search.rotations import by_rotations
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError, DataError
+from regkit.system.guard import reading
 
 STARTS = ("nearest", "identity", "centroids", "rotations", "features")
 """Names of the initial alignments; any other name is a file."""
@@ -106,25 +109,26 @@ def read_transform(name: str) -> Array:
             + did_you_mean(name, list(STARTS)),
             place="start",
         )
+    with reading(path, "a 4x4 matrix"):
+        lines = lines_of(path)
+        rows = [_numbers(line, f"{name}:{number}") for number, line in enumerate(lines, 1)]
+        filled = [row for row in rows if row]
+        count = sum(map(len, filled))
+        if count != 16:
+            raise DataError(f"{count} numbers; a 4x4 matrix has 16 numbers")
+        if len(filled) not in (1, 4) or len({len(row) for row in filled}) > 1:
+            raise DataError("the 16 numbers must stand in four rows of four, or in one")
+        return checked_rigid(np.array(filled).reshape(4, 4), place=name)
+
+
+def _numbers(line: str, place: str) -> list[float]:
+    """Returns the numbers of a line, separated by white space, or by commas or semicolons."""
+    bare = re.sub(r"(#|//).*", "", line).strip("[]; \t,")
+    words = re.split(r"\s*[,;]\s*|\s+", bare) if bare else []
     try:
-        text = path.read_text(encoding="utf-8").replace(",", " ")
-        matrix = np.array([float(number) for number in text.split()])
-    except ValueError as error:
-        raise DataError(f"not a matrix of numbers: {error}", place=name) from None
-    if matrix.size != 16:
-        raise DataError(f"{matrix.size} numbers; a 4x4 matrix has 16 numbers", place=name)
-    matrix = matrix.reshape(4, 4)
-    rotation = matrix[:3, :3]
-    orthogonal = np.abs(rotation.T @ rotation - np.eye(3)).max() < 1e-3
-    if not (orthogonal and np.linalg.det(rotation) > 0.0 and np.allclose(matrix[3], [0, 0, 0, 1])):
-        raise DataError(
-            "the matrix is not a rigid motion: its first three rows and columns must be a "
-            "rotation, its last row 0 0 0 1",
-            place=name,
-        )
-    left, _, right = np.linalg.svd(rotation)
-    matrix[:3, :3] = left @ right
-    return matrix
+        return [float(word.strip("[]")) for word in words]
+    except ValueError:
+        raise DataError(f"not a row of numbers: '{line.strip()[:60]}'", place=place) from None
 
 
 def _centroids(source: Array, target: Array) -> Array:

@@ -16,7 +16,7 @@ from regkit.api.tables import Summary
 from regkit.clouds import check_writable, read_cloud, write_cloud
 from regkit.geometry.rigid import transformed
 from regkit.interfaces import Method
-from regkit.system.arrays import Array, checked_points
+from regkit.system.arrays import Array, without_missing
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -126,4 +126,4 @@ def align(
 def _cloud(given: Cloud, place: str) -> Array:
     if isinstance(given, (str, Path)):
         return read_cloud(Path(given))
-    return checked_points(checked_numbers(given, place=place, whole=True), place=place)
+    return without_missing(checked_numbers(given, place=place, whole=True), place=place)

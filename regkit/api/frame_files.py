@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 from regkit.api.frames import frame_of, load_recording
@@ -9,7 +10,7 @@ from regkit.clouds import read_cloud
 from regkit.geometry.camera import Camera
 from regkit.observation import Frame
 from regkit.observation.depth_image import read_depth
-from regkit.system.errors import DataError
+from regkit.system.errors import ConfigError, DataError
 
 MILLIMETRES = 1000.0
 """Default number of units per metre of a depth image."""
@@ -28,6 +29,8 @@ def load_frame(path: str | Path, *, index: int = 0, depth_scale: float = MILLIME
     Raises:
         RegkitError: If the frame does not exist, or is damaged.
     """
+    if not 0.0 < depth_scale < math.inf:
+        raise ConfigError(f"must be a positive number; it is {depth_scale}", place="depth_scale")
     file = Path(path)
     if file.is_dir():
         return _of_recording(file, index)
@@ -37,9 +40,9 @@ def load_frame(path: str | Path, *, index: int = 0, depth_scale: float = MILLIME
         return Frame(read_cloud(file), seen_by, place=str(file))
     if camera.is_file():
         return frame_of(read_depth(file) / depth_scale, camera, place=str(file))
-    folder = file.absolute().parents[1]
+    folder = file.absolute().parent.parent
     if file.is_file() and file.absolute().parent.name == "depth" and folder.is_dir():
-        images = sorted(file.parent.glob("*.png"))
+        images = sorted(one for one in file.parent.iterdir() if one.suffix.lower() == ".png")
         return _of_recording(folder, images.index(file))
     read_depth(file)
     raise DataError(f"a depth image needs its camera; there is no {camera}", place=str(file))

@@ -12,10 +12,12 @@ from numpy.typing import ArrayLike
 
 from regkit.api.numbers import checked_numbers
 from regkit.geometry.camera import Camera
+from regkit.geometry.intrinsics import intrinsics_of
 from regkit.interfaces import Dataset, Recording
 from regkit.observation import Frame
-from regkit.system.arrays import checked_points
+from regkit.system.arrays import measured_points
 from regkit.system.errors import ConfigError, DataError
+from regkit.system.notes import note
 
 Measured = Frame | ArrayLike
 """A depth image (H, W) [m], a cloud (N, 3) [m], or a frame."""
@@ -36,6 +38,14 @@ class GivenFrames(Recording):
     """
 
     given: tuple[Frame, ...]
+
+    def __post_init__(self) -> None:
+        """Raises DataError if no frame holds a point."""
+        if not any(len(frame.points) for frame in self.given):
+            raise DataError(
+                "there is no measurement: all depths or points are zero, NaN or infinite",
+                place=self.name,
+            )
 
     def frames(self) -> Iterator[Frame]:
         """Yields all frames."""
@@ -94,17 +104,31 @@ def recording_of(frames: Frames, camera: Intrinsics | None, fps: float) -> Recor
     many = list(frames)
     if not many:
         raise DataError("there are no frames", place="frames")
-    given = [frame_of(one, camera, place=f"frames[{n}]") for n, one in enumerate(many)]
+    if not 0.0 < fps < np.inf:
+        raise ConfigError(f"must be a positive number; it is {fps}", place="fps")
+    given = [frame_of(one, camera, place=f"frames[{n}]", tell=False) for n, one in enumerate(many)]
+    lost = sum(
+        len(np.asarray(one)) - len(frame.points)
+        for one, frame in zip(many, given, strict=True)
+        if frame is not one and frame.depth is None
+    )
+    _tell_missing(lost, "frames")
     return GivenFrames(name="frames", fps=fps, length=len(given), given=tuple(given))
 
 
-def frame_of(measured: Measured, camera: Intrinsics | None, *, place: str) -> Frame:
+def frame_of(
+    measured: Measured, camera: Intrinsics | None, *, place: str, tell: bool = True
+) -> Frame:
     """Returns the frame of a depth image (H, W) [m] or a cloud (N, 3) [m].
+
+    Numbers that are NaN or infinite are missing measurements; the rows of a cloud are dropped, and
+    told.
 
     Args:
         measured: The image, the cloud, or a frame, which is returned unchanged.
         camera: Camera of the image, or the one that saw the cloud.
         place: Name of the array in messages.
+        tell: Whether to tell how many points are missing measurements.
 
     Raises:
         DataError: If the array is neither, or holds invalid measurements.
@@ -121,30 +145,35 @@ def frame_of(measured: Measured, camera: Intrinsics | None, *, place: str) -> Fr
         raise DataError("the array is empty", place=place)
     lens = None if camera is None else _camera(camera, values.shape)
     if values.shape[1] == 3 and (lens is None or (lens.height, lens.width) != values.shape):
-        return Frame(checked_points(values, place=place), lens, place=place)
+        points = measured_points(values, place=place)
+        if tell:
+            _tell_missing(len(values) - len(points), place)
+        return Frame(points, lens, place=place)
     if lens is None:
         raise ConfigError(
             f"{place} of shape {values.shape} is a depth image, which needs a camera: its "
             "camera.json, or its matrix K (3, 3)",
             place="camera",
         )
-    bad = ~np.isfinite(values)
-    if bad.any():
-        raise DataError(
-            f"{int(bad.sum())} pixels are NaN or infinite; mark pixels without a measurement by 0: "
-            "np.nan_to_num(depth, posinf=0.0, neginf=0.0)",
-            place=place,
-        )
+    values = np.where(np.isfinite(values), values, 0.0)
     if (values < 0.0).any():
         raise DataError(
             f"{int((values < 0.0).sum())} depths are negative, the lowest {values.min():.4g}; mark "
-            "pixels without a measurement by 0",
+            "pixels without a measurement by 0 or NaN",
             place=place,
         )
     try:
         return Frame(lens.back_projected(values), lens, values, place=place)
     except DataError as error:
         raise error.at(place) from None
+
+
+def _tell_missing(count: int, place: str) -> None:
+    if count:
+        note(
+            f"{count} points are missing measurements (NaN or infinite) and are dropped",
+            place=place,
+        )
 
 
 def _camera(camera: Intrinsics, shape: tuple[int, ...]) -> Camera:
@@ -154,11 +183,10 @@ def _camera(camera: Intrinsics, shape: tuple[int, ...]) -> Camera:
     if isinstance(camera, (str, Path)):
         return Camera.read(Path(camera))
     matrix = checked_numbers(camera, place="camera", whole=True)
-    lens = [matrix[0, 1], *matrix[1:, 0], matrix[2, 1]] if matrix.shape == (3, 3) else [1.0]
-    if any(lens) or matrix[2, 2] != 1.0 or min(matrix[0, 0], matrix[1, 1]) <= 0.0:
+    if matrix.shape != (3, 3):
         raise DataError(
             "a camera must be a regkit.Camera, a camera.json, or a matrix K = [[fx, 0, cx], "
-            f"[0, fy, cy], [0, 0, 1]]: {matrix.tolist()}",
+            f"[0, fy, cy], [0, 0, 1]]; this is an array of shape {matrix.shape}",
             place="camera",
         )
     height, width = shape
@@ -167,5 +195,7 @@ def _camera(camera: Intrinsics, shape: tuple[int, ...]) -> Camera:
             "a matrix does not contain the image's size; for a cloud give a regkit.Camera",
             place="camera",
         )
-    fx, fy, cx, cy = matrix[[0, 1, 0, 1], [0, 1, 2, 2]].tolist()
-    return Camera(width, height, fx, fy, cx, cy)
+    try:
+        return Camera(width, height, *intrinsics_of(matrix))
+    except DataError as error:
+        raise error.at("camera") from None

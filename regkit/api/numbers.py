@@ -21,7 +21,9 @@ def checked_numbers(values: ArrayLike, *, place: str, whole: bool = False) -> Ar
         DataError: If the values are not numbers, or integers in place of lengths in metres.
     """
     try:
-        array = np.asarray(values)
+        # np.asarray would read what is masked.
+        masked = isinstance(values, np.ma.MaskedArray) and values.dtype.kind == "f"
+        array = np.ma.filled(values, np.nan) if masked else np.asarray(values)
     except ValueError:
         raise DataError("not an array: its rows differ in length", place=place) from None
     if array.dtype.kind in "iu" and not whole:

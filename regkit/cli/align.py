@@ -15,6 +15,7 @@ from regkit.alignment import Alignment
 from regkit.alignment import align as align_clouds
 from regkit.cli.choices import method_named
 from regkit.cli.console import errors, output
+from regkit.cli.matrix import matrix_rows
 from regkit.cli.options import PluginFiles, Strict, default_of, options, run_plugin_files
 from regkit.cli.verdicts import conclude
 from regkit.clouds import check_writable, read_cloud, write_cloud
@@ -23,13 +24,16 @@ from regkit.geometry.rigid import transformed
 from regkit.interfaces import Method
 from regkit.tracking import Verdict
 
+FRAME = 24
+"""Width of a table's borders and its column of names."""
+
 
 def align(
     source: Annotated[
         Path,
         typer.Argument(
             metavar="SOURCE",
-            help="Cloud or mesh to move: .ply .pcd .xyz .npz .txt .csv .stl .obj ...",
+            help="Cloud or mesh to move: .ply .pcd .pts .xyz .npz .txt .csv .stl .obj ...",
             show_default=False,
         ),
     ],
@@ -99,7 +103,11 @@ def align(
     if as_json:
         typer.echo(json.dumps(_figures(found, name, verdict), indent=2, allow_nan=False))
     else:
-        output.print(_table(found, name))
+        rows = matrix_rows(found.transform, points)
+        fits = max(map(len, rows)) <= output.width - FRAME
+        output.print(_table(found, name, rows if fits else ["below"]))
+        if not fits:
+            typer.echo("T_target_source\n" + "\n".join(rows))
     if out is not None and verdict is not Verdict.LOST:
         write_cloud(out, transformed(found.transform, points))
         errors.print(f"written: {out}", highlight=False, soft_wrap=True)
@@ -145,14 +153,13 @@ def _figures(found: Alignment, method: str, verdict: Verdict) -> dict[str, Any]:
     }
 
 
-def _table(found: Alignment, method: str) -> Table:
+def _table(found: Alignment, method: str, matrix: list[str]) -> Table:
     agreement = found.agreement
     within = f"within {agreement.distance:.3g}"
     downsampled = "not downsampled" if found.voxel is None else f"voxels of {found.voxel:.3g}"
-    matrix = "\n".join(" ".join(f"{value:11.6f}" for value in row) for row in found.transform)
     table = Table(show_header=False)
     for name, value in (
-        ("T_target_source", matrix),
+        ("T_target_source", "\n".join(matrix)),
         ("fitness", f"{100 * agreement.fitness:.1f} % of the source {within} of the target"),
         ("", f"({100 * found.before.fitness:.1f} % at the start)"),
         ("inlier RMSE", f"{agreement.inlier_rmse:.4g}"),

@@ -2,157 +2,94 @@
 
 from __future__ import annotations
 
-import re
-import zlib
 from collections.abc import Callable
-from contextlib import redirect_stdout
-from io import StringIO
 from pathlib import Path
-from typing import Any
-from zipfile import BadZipFile
 
 import numpy as np
 
-from regkit.system.arrays import Array, checked_points
+from regkit.clouds.formats.gltf import read_gltf
+from regkit.clouds.formats.mesh import surface_points
+from regkit.clouds.formats.obj import read_obj
+from regkit.clouds.formats.off import read_off
+from regkit.clouds.formats.pcd import read_pcd
+from regkit.clouds.formats.ply import read_ply
+from regkit.clouds.formats.stl import read_stl
+from regkit.clouds.formats.text import read_text
+from regkit.system.archives import read_arrays
+from regkit.system.arrays import Array, Indices, measured_points, without_missing
 from regkit.system.errors import DataError
-from regkit.system.optional import load_library
+from regkit.system.guard import reading
 
-TEXT = (".txt", ".csv", ".xyz")
-"""Text files with rows that begin with x y z; further columns are ignored."""
+TEXT = (".txt", ".csv", ".tsv", ".asc", ".xyz", ".xyzn", ".xyzrgb", ".pts")
+"""Text files of rows of numbers."""
 
-CLOUDS = (".ply", ".pcd", ".pts", ".xyzn", ".xyzrgb")
-"""Point cloud formats that Open3D reads; a .ply may contain a mesh."""
+MESHES: dict[str, Callable[[Path], tuple[Array, Indices]]] = {
+    ".ply": read_ply,
+    ".stl": read_stl,
+    ".obj": read_obj,
+    ".off": read_off,
+    ".gltf": read_gltf,
+    ".glb": read_gltf,
+}
+"""Readers of vertices (V, 3) and triangles (T, 3); without triangles the file is a cloud."""
 
-MESHES = (".stl", ".obj", ".off", ".gltf", ".glb")
-"""Mesh formats that Open3D reads."""
-
-READABLE = (".npz", *TEXT, *CLOUDS, *MESHES)
+READABLE = (".npz", ".pcd", *TEXT, *MESHES)
 """All suffixes that ``read_cloud`` accepts."""
-
-MESH_SAMPLES = 20_000
-"""Number of points sampled from the surface of a mesh."""
-
-DAMAGED = "the file contains no points or is damaged"
-
-_READ_ERRORS = (OSError, EOFError, ValueError, KeyError, TypeError, BadZipFile, zlib.error)
 
 
 def read_cloud(path: Path) -> Array:
     """Reads the points (N, 3) of a cloud, or samples them uniformly from the surface of a mesh.
 
+    Rows with NaN or infinity are missing measurements; they are dropped, and told.
+
     Raises:
-        DataError: If the file is missing, damaged, empty or of an unknown format, or if a point is
-            not finite.
-        DependencyError: If the format needs Open3D, which is missing.
+        DataError: If the file is missing, damaged, empty, ambiguous or of an unknown format, or if
+            all its points are missing measurements.
     """
-    place = str(path)
-    if not path.is_file():
-        reason = "this is a folder, not a file" if path.is_dir() else "there is no such file"
-        raise DataError(reason, place=place)
-    suffix = path.suffix.lower()
-    if suffix == ".npz":
-        points = _archived(path)
-    elif suffix in TEXT:
-        points = _written(path)
-    elif suffix in (*CLOUDS, *MESHES):
-        points = _with_open3d(path, mesh=suffix in MESHES)
-    else:
+    return without_missing(_stored(path), place=str(path))
+
+
+def read_measured(path: Path) -> Array:
+    """Reads a cloud like ``read_cloud``, for the frames of a sensor.
+
+    Missing measurements are usual there: they are dropped without a word, and there may be no
+    others, so that no point (0, 3) remains.
+
+    Raises:
+        DataError: If the file is missing, damaged, empty, ambiguous or of an unknown format.
+    """
+    return measured_points(_stored(path), place=str(path))
+
+
+def _stored(path: Path) -> Array:
+    """Returns all points (N, 3) of a file, missing measurements included."""
+    suffix, place = path.suffix.lower(), str(path)
+    if path.is_dir():
+        raise DataError("this is a folder, not a file", place=place)
+    if path.exists() and suffix not in READABLE:
         raise DataError(
             f"files that end with '{suffix}' cannot be read; convert it to one of "
             f"{' '.join(READABLE)}",
             place=place,
         )
-    checked = checked_points(points, place=place)
-    if not len(checked):
-        raise DataError(DAMAGED, place=place)
-    return checked
+    # Casting a signalling NaN would warn; it is a missing measurement like any other.
+    with reading(path, f"a {suffix} file of points"), np.errstate(invalid="ignore"):
+        if suffix == ".npz":
+            points = _archived(path)
+        elif suffix == ".pcd":
+            points = read_pcd(path)
+        elif suffix in MESHES:
+            points = surface_points(*MESHES[suffix](path), place=place)
+        else:
+            points = read_text(path)
+    if not len(points):
+        raise DataError("the file contains no points", place=place)
+    return points
 
 
 def _archived(path: Path) -> Array:
-    try:
-        with path.open("rb") as stream, np.load(stream, allow_pickle=False) as arrays:
-            return np.asarray(arrays["points"].astype(np.float64))
-    except _READ_ERRORS as error:
-        raise DataError(
-            f"not a .npz with an array 'points' (N, 3): {error}", place=str(path)
-        ) from None
-
-
-def _written(path: Path) -> Array:
-    """Reads rows of numbers, separated by spaces, commas or semicolons; a header is skipped."""
-    rows: list[list[float]] = []
-    text = path.read_text(encoding="utf-8-sig", errors="replace")
-    for number, line in enumerate(text.splitlines(), start=1):
-        parts = line.replace(",", " ").replace(";", " ").split()
-        if not parts or parts[0].startswith("#"):
-            continue
-        try:
-            row = [float(part) for part in parts[:3]]
-        except ValueError:
-            row = []
-        if len(row) == 3:
-            rows.append(row)
-        elif rows or number > 1:
-            raise DataError(
-                f"not a row that begins with x y z: {line.strip()[:60]!r}", place=f"{path}:{number}"
-            )
-    return np.array(rows).reshape(-1, 3)
-
-
-def _with_open3d(path: Path, *, mesh: bool) -> Array:
-    library = load_library("open3d")
-    if not mesh and not (path.suffix.lower() == ".ply" and _has_faces(path)):
-        cloud = _quietly(path, library.io.read_point_cloud)
-        return np.asarray(cloud.points)
-    read = _quietly(path, library.io.read_triangle_mesh)
-    vertices, triangles = np.asarray(read.vertices), np.asarray(read.triangles)
-    if not len(triangles):
-        return vertices
-    return _sampled(checked_points(vertices, place=str(path)), triangles)
-
-
-def _has_faces(path: Path) -> bool:
-    """Returns whether the header of a PLY file declares triangles.
-
-    Raises:
-        DataError: If the file has no PLY header.
-    """
-    with path.open("rb") as stream:
-        header, ended, _ = stream.read(1 << 16).partition(b"end_header")
-    if not header.startswith(b"ply") or not ended:
-        raise DataError(DAMAGED, place=str(path))
-    counts = re.findall(rb"^element face (\d+)", header, flags=re.MULTILINE)
-    return any(int(count) for count in counts)
-
-
-def _quietly(path: Path, read: Callable[[str], Any]) -> Any:
-    """Returns what Open3D reads.
-
-    Open3D reports failures by printing only, and returns uninitialised memory for a truncated PLY.
-
-    Raises:
-        DataError: If Open3D printed anything.
-    """
-    library = load_library("open3d")
-    level = library.utility.VerbosityLevel.Warning
-    with library.utility.VerbosityContextManager(level), redirect_stdout(StringIO()) as printed:
-        result = read(str(path))
-    if printed.getvalue():
-        raise DataError(DAMAGED, place=str(path))
-    return result
-
-
-def _sampled(vertices: Array, triangles: Array) -> Array:
-    """Returns uniform samples (``MESH_SAMPLES``, 3) of a mesh, with a fixed seed."""
-    corners = vertices[triangles]
-    sides = corners[:, 1:] - corners[:, :1]
-    areas = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
-    if not areas.sum() > 0.0:
-        return vertices
-    random = np.random.default_rng(0)
-    chosen = random.choice(len(areas), size=MESH_SAMPLES, p=areas / areas.sum())
-    first, second = random.uniform(size=(2, MESH_SAMPLES, 1))
-    # The square root makes the density uniform: Osada et al., Shape distributions, 2002, eq. 1.
-    root = np.sqrt(first)
-    a, b, c = corners[chosen].transpose(1, 0, 2)
-    return np.asarray((1.0 - root) * a + root * (1.0 - second) * b + root * second * c)
+    what = "a .npz with an array 'points' (N, 3)"
+    stored = read_arrays(path, ["points"], what)["points"]
+    if stored.dtype.kind not in "fiu" or stored.ndim != 2 or stored.shape[1] != 3:
+        raise DataError(f"not {what}: it is {stored.dtype} of the shape {stored.shape}")
+    return stored.astype("f8")

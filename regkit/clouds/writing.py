@@ -9,10 +9,14 @@ import numpy as np
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError, DataError
 from regkit.system.files import replacing, write_arrays
+from regkit.system.notes import note
 from regkit.system.optional import load_library
 
 TEXT = {".txt": " ", ".xyz": " ", ".csv": ","}
 """Text formats and their delimiters."""
+
+MAX_ROUNDING = 1e-5
+"""Largest rounding, as a fraction of the cloud's extent, that is not worth a word."""
 
 WITH_OPEN3D = (".ply", ".pcd")
 """Formats that Open3D writes."""
@@ -51,6 +55,14 @@ def write_cloud(path: Path, points: Array) -> None:
         if suffix in TEXT:
             np.savetxt(temporary, points, fmt="%.17g", delimiter=TEXT[suffix])
             return
+        if suffix == ".pcd":
+            rounded = float(np.abs(points.astype(np.float32) - points).max())
+            if rounded > MAX_ROUNDING * float(np.ptp(points, axis=0).max()):
+                note(
+                    f"a .pcd holds 32 bits per number, which moves points by up to {rounded:.2g}; "
+                    "write .ply or .npz",
+                    place=path,
+                )
         library = load_library("open3d")
         cloud = library.geometry.PointCloud(library.utility.Vector3dVector(points))
         if not library.io.write_point_cloud(str(temporary), cloud):

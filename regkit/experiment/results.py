@@ -92,7 +92,7 @@ class Results:
         file = self.recording_folder(method, recording) / "record.npz"
         what = "a record of regkit run"
         with reading(file, what):
-            return Record.from_arrays(read_arrays(file, what))
+            return Record.from_arrays(read_arrays(file, what=what))
 
     def write(
         self,

@@ -120,7 +120,7 @@ def _arrays(folder: Path) -> dict[str, NDArray[Any]]:
         )
     track.check(folder)
     file = folder / "poses.npz"
-    arrays = read_arrays(file, "the poses of regkit run")
+    arrays = read_arrays(file, what="the poses of regkit run")
     missing = [name for name in NEEDED if name not in arrays]
     if missing:
         raise DataError(f"lacks the arrays {', '.join(missing)}", place=str(file))
@@ -137,7 +137,7 @@ def _fps(folder: Path, arrays: Mapping[str, NDArray[Any]]) -> float:
         ConfigError: If the results do not contain it.
     """
     record = folder / "record.npz"
-    source = arrays if "fps" in arrays else read_arrays(record, "a record of regkit run")
+    source = arrays if "fps" in arrays else read_arrays(record, what="a record of regkit run")
     if "fps" not in source:
         raise ConfigError(
             f"the results in {folder} do not contain the frames per second; give them",

@@ -4,13 +4,26 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
+from numbers import Integral
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from regkit.geometry.intrinsics import intrinsics_of
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
+from regkit.system.guard import reading
+from regkit.system.json_files import read_json
+from regkit.system.notes import note
+
+FIELDS = ("width", "height", "intrinsic_matrix")
+"""Fields of a camera's file."""
+
+MAX_SIZE = 1 << 15
+"""Largest width or height of an image [px]."""
+
+MIN_FOCAL, MAX_FOCAL = 0.1, 1000.0
+"""Range of focal lengths in units of the image's size; the least sees 157 degrees."""
 
 
 @dataclass(frozen=True)
@@ -32,6 +45,31 @@ class Camera:
     fy: float
     cx: float
     cy: float
+
+    def __post_init__(self) -> None:
+        """Raises DataError if no camera can have these intrinsics."""
+        for name, size in (("width", self.width), ("height", self.height)):
+            if not isinstance(size, Integral) or isinstance(size, bool) or not 0 < size <= MAX_SIZE:
+                raise DataError(
+                    f"the {name} is {size!r}; it must be a whole number of pixels up to {MAX_SIZE}"
+                )
+        axes = (("x", self.fx, self.cx, self.width), ("y", self.fy, self.cy, self.height))
+        for axis, focal, centre, size in axes:
+            if not MIN_FOCAL * size <= focal <= MAX_FOCAL * size:
+                raise DataError(
+                    f"the focal length f{axis} is {focal:g} px for {size} px; it must be positive, "
+                    f"in pixels, and from {MIN_FOCAL:g} to {MAX_FOCAL:g} times the image's size"
+                )
+            if not -size <= centre <= 2 * size:
+                raise DataError(
+                    f"the principal point c{axis} is {centre:g} px, far outside the image's "
+                    f"{size} px; check the order of the numbers"
+                )
+        if self.cx == self.cy == 0.0:
+            raise DataError(
+                "the principal point is the corner of the image, cx = cy = 0; it must be near the "
+                "centre: check whether the matrix is by rows or by columns"
+            )
 
     def back_projected(self, depth: Array) -> Array:
         """Returns the points (N, 3) [m] of all pixels with depth > 0, in row-major order.
@@ -70,35 +108,34 @@ class Camera:
 
     @classmethod
     def read(cls, path: Path) -> Camera:
-        """Reads Open3D's ``PinholeCameraIntrinsic`` JSON, whose matrix is column-major.
+        """Reads Open3D's ``PinholeCameraIntrinsic`` JSON, with its matrix by columns or by rows.
 
         Raises:
-            DataError: If the file is missing, is not such a JSON file, or has a size or a focal
-                length that is not positive.
+            DataError: If the file is missing, or does not describe such a camera.
         """
-        try:
-            content = json.loads(path.read_text(encoding="utf-8"))
-            matrix: NDArray[np.float64] = np.array(content["intrinsic_matrix"], dtype=float)
-            matrix = matrix.reshape(3, 3, order="F")
-            width, height = int(content["width"]), int(content["height"])
-        except FileNotFoundError:
+        if not path.exists():
             raise DataError(
                 "the file is missing; it should hold the camera's intrinsics", place=str(path)
-            ) from None
-        except (KeyError, ValueError, TypeError) as error:
-            raise DataError(
-                f"not a camera file ({type(error).__name__}: {error}); it must have width, height "
-                "and intrinsic_matrix (9 numbers, column-major), as Open3D writes them",
-                place=str(path),
-            ) from None
-        if min(width, height, matrix[0, 0], matrix[1, 1]) <= 0:
-            raise DataError(
-                "width, height and both focal lengths must be positive; they are "
-                f"{width}, {height}, {matrix[0, 0]:g} and {matrix[1, 1]:g}",
-                place=str(path),
             )
-        fx, fy, cx, cy = matrix[[0, 1, 0, 1], [0, 1, 2, 2]].tolist()
-        return cls(width, height, fx, fy, cx, cy)
+        with reading(path, "a camera file"):
+            content = read_json(path)
+            missing = [name for name in FIELDS if name not in content]
+            if missing:
+                raise DataError(
+                    f"not a camera file: {', '.join(missing)} missing; it must have width, height "
+                    "and intrinsic_matrix (9 numbers), as Open3D writes them"
+                )
+            camera = cls(
+                content["width"], content["height"], *intrinsics_of(content["intrinsic_matrix"])
+            )
+        unread = [name for name in content if name not in FIELDS]
+        if unread:
+            note(
+                f"passed over: {', '.join(unread)[:200]}; a camera here has no distortion, and the "
+                "scale of its images is given elsewhere",
+                place=path,
+            )
+        return camera
 
     def to_json(self) -> str:
         """Returns the JSON text that ``read`` accepts."""

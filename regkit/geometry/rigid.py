@@ -6,9 +6,18 @@ All functions accept any number of leading dimensions.
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from regkit.geometry.rotation import from_matrix, right_jacobian, to_vector, vector_to_matrix
 from regkit.system.arrays import Array
+from regkit.system.errors import DataError
+from regkit.system.notes import note
+
+ORTHOGONALITY = 1e-3
+"""Largest relative error of lengths under a matrix that still counts as a rotation."""
+
+ROUNDING = 1e-5
+"""Largest error of a rotation's numbers that is corrected without a word."""
 
 
 def rigid(rotation: Array, translation: Array) -> Array:
@@ -19,6 +28,63 @@ def rigid(rotation: Array, translation: Array) -> Array:
     transform[..., :3, 3] = translation
     transform[..., 3, 3] = 1.0
     return transform
+
+
+def checked_rigid(values: ArrayLike, *, place: str | None = None) -> Array:
+    """Returns a rigid motion (4, 4) from a user or a file, with an exactly orthogonal rotation.
+
+    Args:
+        values: The matrix, (4, 4), by rows.
+        place: Where it comes from, for messages.
+
+    Raises:
+        DataError: If its last row is not 0 0 0 1, or it scales, shears or reflects.
+    """
+    try:
+        matrix = np.array(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise DataError("a rigid motion must be a matrix of 4x4 numbers", place=place) from None
+    if matrix.shape != (4, 4) or not np.isfinite(matrix).all():
+        raise DataError(
+            f"a rigid motion must be 4x4 finite numbers; the shape is {matrix.shape}", place=place
+        )
+    last = [0.0, 0.0, 0.0, 1.0]
+    if not np.array_equal(matrix[3], last):
+        hint = "; it is written by columns: transpose it" if list(matrix[:, 3]) == last else ""
+        raise DataError(
+            f"the matrix is not a rigid motion: its last row is {matrix[3].tolist()}, not 0 0 0 1"
+            + hint,
+            place=place,
+        )
+    rotation = matrix[:3, :3]
+    reason = _not_a_rotation(rotation)
+    if reason is not None:
+        raise DataError(f"the matrix is not a rigid motion: it {reason}", place=place)
+    left, _, right = np.linalg.svd(rotation)
+    change = float(np.abs(left @ right - rotation).max())
+    if change > ROUNDING:
+        note(
+            f"the rotation is orthogonal to {change:.1g} only; the nearest rotation is taken",
+            place=place,
+        )
+    matrix[:3, :3] = left @ right
+    return matrix
+
+
+def _not_a_rotation(matrix: Array) -> str | None:
+    """Returns what a matrix (3, 3) does that a rotation does not, or None."""
+    left, scales, right = np.linalg.svd(matrix)
+    if scales[2] <= 1e-9 * scales[0]:
+        return "flattens space (its determinant is zero)"
+    even = scales[0] - scales[2] < ORTHOGONALITY * scales[0]
+    if even and abs(scales.mean() - 1.0) > ORTHOGONALITY:
+        return f"scales by {scales.mean():.6g}; remove the scale"
+    if not even:
+        lengths = ", ".join(f"{length:.4g}" for length in scales)
+        return f"stretches or shears by {lengths}; its columns must be orthogonal unit vectors"
+    if np.linalg.det(left @ right) < 0.0:
+        return "reflects (its determinant is -1); an axis or a column has the wrong sign"
+    return None
 
 
 def inverse(transform: Array) -> Array:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import zipfile
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -11,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from regkit.geometry.rigid import rigid
+from regkit.system.archives import read_arrays
 from regkit.system.arrays import Array, Indices, read_only
 from regkit.system.errors import DataError
 from regkit.system.files import write_arrays
@@ -185,15 +185,6 @@ class SkinnedMesh:
 
 def _arrays(path: Path, keys: Sequence[str]) -> dict[str, NDArray[np.generic]]:
     """Returns the arrays named ``keys`` of an ``.npz`` file."""
-    try:
-        with np.load(path) as file:
-            return {key: file[key] for key in keys}
-    except FileNotFoundError:
-        raise DataError(
-            "the file is missing; it should hold a skinned mesh", place=str(path)
-        ) from None
-    except (KeyError, ValueError, zipfile.BadZipFile) as error:
-        raise DataError(
-            f"not a skinned mesh ({error}); it must be an .npz file with {', '.join(keys)}",
-            place=str(path),
-        ) from None
+    if not path.exists():
+        raise DataError("the file is missing; it should hold a skinned mesh", place=str(path))
+    return read_arrays(path, keys, f"a skinned mesh, an .npz file with {', '.join(keys)}")

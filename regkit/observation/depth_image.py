@@ -2,33 +2,42 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 
 import numpy as np
 
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
+from regkit.system.guard import reading
+
+MAX_PIXELS = 1 << 26
+"""Largest number of pixels of an image; no depth camera has a tenth of it."""
 
 
 def read_depth(path: Path) -> Array:
-    """Reads the values (H, W) of a single-channel 16-bit image, in units of the file.
+    """Reads the values (H, W) of a single-channel 16-bit PNG image, in units of the file.
 
     Raises:
-        DataError: If the file is missing, damaged, or an image of another kind.
+        DataError: If the file is missing, damaged, too large, or an image of another kind.
     """
-    from PIL import Image, UnidentifiedImageError
+    from PIL import Image
 
-    try:
-        with Image.open(path) as image:
-            mode = image.mode
-            values = np.asarray(image)
-    except FileNotFoundError:
-        raise DataError("there is no such image", place=str(path)) from None
-    except (OSError, SyntaxError, UnidentifiedImageError, Image.DecompressionBombError) as error:
-        raise DataError(f"the image is damaged or cut short: {error}", place=str(path)) from None
-    if not mode.startswith("I"):
-        raise DataError(
-            f"a depth image has one channel of 16 bits; this one is of the mode {mode}",
-            place=str(path),
-        )
-    return values.astype(np.float64)
+    if not path.exists():
+        raise DataError("there is no such image", place=str(path))
+    # The size is checked below, so Pillow's warning about it is superfluous.
+    with (
+        reading(path, "a PNG depth image, or cut short"),
+        warnings.catch_warnings(action="ignore", category=Image.DecompressionBombWarning),
+        Image.open(path, formats=("PNG",)) as image,
+    ):
+        width, height = image.size
+        if width * height > MAX_PIXELS:
+            raise DataError(
+                f"the image announces {width}x{height} pixels; at most {MAX_PIXELS} are read"
+            )
+        if not image.mode.startswith("I"):
+            raise DataError(
+                f"a depth image has one channel of 16 bits; this one is of the mode {image.mode}"
+            )
+        return np.asarray(image).astype(np.float64)

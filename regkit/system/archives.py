@@ -1,52 +1,87 @@
-"""Reading of ``.npz`` files that may be damaged or forged."""
+"""Reading of NumPy's ``.npz`` archives, whose headers may ask for more than the file holds."""
 
 from __future__ import annotations
 
+import zipfile
+from collections.abc import Iterable
 from math import prod
 from pathlib import Path
 from typing import Any
-from zipfile import ZipFile
 
 import numpy as np
-from numpy.lib import format as npy
-from numpy.typing import NDArray
 
 from regkit.system.errors import DataError
 from regkit.system.guard import reading
 
-LARGEST = 1 << 32
-"""Maximum size of all arrays of a file [bytes]; more is taken for a forged header."""
+FREE_BYTES = 1 << 26
+"""Size of an array that is unpacked whatever the size of its file."""
+
+MAX_EXPANSION = 100
+"""Largest ratio of an array's size to that of its file; measured data shrinks tenfold at best."""
 
 
-def read_arrays(path: Path, what: str) -> dict[str, NDArray[Any]]:
-    """Returns the arrays of a ``.npz`` file by name.
-
-    The sizes in the file's headers are compared before memory is asked for.
+def read_arrays(
+    path: Path, names: Iterable[str] | None = None, what: str = "an .npz file"
+) -> dict[str, np.ndarray[Any, Any]]:
+    """Returns named arrays of an ``.npz`` file, without executing anything in it.
 
     Args:
         path: The file.
-        what: What it should be, for messages.
+        names: Names of the arrays; all by default.
+        what: What the file should be, for messages.
 
     Raises:
-        DataError: If it is missing, damaged, or its headers lie.
+        DataError: If the file or an array is missing or damaged, or an array is not of numbers or
+            strings, or its header asks for more than the file can hold.
     """
-    with reading(path, what), path.open("rb") as stream:
-        with ZipFile(stream) as archive:
-            entries = archive.infolist()
-            if sum(entry.file_size for entry in entries) > LARGEST:
-                raise DataError(f"its arrays take more than {LARGEST >> 30} GiB")
-            for entry in entries:
-                _check_header(archive, entry.filename, entry.file_size)
-        stream.seek(0)
-        with np.load(stream, allow_pickle=False) as arrays:
-            return {name: arrays[name] for name in arrays.files}
+    with reading(path, what), path.open("rb") as stream, zipfile.ZipFile(stream) as archive:
+        wanted = _names(archive) if names is None else names
+        return {name: _member(archive, name, path, what) for name in wanted}
 
 
-def _check_header(archive: ZipFile, name: str, size: int) -> None:
-    with archive.open(name) as member:
-        version = npy.read_magic(member)
-        header = npy.read_array_header_1_0 if version == (1, 0) else npy.read_array_header_2_0
-        shape, _, dtype = header(member)
-        needed = prod(shape) * dtype.itemsize + member.tell()
-    if needed != size:
-        raise DataError(f"the header of '{name}' asks for {needed} bytes, and there are {size}")
+def array_names(path: Path, what: str = "an .npz file") -> list[str]:
+    """Returns the names of the arrays in an ``.npz`` file.
+
+    Raises:
+        DataError: If the file is missing or damaged.
+    """
+    with reading(path, what), path.open("rb") as stream, zipfile.ZipFile(stream) as archive:
+        return _names(archive)
+
+
+def _names(archive: zipfile.ZipFile) -> list[str]:
+    return [name.removesuffix(".npy") for name in archive.namelist()]
+
+
+def _member(archive: zipfile.ZipFile, name: str, path: Path, what: str) -> np.ndarray[Any, Any]:
+    names = _names(archive)
+    if names.count(name) != 1:
+        found = "several arrays" if name in names else "no array"
+        raise DataError(
+            f"not {what}: there is {found} '{name}' (there are: {', '.join(names)[:200]})"
+        )
+    info = archive.infolist()[names.index(name)]
+    if info.file_size > max(FREE_BYTES, MAX_EXPANSION * path.stat().st_size):
+        raise DataError(
+            f"array '{name}' would unpack to {info.file_size / 1e9:.3g} GB, more than "
+            f"{MAX_EXPANSION} times the size of the file; it holds no measured data"
+        )
+    with archive.open(info) as member:
+        version = np.lib.format.read_magic(member)
+        read = {
+            (1, 0): np.lib.format.read_array_header_1_0,
+            (2, 0): np.lib.format.read_array_header_2_0,
+        }.get(version)
+        if read is None:
+            raise DataError(f"array '{name}' has the unknown format {version}")
+        shape, _, dtype = read(member)
+        asked, held = prod(shape) * dtype.itemsize, info.file_size - member.tell()
+    if dtype.hasobject:
+        raise DataError(f"array '{name}' holds Python objects, which are never read")
+    if asked != held:
+        raise DataError(
+            f"array '{name}' of shape {shape} and type {dtype} needs {asked} bytes; the file holds "
+            f"{held}"
+        )
+    with archive.open(info) as member:
+        return np.asarray(np.lib.format.read_array(member, allow_pickle=False))

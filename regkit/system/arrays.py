@@ -6,12 +6,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from regkit.system.errors import DataError
+from regkit.system.notes import note
 
 Array = NDArray[np.float64]
 """Array of real numbers; the docstring of each use gives the shape."""
 
 Indices = NDArray[np.intp]
 """Array of integers that index another array."""
+
+
+MAX_COORDINATE = 1e12
+"""Largest coordinate that can be a measurement, in any unit from micrometres to metres."""
 
 
 def read_only(values: ArrayLike) -> Array:
@@ -22,20 +27,64 @@ def read_only(values: ArrayLike) -> Array:
 
 
 def checked_points(points: ArrayLike, *, place: str | None = None) -> Array:
-    """Returns points from a user or a file as an array (N, 3) [m].
+    """Returns points (N, 3) [m] that must all be finite, such as those of a frame.
 
     Raises:
-        DataError: If the shape is not (N, 3), or a coordinate is NaN or infinite.
+        DataError: If the shape is not (N, 3), or a coordinate is not finite or absurdly large.
+    """
+    array = np.asarray(points, dtype=np.float64)
+    if len(measured_points(array, place=place)) < len(array):
+        bad = np.flatnonzero(~np.isfinite(array).all(axis=1))
+        raise DataError(
+            f"{len(bad)} of {len(array)} points have a NaN or infinite coordinate, first at "
+            f"point {bad[0]}: {array[bad[0]].tolist()}; remove them",
+            place=place,
+        )
+    return array
+
+
+def without_missing(points: ArrayLike, *, place: str | None = None) -> Array:
+    """Returns the measured points (M, 3) [m] of points (N, 3) from a user or a file.
+
+    Sensors write NaN or infinity where they measured nothing; such rows are dropped, and told.
+
+    Raises:
+        DataError: If the shape is not (N, 3), a coordinate is absurdly large, or all rows are
+            missing measurements.
+    """
+    array = np.asarray(points, dtype=np.float64)
+    measured = measured_points(array, place=place)
+    missing = len(array) - len(measured)
+    if missing and not len(measured):
+        raise DataError(
+            f"all {missing} points are missing measurements (NaN or infinite)", place=place
+        )
+    if missing:
+        note(
+            f"{missing} of {len(array)} points are missing measurements (NaN or infinite) and are "
+            f"dropped; {len(measured)} remain",
+            place=place,
+        )
+    return measured
+
+
+def measured_points(points: ArrayLike, *, place: str | None = None) -> Array:
+    """Returns the finite rows (M, 3) of points (N, 3) [m], without a word about the others.
+
+    Raises:
+        DataError: If the shape is not (N, 3), or a coordinate is beyond ``MAX_COORDINATE``.
     """
     array = np.asarray(points, dtype=np.float64)
     if array.ndim != 2 or array.shape[1] != 3:
         raise DataError(f"points have the shape {array.shape}; they must be (N, 3)", place=place)
-    bad = ~np.isfinite(array).all(axis=1)
-    if bad.any():
-        first = int(np.flatnonzero(bad)[0])
+    finite = np.isfinite(array).all(axis=1)
+    measured = array if finite.all() else array[finite]
+    far = np.flatnonzero((np.abs(measured) > MAX_COORDINATE).any(axis=1))
+    if len(far):
+        at = int(np.flatnonzero(finite)[far[0]])
         raise DataError(
-            f"{int(bad.sum())} of {len(array)} points have a NaN or infinite coordinate, first at "
-            f"point {first}: {array[first].tolist()}; remove them",
+            f"point {at} is {array[at].tolist()}; a coordinate beyond {MAX_COORDINATE:g} is no "
+            "measurement: the file is damaged, or of another format",
             place=place,
         )
-    return array
+    return measured

@@ -31,13 +31,19 @@ def reading(path: Path | str, what: str) -> Iterator[None]:
         yield
     except RegkitError as error:
         raise error.at(str(path)) from None
+    except Warning:
+        # A note that the user turns into an error is not damage.
+        raise
     except FileNotFoundError:
         raise DataError("there is no such file", place=str(path)) from None
     except IsADirectoryError:
         raise DataError("this is a folder, not a file", place=str(path)) from None
     except OSError as error:
-        reason = error.strerror or foreign(error)
-        raise DataError(f"cannot be read: {reason}", place=str(path)) from None
+        # Only the operating system's own errors have a number; libraries raise others on damage.
+        reason = f"not {what}: {foreign(error)}"
+        if error.errno is not None and error.strerror:
+            reason = f"cannot be read: {error.strerror}"
+        raise DataError(reason, place=str(path)) from None
     except MemoryError:
         raise DataError(
             f"not {what}: it asks for more memory than there is", place=str(path)

@@ -9,9 +9,11 @@ from places import DATA
 from rich.console import Console
 
 import regkit
+from regkit.api.frames import frame_of
 from regkit.interfaces import Method
 from regkit.skeleton import Pose
 from regkit.system.errors import ConfigError, DataError, RegkitError
+from regkit.system.notes import RegkitWarning
 
 WALK = DATA / "human_walk"
 FRAMES = 4
@@ -219,11 +221,21 @@ WRONG = {
     ),
     "no matrix": (lambda d, c: (d, np.eye(2)), "camera: a camera must be"),
     "one image": (lambda d, c: (d[0], c), "frames: one array of shape"),
-    "NaN": (lambda d, c: (np.where(d > 0, d, np.nan), c), "frames[0]: 23191 pixels are NaN"),
+    "no depth": (lambda d, c: (np.full_like(d, np.nan), c), "frames: there is no measurement"),
+    "no points": (lambda d, c: ([np.full((5, 3), np.nan)], None), "there is no measurement"),
     "negative": (lambda d, c: (d - 1.0, c), "frames[0]: 23191 depths are negative"),
-    "NaN in a cloud": (
-        lambda d, c: ([np.full((50, 3), np.nan)], None),
-        "frames[0]: 50 of 50 points have a NaN",
+    "far away": (lambda d, c: ([np.full((50, 3), 1e13)], None), "beyond 1e+12"),
+    "K of fractions": (
+        lambda d, c: (d, [[0.8, 0.0, 0.5], [0.0, 0.8, 0.5], [0.0, 0.0, 1.0]]),
+        "camera: the focal length fx is 0.8 px",
+    ),
+    "K without its centre": (
+        lambda d, c: (d, [[230.0, 0.0, 0.0], [0.0, 230.0, 0.0], [0.0, 0.0, 1.0]]),
+        "camera: the principal point is the corner",
+    ),
+    "K with skew": (
+        lambda d, c: (d, [[230.0, 1.0, 87.5], [0.0, 230.0, 71.5], [0.0, 0.0, 1.0]]),
+        "skew",
     ),
     "text": (lambda d, c: ([[["a"]]], None), "frames[0]: values must be numbers"),
     "ragged": (lambda d, c: ([[[1.0], [2.0, 3.0]]], None), "its rows differ in length"),
@@ -237,6 +249,7 @@ WRONG = {
 }
 
 
+@pytest.mark.filterwarnings("ignore::regkit.system.notes.RegkitWarning")
 @pytest.mark.parametrize("wrong", WRONG)
 def test_wrong_frames_are_named(wrong, depth, camera, human):
     make, message = WRONG[wrong]
@@ -244,6 +257,31 @@ def test_wrong_frames_are_named(wrong, depth, camera, human):
     with pytest.raises(RegkitError) as caught:
         regkit.track(frames, human, camera=lens)
     assert message in str(caught.value)
+
+
+def test_missing_measurements_leave_the_same_frame(depth, camera):
+    """NaN, infinity, zero and a mask all mean that a pixel measured nothing."""
+    image = depth[0]
+    matrix = [[camera.fx, 0, camera.cx], [0, camera.fy, camera.cy], [0, 0, 1]]
+    expected = camera.back_projected(image)
+    for missing in (
+        np.where(image > 0, image, np.nan),
+        np.where(image > 0, image, np.inf),
+        np.ma.masked_array(np.where(image > 0, image, 7.0), image == 0),
+    ):
+        for lens in (camera, matrix, np.array(matrix).T):
+            frame = frame_of(missing, lens, place="cloud")
+            np.testing.assert_array_equal(frame.points, expected)
+            np.testing.assert_array_equal(frame.depth, image)
+    with pytest.warns(RegkitWarning, match="cloud: 2 points are missing"):
+        frame = frame_of([[1.0, 2, 3], [np.nan, 2, 3], [1, -np.inf, 3]], None, place="cloud")
+    np.testing.assert_array_equal(frame.points, [[1.0, 2.0, 3.0]])
+
+
+@pytest.mark.parametrize("scale", [0.0, -1.0, np.nan, np.inf])
+def test_scale_of_an_image_is_positive(scale):
+    with pytest.raises(RegkitError, match="depth_scale"):
+        regkit.load_frame(WALK / "depth" / "000000.png", depth_scale=scale)
 
 
 def test_wrong_choices_are_named(depth, camera, human):

@@ -1,6 +1,7 @@
 """``regkit align``: what it prints and writes, and how it ends."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -118,7 +119,7 @@ def test_surface_that_slides_along_itself_is_warned_of(regkit, tmp_path, random)
         ("two.txt", [], "two.txt: the cloud has 2 different points of 2; at least 10 are needed"),
         ("line.txt", [], "line.txt: all points lie on a line"),
         ("plane.txt", [], "plane.txt: all points lie in a plane"),
-        ("nan.txt", [], "nan.txt: 1 of 1500 points have a NaN or infinite coordinate"),
+        ("nan.txt", [], "nan.txt: all 1500 points are missing measurements"),
         ("mm.txt", [], "the source is 435.9 large and the target 0.4359, a factor of 1e+03"),
         ("good.txt", ["--start", "centroid"], "--start: there is no file 'centroid'; name one "
          "with a 4x4 matrix, or one of nearest, identity, centroids, rotations, features; did you "
@@ -138,7 +139,7 @@ def test_mistake_is_told_without_a_traceback(
     monkeypatch.chdir(tmp_path)
     flat, bad = lump.copy(), lump.copy()
     flat[:, 2] = 0.0
-    bad[7, 1] = np.nan
+    bad[:, 1] = np.nan
     files = {
         "good": lump, "two": lump[:2], "plane": flat, "nan": bad, "mm": 1000.0 * lump,
         "line": np.outer(np.arange(30.0), [1, 2, 3]), "scaled": 2.0 * np.eye(4),
@@ -185,3 +186,28 @@ def test_rigid_method_on_a_jointed_body_is_told(regkit, tmp_path):
     assert "method 'open3d_icp' is rigid, but the template 'human' has 15 segm" in ended.err
     report = (tmp_path / "out" / "report.md").read_text()
     assert "is rigid, but the template 'human' has 15 segments" in report
+
+
+def test_printed_matrix_moves_far_points_as_the_result_does(regkit, tmp_path, lump):
+    """Coordinates of maps are millions of metres, where six decimals of a rotation are metres."""
+    points = 20.0 * lump + [539_700.0, 4_065_700.0, 10.0]
+    centre = points.mean(axis=0)
+    about = rigid(np.eye(3), centre) @ rigid(vector_to_matrix(np.array([0, 0, 0.05])), np.ones(3))
+    truth = about @ rigid(np.eye(3), -centre)
+    files = [tmp_path / "source.csv", tmp_path / "target.csv"]
+    for file, cloud in zip(files, (points, transformed(truth, points)), strict=True):
+        write_cloud(file, cloud)
+    ended = regkit("align", *files, "--voxel", "0")
+    # The matrix stands in the table or below it.
+    numbers = re.findall(r"-?\d+\.\d+", ended.out.split("T_target_source")[-1])[:16]
+    printed = np.array(numbers, dtype=float).reshape(4, 4)
+    moved = transformed(printed, points)
+    # The object is 9 m large, and the method stops within a few millimetres.
+    assert np.abs(moved - transformed(truth, points)).max() < 5e-3
+    found = json.loads(regkit("align", *files, "--voxel", "0", "--json").out)
+    given = transformed(np.array(found["T_target_source"]), points)
+    assert np.abs(moved - given).max() < 2e-4
+    # The printed matrix is also a start.
+    (tmp_path / "start.txt").write_text(" ".join(numbers))
+    again = regkit("align", *files, "--start", tmp_path / "start.txt", "--voxel", "0", "--json")
+    assert json.loads(again.out)["fitness_at_start"] == 1.0

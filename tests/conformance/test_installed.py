@@ -37,7 +37,10 @@ TestInstalled = conformance(
         "datasets.eval": {"root": str(PUBLIC / "records"), "record": RECORD.model_dump()},
         "datasets.smmc10": {"root": str(PUBLIC / "records"), "record": RECORD.model_dump()},
         "datasets.itop": {"root": str(PUBLIC / "itop")},
-        "datasets.pdt13": {"root": str(PUBLIC / "pdt13")},
+        "datasets.pdt13": {
+            "root": str(PUBLIC / "pdt13"),
+            "intrinsics": {"focal_px": 36.0, "centre_px": [19.0, 15.5]},
+        },
         "templates.file": {"path": str(LINKAGE)},
         "templates.cloud": {"path": str(DATA / "mannequin" / "model.npz")},
         "kernels.likelihood": [{}, {"outliers": 0.2}],

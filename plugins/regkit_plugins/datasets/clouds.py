@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from regkit.clouds import read_cloud
+from regkit.clouds import read_measured
+from regkit.clouds.reading import TEXT
 from regkit.config.model import InputPath
 from regkit.interfaces import Dataset, Recording
 from regkit.observation import Frame, Truth
@@ -15,17 +16,18 @@ from regkit_plugins.datasets.formats.recording_folders import (
     RecordingDescription,
     existing,
     numbered_files,
-    read_truth,
     recordings_in,
 )
+from regkit_plugins.datasets.formats.truth_file import read_truth
 
-SUFFIXES = (".ply", ".pcd", ".xyz", ".npz")
+SUFFIXES = (".npz", ".pcd", ".ply", *TEXT)
 
 
 class CloudFolders(Dataset):
     """A folder of point clouds, or a folder of such folders.
 
-    A ``.npz`` file holds the array ``points`` (N, 3) [m]; Open3D reads the other formats.
+    A ``.npz`` file holds the array ``points`` (N, 3) [m]. Points that are NaN or infinite are
+    missing measurements; a cloud may consist of them.
     """
 
     kind: Literal["clouds"] = "clouds"
@@ -70,7 +72,7 @@ class CloudRecording(Recording):
         """Yields and reads only the clouds of ``indices``."""
         for index in sorted(set(indices)):
             path = self.files[index]
-            yield index, Frame(read_cloud(path), place=str(path))
+            yield index, Frame(read_measured(path), place=str(path))
 
     def input_files(self) -> list[Path]:
         """Returns the frames' files, and those beside them that exist."""

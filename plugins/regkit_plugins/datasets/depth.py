@@ -17,9 +17,9 @@ from regkit_plugins.datasets.formats.recording_folders import (
     RecordingDescription,
     existing,
     numbered_files,
-    read_truth,
     recordings_in,
 )
+from regkit_plugins.datasets.formats.truth_file import read_truth
 
 
 class DepthFolders(Dataset):

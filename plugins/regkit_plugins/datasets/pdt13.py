@@ -94,6 +94,10 @@ class Pdt13(Dataset):
     def _recording(self, name: str, path: Path) -> Recording:
         height, width, length = array_shape(path, self.depth_array)
         focal, (cx, cy) = self.intrinsics.focal_px, self.intrinsics.centre_px
+        try:
+            camera = Camera(width, height, focal, focal, cx, cy)
+        except DataError as error:
+            raise error.at(f"{path}: dataset.intrinsics") from None
         return Pdt13Recording(
             name=name,
             fps=self.fps,
@@ -102,7 +106,7 @@ class Pdt13(Dataset):
             layout=self,
             depth_file=path,
             joint_file=self.root / f"{name}{self.joint_suffix}",
-            camera=Camera(width, height, focal, focal, cx, cy),
+            camera=camera,
         )
 
 

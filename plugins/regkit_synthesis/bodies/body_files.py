@@ -9,6 +9,7 @@ import numpy as np
 
 from regkit.geometry.rigid import rigid
 from regkit.geometry.skinned_mesh import KEYS, SkinnedMesh
+from regkit.system.archives import array_names, read_arrays
 from regkit.system.arrays import Array, read_only
 from regkit.system.errors import ConfigError
 
@@ -35,14 +36,11 @@ def read_npz_body(path: Path, shape: int) -> SkinnedMesh:
 
 def _export(path: Path, shape: int) -> SkinnedMesh | None:
     """Returns a shape of an export of anny, or None if the file is not one."""
-    try:
-        with np.load(path) as file:
-            if not {_EXPORT.get(key, key) for key in KEYS} <= set(file.files):
-                return None
-            arrays = {key: file[_EXPORT.get(key, key)] for key in KEYS}
-    except (OSError, ValueError):
-        # Reading it as a mesh file reports what is wrong with the file.
+    # Reading it as a mesh file reports what is wrong with a missing file.
+    if not path.is_file() or not {_EXPORT.get(key, key) for key in KEYS} <= set(array_names(path)):
         return None
+    stored = read_arrays(path, [_EXPORT.get(key, key) for key in KEYS])
+    arrays = dict(zip(KEYS, stored.values(), strict=True))
     count = len(arrays["rest_vertices"])
     if not 0 <= shape < count:
         raise ConfigError(

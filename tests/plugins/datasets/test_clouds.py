@@ -33,7 +33,7 @@ def test_clouds_of_arrays_are_read_without_open3d(tmp_path, random, monkeypatch)
 
 
 @pytest.mark.parametrize("suffix", [".ply", ".pcd", ".xyz"])
-def test_clouds_of_other_formats_are_read_by_open3d(tmp_path, random, suffix):
+def test_clouds_that_open3d_wrote_are_read(tmp_path, random, suffix):
     library = pytest.importorskip("open3d")
     points = random.normal(size=(50, 3))
     (tmp_path / "clouds").mkdir()
@@ -44,14 +44,12 @@ def test_clouds_of_other_formats_are_read_by_open3d(tmp_path, random, suffix):
     np.testing.assert_allclose(frame.points, points, atol=1e-6)
 
 
-@pytest.mark.parametrize("value", [np.nan, np.inf])
-def test_cloud_with_a_point_that_is_not_finite_is_refused(tmp_path, value):
+def test_points_that_are_not_finite_are_missing_measurements(tmp_path):
     points = np.ones((40, 3))
-    points[7, 2] = value
-    folder = write_clouds(tmp_path / "one", [np.ones((40, 3)), points])
-    assert complaint(CloudFolders(root=folder), folder).startswith(
-        "ROOT/clouds/000001.npz: 1 of 40 points have a NaN or infinite coordinate, first at point 7"
-    )
+    points[7, 2], points[9, 0] = np.nan, -np.inf
+    folder = write_clouds(tmp_path / "one", [points, np.full((4, 3), np.nan)])
+    frames = everything(CloudFolders(root=folder))
+    assert [len(frame.points) for frame in frames] == [38, 0]
 
 
 def npz(**arrays) -> Callable[[Path], None]:
@@ -64,7 +62,7 @@ def bare_array(folder: Path) -> None:
 
 
 CLOUD = "clouds/000001.npz"
-NO_ARRAY = f"ROOT/{CLOUD}: not a .npz with an array 'points' (N, 3): "
+NO_ARRAY = f"ROOT/{CLOUD}: not a .npz with an array 'points' (N, 3)"
 
 
 @pytest.mark.parametrize(
@@ -72,9 +70,9 @@ NO_ARRAY = f"ROOT/{CLOUD}: not a .npz with an array 'points' (N, 3): "
     [
         (npz(pts=np.ones((30, 3))), NO_ARRAY),
         (npz(points=np.array([["a", "b", "c"]])), NO_ARRAY),
-        (npz(points=np.array([[1.0, 2.0, None]])), NO_ARRAY),
-        (npz(points=np.ones((30, 2))), f"ROOT/{CLOUD}: points have the shape (30, 2); they must"),
-        (npz(points=np.ones((0, 3))), f"ROOT/{CLOUD}: the file contains no points or is damaged"),
+        (npz(points=np.array([[1.0, 2.0, None]])), f"ROOT/{CLOUD}: array 'points' holds Python"),
+        (npz(points=np.ones((30, 2))), NO_ARRAY),
+        (npz(points=np.ones((0, 3))), f"ROOT/{CLOUD}: the file contains no points"),
         (write(CLOUD, b""), NO_ARRAY),
         (write(CLOUD, "hello"), NO_ARRAY),
         (cut(CLOUD, 0.5), NO_ARRAY),
@@ -104,4 +102,4 @@ def test_cloud_file_cut_short_is_refused(tmp_path, random, suffix, kept):
     library.io.write_point_cloud(str(tmp_path / name), cloud)
     cut(name, kept)(tmp_path)
     message = complaint(CloudFolders(root=tmp_path), tmp_path)
-    assert tells(message, at=f"ROOT/{name}", of=("no point", "damaged"))
+    assert tells(message, at=f"ROOT/{name}", of=())

@@ -1,5 +1,6 @@
 """Depth images in folders: what is read, and what is said of files that are wrong."""
 
+import zlib
 from collections.abc import Callable
 from pathlib import Path
 
@@ -15,6 +16,7 @@ from regkit_plugins.datasets.depth import DepthFolders
 
 SMALL = Camera(width=24, height=18, fx=20.0, fy=22.0, cx=11.5, cy=8.5)
 FRAMES = 3
+CASES = Path(__file__).parents[2] / "cases"
 
 
 def plane(frame: int = 0) -> np.ndarray:
@@ -152,6 +154,26 @@ HEADER = "frame,joint,x,y,z\n"
 SECOND = "depth/000001.png"
 
 
+def chunk(kind, content):
+    """Returns a chunk of a PNG file."""
+    check = zlib.crc32(kind + content).to_bytes(4, "big")
+    return len(content).to_bytes(4, "big") + kind + content + check
+
+
+def zipped_text(path):
+    """Adds a text to an image that unpacks to 100 MB."""
+    bomb = chunk(b"zTXt", b"a\0\0" + zlib.compress(bytes(100_000_000), 9))
+    content = path.read_bytes()
+    path.write_bytes(content[:33] + bomb + content[33:])
+
+
+def announcing(path, width, height):
+    """Changes the size that an image announces."""
+    content = path.read_bytes()
+    size = width.to_bytes(4, "big") + height.to_bytes(4, "big") + content[24:29]
+    path.write_bytes(content[:8] + chunk(b"IHDR", size) + content[33:])
+
+
 @pytest.mark.parametrize(
     ("damage", "expected"),
     [
@@ -165,9 +187,9 @@ SECOND = "depth/000001.png"
          "gaps; 000000 is missing before 000001.png"),
         (lambda folder: [path.unlink() for path in (folder / "depth").iterdir()],
          "ROOT/depth: the folder holds no .png file"),
-        (cut(SECOND, 0.6), "ROOT/depth/000001.png: the image is damaged or cut short: "),
-        (cut(SECOND, 0.0), "ROOT/depth/000001.png: the image is damaged or cut short: "),
-        (write(SECOND, "hello"), "ROOT/depth/000001.png: the image is damaged or cut short: "),
+        (cut(SECOND, 0.6), "ROOT/depth/000001.png: not a PNG depth image, or cut short: "),
+        (cut(SECOND, 0.0), "ROOT/depth/000001.png: not a PNG depth image, or cut short: "),
+        (write(SECOND, "hello"), "ROOT/depth/000001.png: not a PNG depth image, or cut short: "),
         (image(SECOND, np.ones((18, 24), np.uint8)), "ROOT/depth/000001.png: a depth image has one "
          "channel of 16 bits; this one is of the mode L"),
         (image(SECOND, np.ones((18, 24, 3), np.uint8)), "ROOT/depth/000001.png: a depth image has "
@@ -176,15 +198,15 @@ SECOND = "depth/000001.png"
          "18x24 pixels, but the camera has 24x18"),
         (remove("camera.json"), "ROOT/camera.json: the file is missing; it should hold "
          "the camera's intrinsics"),
-        (cut("camera.json", 0.5), "ROOT/camera.json: not a camera file (JSONDecodeError"),
-        (write("camera.json", b"\xff\xfe"), "ROOT/camera.json: not a camera file (UnicodeDecode"),
-        (write("camera.json", "[1, 2]"), "ROOT/camera.json: not a camera file (TypeError"),
-        (write("camera.json", '{"width": 24, "height": 18}'), "ROOT/camera.json: not a camera file "
-         "(KeyError: 'intrinsic_matrix'); it must have width, height and intrinsic_matrix"),
+        (cut("camera.json", 0.5), "ROOT/camera.json:6: not JSON"),
+        (write("camera.json", b"\xff\xfe"), "ROOT/camera.json: not a camera file"),
+        (write("camera.json", "[1, 2]"), "ROOT/camera.json: must be a JSON object"),
+        (write("camera.json", '{"width": 24, "height": 18}'), "ROOT/camera.json: not a camera "
+         "file: intrinsic_matrix missing; it must have width, height and intrinsic_matrix"),
         (write("camera.json", '{"width": 24, "height": 18, "intrinsic_matrix": [1, 2]}'),
-         "ROOT/camera.json: not a camera file (ValueError"),
+         "ROOT/camera.json: the matrix must be 9 numbers"),
         (write("camera.json", SMALL.to_json().replace("20.0", "-20.0")),
-         "ROOT/camera.json: width, height and both focal lengths must be positive"),
+         "ROOT/camera.json: the focal length fx is -20 px"),
         (write("sequence.yaml", "name: x\nfpss: 15\n"), "ROOT/sequence.yaml:2: fpss: no such field "
          "(there are: depth_scale, fps, licence, name, source); did you mean 'fps'?"),
         (write("sequence.yaml", "fps: 0\n"), "ROOT/sequence.yaml:1: fps: input should be greater "
@@ -196,9 +218,9 @@ SECOND = "depth/000001.png"
         (write("truth.csv", "frame,joint,x,y\n"), "ROOT/truth.csv:1: the header must be "
          "frame,joint,x,y,z; it is frame,joint,x,y"),
         (write("truth.csv", ""), "ROOT/truth.csv:1: the header must be frame,joint,x,y,z; it is "),
-        (write("truth.csv", b"\xff\xfe\x00"), "ROOT/truth.csv:1: the header must be"),
+        (write("truth.csv", b"\xff\xfe\x00"), "ROOT/truth.csv: damaged text"),
         (write("truth.csv", HEADER + "0,a,1,2,3\n0,b,1,2\n"), "ROOT/truth.csv:3: not a row of "
-         "frame,joint,x,y,z: 0,b,1,2,None"),
+         "frame,joint,x,y,z: 0,b,1,2"),
         (write("truth.csv", HEADER + "0,a,1,2,3,4\n"), "ROOT/truth.csv:2: not a row of"),
         (write("truth.csv", HEADER + "0,a,1,2,far\n"), "ROOT/truth.csv:2: not a row of "
          "frame,joint,x,y,z: 0,a,1,2,far"),
@@ -206,6 +228,19 @@ SECOND = "depth/000001.png"
          "frame,joint,x,y,z: -1,a,1,2,3"),
         (write("truth.csv", HEADER + "0,a,1,nan,3\n"), "ROOT/truth.csv:2: a position is NaN or "
          "infinite; omit the row"),
+        (write("truth.csv", HEADER + "0,a,1,2,3\n0,a,1,2,3\n"), "ROOT/truth.csv:3: joint 'a' of"),
+        (write("truth.csv", HEADER + "0,a,1,2,1_0\n"), "ROOT/truth.csv:2: not a row of"),
+        (write("truth.csv", HEADER + "0,,1,2,3\n"), "ROOT/truth.csv:2: not a row of"),
+        (write("truth.csv", HEADER + "0,a,1,2,1e300\n"), "ROOT/truth.csv:2: a position is beyond"),
+        (write("truth.csv", HEADER + "9" * 5000 + ",a,1,2,3\n"), "ROOT/truth.csv:2: not a row of"),
+        (write("truth.csv", HEADER + "0,a,1,2\x00,3\n"), "ROOT/truth.csv:2: a NUL byte"),
+        (write("truth.csv", HEADER + "0," + "a" * 200_000 + ",1,2,3\n"), "ROOT/truth.csv:2: not a"),
+        (write("truth.csv", HEADER.replace(",", ";")), "ROOT/truth.csv:1: the header must be"),
+        (lambda folder: zipped_text(folder / SECOND), "ROOT/depth/000001.png: not a PNG depth"),
+        (lambda folder: announcing(folder / SECOND, 30_000, 30_000), "ROOT/depth/000001.png: not a "
+         "PNG depth image, or cut short: Image size"),
+        (lambda folder: announcing(folder / SECOND, 9_000, 9_000), "ROOT/depth/000001.png: the "
+         "image announces 9000x9000 pixels"),
         (write("truth.csv", HEADER + "0,a,1,2,inf\n"), "ROOT/truth.csv:2: a position is NaN"),
     ],
 )  # fmt: skip
@@ -222,3 +257,15 @@ def test_damaged_frame_does_not_harm_those_before_it(recording):
     assert len(next(frames).points)
     with pytest.raises(DataError):
         next(frames)
+
+
+@pytest.mark.parametrize("name", ["walk_rows_3x3", "by_rows_flat"])
+def test_matrix_by_rows_puts_the_points_where_the_body_is(name):
+    """Read by columns, the principal point is the corner, and the body a metre to the side."""
+    (recording,) = DepthFolders(root=CASES / "11-intrinsics" / name).chosen()
+    truth = recording.truth()
+    for index, frame in enumerate(recording.frames()):
+        centre = frame.points.mean(axis=0)
+        joints = [0.0, 0.0] if truth is None else np.nanmean(truth.positions[index], axis=0)[:2]
+        np.testing.assert_allclose(centre[:2], joints, atol=0.15)
+        assert (frame.camera.cx, frame.camera.cy) != (0.0, 0.0)

@@ -7,8 +7,14 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from regkit.system.errors import DataError
+from regkit.system.guard import foreign, reading
 from regkit.system.optional import load_library
+
+MAX_BYTES = 1 << 28
+"""Largest part of an array that is read at once."""
 
 
 @contextmanager
@@ -22,11 +28,7 @@ def opened(path: Path) -> Iterator[Any]:
     h5py = load_library("h5py", install="pip install 'regkit[hdf5]'")
     if not path.is_file():
         raise DataError("there is no such file", place=str(path))
-    try:
-        file = h5py.File(path, "r")
-    except OSError as error:
-        raise DataError(f"not an HDF5 file, or damaged: {error}", place=str(path)) from None
-    with file:
+    with reading(path, "an HDF5 file, or damaged"), h5py.File(path, "r") as file:
         yield file
 
 
@@ -51,9 +53,18 @@ def read(array: Any, where: Any = ()) -> Any:
     Raises:
         DataError: If that part is damaged.
     """
+    # A header may announce terabytes that were never written.
+    share = 1.0 if isinstance(where, tuple) else np.size(where) / max(1, array.shape[0])
+    if share * array.size * array.dtype.itemsize > MAX_BYTES:
+        raise DataError(
+            f"'{array.name.lstrip('/')}' of shape {array.shape} would take more than "
+            f"{MAX_BYTES >> 20} MB at once",
+            place=array.file.filename,
+        )
     try:
         return array[where]
-    except (OSError, ValueError) as error:
+    except Exception as error:
         raise DataError(
-            f"'{array.name.lstrip('/')}' cannot be read: {error}", place=array.file.filename
+            f"'{array.name.lstrip('/')}' cannot be read: {foreign(error)}",
+            place=array.file.filename,
         ) from None

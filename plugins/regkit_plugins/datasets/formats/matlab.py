@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import zlib
 from collections.abc import Iterator
-from contextlib import contextmanager
+from math import prod
 from pathlib import Path
 from typing import Any
 
@@ -12,10 +11,14 @@ import numpy as np
 
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
+from regkit.system.guard import reading
 from regkit_plugins.datasets.formats import hdf5
 
 HDF5_MARK = b"MATLAB 7.3"
 """Magic bytes of MATLAB files in HDF5 format, whose axes are stored in reverse order."""
+
+MAX_VALUES, MAX_EXPANSION = 1 << 26, 100
+"""An array may have more than so many values only with a hundredth of them in bytes."""
 
 
 def array_shape(path: Path, name: str) -> tuple[int, ...]:
@@ -29,7 +32,7 @@ def array_shape(path: Path, name: str) -> tuple[int, ...]:
             return _checked(hdf5.stored(file, name).shape[::-1], path, name)
     from scipy.io import whosmat
 
-    with _blaming(path, name):
+    with reading(path, f"a .mat file with '{name}'"):
         shapes = {found: shape for found, shape, _ in whosmat(path)}
         shape = tuple(shapes[name])
     return _checked(shape, path, name)
@@ -67,23 +70,22 @@ def read_frames(path: Path, name: str) -> Iterator[Array]:
 def _unpacked(path: Path, name: str) -> np.ndarray[Any, Any]:
     from scipy.io import loadmat
 
-    with _blaming(path, name):
+    _check_size(path, name, array_shape(path, name))
+    with reading(path, f"a .mat file with '{name}'"):
         values = loadmat(path, variable_names=[name])[name]
         if values.dtype.kind not in "biuf":
             raise TypeError(f"it holds {values.dtype}, which are not numbers")
         return np.asarray(values)
 
 
-@contextmanager
-def _blaming(path: Path, name: str) -> Iterator[None]:
-    """Context manager that turns SciPy's errors on a damaged file into ones that name the file."""
-    from scipy.io.matlab import MatReadError
-
-    broken = (OSError, ValueError, KeyError, TypeError, NotImplementedError, zlib.error)
-    try:
-        yield
-    except (*broken, MatReadError) as error:
-        raise DataError(f"not a .mat file with '{name}': {error}", place=str(path)) from None
+def _check_size(path: Path, name: str, shape: tuple[int, ...]) -> None:
+    """Refuses an array that no file of this size holds, before it is unpacked."""
+    size = prod(shape)
+    if size > max(MAX_VALUES, MAX_EXPANSION * path.stat().st_size):
+        raise DataError(
+            f"{name} of shape {shape} would unpack to {size} values, far more than the file holds",
+            place=str(path),
+        )
 
 
 def _checked(shape: tuple[int, ...], path: Path, name: str) -> tuple[int, ...]:

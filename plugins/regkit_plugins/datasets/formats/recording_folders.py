@@ -9,19 +9,16 @@ truth.csv          optional: frame,joint,x,y,z [m] in the camera's frame
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated
 
-import numpy as np
 from pydantic import Field
 
 from regkit.config.document import Document
 from regkit.config.model import Model
 from regkit.config.quantities import Rate
 from regkit.interfaces import Recording
-from regkit.observation import Truth
 from regkit.system.errors import DataError, RegkitError
 
 Positive = Annotated[float, Field(ge=1e-3, le=1e6)]
@@ -114,51 +111,3 @@ def numbered_files(folder: Path, suffixes: tuple[str, ...]) -> list[Path]:
 def existing(folder: Path, *names: str) -> list[Path]:
     """Returns those of the named files that the folder holds."""
     return [folder / name for name in names if (folder / name).is_file()]
-
-
-def read_truth(path: Path, length: int) -> Truth | None:
-    """Returns the reference joints of the first ``length`` frames; None if the file is missing.
-
-    Raises:
-        DataError: If a row cannot be read, or a number is not finite.
-    """
-    if not path.exists():
-        return None
-    if not path.is_file():
-        raise DataError("this is not a file", place=str(path))
-    rows: dict[tuple[int, str], list[float]] = {}
-    # Spreadsheets mark UTF-8 at the start; bytes that are not text make a row invalid.
-    with path.open(newline="", encoding="utf-8-sig", errors="replace") as stream:
-        reader = csv.DictReader(stream)
-        if reader.fieldnames != ["frame", "joint", "x", "y", "z"]:
-            raise DataError(
-                f"the header must be frame,joint,x,y,z; it is {','.join(reader.fieldnames or [])}",
-                place=f"{path}:1",
-            )
-        for row in reader:
-            try:
-                frame, position = int(row["frame"]), [float(row[axis]) for axis in "xyz"]
-                if frame < 0 or None in row:
-                    raise ValueError
-            except (TypeError, ValueError):
-                raise DataError(
-                    f"not a row of frame,joint,x,y,z: {','.join(map(str, row.values()))}",
-                    place=f"{path}:{reader.line_num}",
-                ) from None
-            if not np.isfinite(position).all():
-                raise DataError(
-                    "a position is NaN or infinite; omit the row of an unseen joint",
-                    place=f"{path}:{reader.line_num}",
-                )
-            if (frame, row["joint"]) in rows:
-                raise DataError(
-                    f"joint '{row['joint']}' of frame {frame} is listed twice",
-                    place=f"{path}:{reader.line_num}",
-                )
-            if frame < length:
-                rows[frame, row["joint"]] = position
-    joints = tuple(dict.fromkeys(joint for _, joint in rows))
-    positions = np.full((length, len(joints), 3), np.nan)
-    for (frame, joint), position in rows.items():
-        positions[frame, joints.index(joint)] = position
-    return Truth(joints, positions)

@@ -1,0 +1,50 @@
+"""Reading of JSON files strictly."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any, NoReturn
+
+from regkit.system.errors import DataError
+
+
+def read_json(path: Path) -> dict[str, Any]:
+    """Returns the object in a JSON file.
+
+    Raises:
+        DataError: If it is not JSON, holds no object, names a field twice, or has a number that is
+            not finite.
+    """
+    try:
+        content = json.loads(
+            path.read_text(encoding="utf-8-sig"),
+            object_pairs_hook=_once,
+            parse_constant=_not_finite,
+            parse_float=_finite,
+        )
+    except json.JSONDecodeError as error:
+        raise DataError(f"not JSON: {error.msg}", place=f"{path}:{error.lineno}") from None
+    if not isinstance(content, dict):
+        raise DataError(
+            f"must be a JSON object {{...}}; it is a {type(content).__name__}", place=str(path)
+        )
+    return content
+
+
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        names = [name for name, _ in pairs]
+        twice = next(name for name in names if names.count(name) > 1)
+        raise DataError(f"the field '{twice[:60]}' is given twice")
+    return found
+
+
+def _finite(text: str) -> float:
+    value = float(text)
+    return value if abs(value) < float("inf") else _not_finite(text)
+
+
+def _not_finite(text: str) -> NoReturn:
+    raise DataError(f"{text[:60]} is not a finite number")
