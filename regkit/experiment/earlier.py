@@ -24,14 +24,12 @@ class EarlierResults:
         experiment: The experiment.
         results: Its results folder.
         methods: Names of the methods in this run.
-        setting: Name of the experiment within a sweep; empty without one.
         moved: Paths that differ from those of an earlier start of the run, in a few words.
     """
 
     experiment: Experiment
     results: Results
     methods: Sequence[str]
-    setting: str
     moved: str
     _contents: dict[str, RecordingInputs] = field(default_factory=dict)
 
@@ -68,7 +66,7 @@ class EarlierResults:
         names = [file.stem for file in (self.results.folder / "inputs").glob("*.json")]
         for name in sorted(set(names) - set(recordings)):
             note(
-                f"{self._named(name)} is not among the recordings any more; this run leaves out "
+                f"{name} is not among the recordings any more; this run leaves out "
                 "the results on it",
                 place=self.results.folder,
             )
@@ -88,7 +86,7 @@ class EarlierResults:
         if known is None:
             note("missing or damaged; only results on the present data are kept", place=file)
         elif known.digest != now.digest:
-            what = f"{self._named(name)} has changed: {known.changes(now)}"
+            what = f"{name} has changed: {known.changes(now)}"
             if self.moved:
                 raise another_configuration(f"{self.moved}, and {what}", folder)
             note(f"{what}; results on it are {self._again(begun)}", place=folder)
@@ -109,6 +107,3 @@ class EarlierResults:
         others = [method for method in methods if method not in self.methods]
         left_out = f", and left out for {', '.join(others)}, which this run does not include"
         return f"made again{left_out if others else ''}"
-
-    def _named(self, recording: str) -> str:
-        return f"{self.setting}: {recording}" if self.setting else recording

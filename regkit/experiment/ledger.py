@@ -75,7 +75,7 @@ class Ledger:
         Raises:
             ConfigError: If paths in the configuration differ, and the content there too.
         """
-        earlier = EarlierResults(self.experiment, self.results, self.methods, self.setting, moved)
+        earlier = EarlierResults(self.experiment, self.results, self.methods, moved)
         failed = earlier.failures()
         for recording in self.recordings.values():
             measures = earlier.measures(recording)

@@ -168,6 +168,31 @@ def test_folder_with_other_files_is_refused_and_left_alone(regkit, files):
     assert [path.name for path in files.out.iterdir()] == ["thesis.tex"]
 
 
+def test_users_own_configuration_with_other_files_is_no_results_folder(regkit, files):
+    """The name ``config.yaml`` is a common one."""
+    assert regkit("run", files.experiment, "--out", files.out, *QUICK).code == 0
+    project = files.out.with_name("project")
+    project.mkdir()
+    (project / "config.yaml").write_text((files.out / "config.yaml").read_text())
+    (project / "thesis.tex").write_text("precious")
+    ended = regkit("run", project / "config.yaml", "--out", project, "--no-figures")
+    assert ended.code == 1
+    assert tells(ended.err, at=f"{project}", of=("other files", "new", "empty"))
+    assert len(list(project.iterdir())) == 2
+
+
+def test_run_that_was_killed_while_it_opened_its_folder_begins_anew(regkit, files):
+    assert regkit("run", files.experiment, "--out", files.out, *QUICK).code == 0
+    for kept in (("config.yaml",), ("config.yaml", "setup.json")):
+        left = files.out.with_name("-".join(kept))
+        left.mkdir()
+        for name in kept:
+            (left / name).write_text((files.out / name).read_text())
+        (left / ".setup.json.0.tmp.json").touch()
+        assert regkit("run", files.experiment, "--out", left, *QUICK).code == 0
+        assert not list(left.rglob(".*"))
+
+
 def test_only_keeps_what_other_methods_have_finished(regkit, files):
     add_method(files.experiment, "sog", "sog")
     assert regkit("run", files.experiment, "--out", files.out, *QUICK).code == 0
