@@ -18,7 +18,14 @@ from regkit.tracking import Snapshot, Track, Verdict
 
 Arrays = dict[str, np.ndarray[Any, Any]]
 
-PER_FRAME = ("surface_distances", "seconds", "preprocessing", "evaluations")
+PER_FRAME = (
+    "surface_distances",
+    "inlier_shares",
+    "verdicts",
+    "seconds",
+    "preprocessing",
+    "evaluations",
+)
 """Arrays with a value for each frame."""
 
 
