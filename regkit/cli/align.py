@@ -14,6 +14,7 @@ from rich.table import Table
 from regkit.alignment import Alignment
 from regkit.alignment import align as align_clouds
 from regkit.cli.choices import method_named
+from regkit.cli.completion import plugin_names
 from regkit.cli.console import errors, output
 from regkit.cli.options import PluginFiles, options, run_plugin_files
 from regkit.clouds import check_writable, read_cloud, write_cloud
@@ -41,6 +42,7 @@ def align(
         str | None,
         typer.Option(
             metavar="METHOD",
+            autocompletion=plugin_names("method"),
             help="Method: a preset or kind, such as open3d_icp, or a mapping such as "
             "'{kind: open3d_icp, estimation: generalized}'. (default: rigid)",
             show_default=False,

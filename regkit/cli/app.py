@@ -5,11 +5,13 @@ from __future__ import annotations
 import importlib
 import sys
 from keyword import iskeyword
-from typing import Any
+from typing import Annotated, Any
 
 import typer
 from typer.core import TyperCommand, TyperGroup
 
+from regkit import __version__
+from regkit.cli.completion import completing, stand_in
 from regkit.cli.console import print_error, show_warnings, tell_compiling
 from regkit.cli.exit_codes import ERROR
 from regkit.system.compiled import when_compiling
@@ -29,6 +31,7 @@ COMMANDS = {
     "validate": "Check YAML files and report each mistake with its line.",
     "plugins": "List the installed plug-ins with their distributions, or the fields of one "
     "plug-in.",
+    "example": "Copy a runnable example with its data, or list the examples.",
     "new": "Create a package for a plug-in of your own, which passes conformance from the start.",
     "schema": "Write the JSON Schemas of experiments and their parts, for editors.",
     "doctor": "Check the installation and name the command that repairs each problem.",
@@ -61,7 +64,7 @@ class Commands(TyperGroup):
             BadParameter: If an option is given by its old name.
         """
         name, _, rest = super().resolve_command(ctx, args)
-        former = RENAMED_OPTIONS.get(str(name), {})
+        former = {} if ctx.resilient_parsing else RENAMED_OPTIONS.get(str(name), {})
         for option in (argument.partition("=")[0] for argument in rest):
             if option in former:
                 raise typer.BadParameter(f"'{option}' is now called '{former[option]}'", ctx=ctx)
@@ -77,16 +80,32 @@ def loaded(name: str) -> Any:
     return typer.main.get_command(alone)
 
 
-app = typer.Typer(cls=Commands, add_completion=False, pretty_exceptions_enable=False)
+app = typer.Typer(cls=Commands, pretty_exceptions_enable=False)
+
+
+def print_version(asked: bool) -> None:
+    """Prints the version, if it was asked for, and ends."""
+    if asked:
+        typer.echo(f"regkit {__version__}")
+        raise typer.Exit
 
 
 @app.callback(no_args_is_help=True)
-def regkit() -> None:
+def regkit(
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version", callback=print_version, is_eager=True, help="Print the version and exit."
+        ),
+    ] = False,
+) -> None:
     """Register articulated and rigid shape models to point clouds and depth frames."""
 
 
 def main() -> None:
     """Runs the command line; prints an error that a user can correct and exits with code 1."""
+    if completing():
+        stand_in()
     when_compiling(tell_compiling)
     show_warnings()
     try:

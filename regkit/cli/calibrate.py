@@ -12,6 +12,7 @@ from rich.table import Table
 
 from regkit.calibration import Subject
 from regkit.cli.calibration_source import Source
+from regkit.cli.completion import plugin_names
 from regkit.cli.console import errors, output
 from regkit.cli.options import PluginFiles, run_plugin_files
 from regkit.cli.template_file import check_replaceable, write_template
@@ -39,6 +40,7 @@ def calibrate(
         str | None,
         typer.Option(
             metavar="TEMPLATE",
+            autocompletion=plugin_names("template"),
             help="Body in the recording: a name such as hand, a template's YAML file, or a mapping "
             "such as '{kind: hand, side: left}'. (default: the experiment's template, or human)",
             show_default=False,

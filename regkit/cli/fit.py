@@ -11,6 +11,7 @@ from rich.table import Table
 
 from regkit.body import BodyDescription
 from regkit.cli.choices import template_named
+from regkit.cli.completion import plugin_names
 from regkit.cli.console import output
 from regkit.cli.options import PluginFiles, options, run_plugin_files
 from regkit.cli.template_file import check_replaceable, write_template
@@ -39,6 +40,7 @@ def fit(
         str | None,
         typer.Option(
             metavar="TEMPLATE",
+            autocompletion=plugin_names("template"),
             help="Template that provides the joints: a name such as hand, a YAML file, or a "
             "mapping such as '{kind: hand, side: left}'. (default: human)",
             show_default=False,

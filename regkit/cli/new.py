@@ -10,12 +10,17 @@ import typer
 from regkit.cli.console import output
 from regkit.scaffold import PLACEHOLDER, Scaffold
 
+KINDS = ("shape", "kernel", "solver", "dataset", "template")
+"""The kinds of plug-ins that ``regkit.scaffold`` knows; a completion does not import it."""
+
 
 def new(
     what: Annotated[
         str,
         typer.Argument(
-            metavar="WHAT", help="Kind of plug-in: shape, kernel, solver, dataset or template."
+            metavar="WHAT",
+            help=f"Kind of plug-in: {', '.join(KINDS[:-1])} or {KINDS[-1]}.",
+            autocompletion=lambda incomplete: [one for one in KINDS if one.startswith(incomplete)],
         ),
     ],
     name: Annotated[

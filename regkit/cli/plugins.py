@@ -9,6 +9,7 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
+from regkit.cli.completion import plugin_names
 from regkit.cli.console import output
 from regkit.cli.options import PluginFiles, run_plugin_files
 from regkit.config.installed import Installed
@@ -24,7 +25,10 @@ def plugins(
     kind: Annotated[
         str | None,
         typer.Argument(
-            metavar="NAME", help="Show the fields of this plug-in, or the file of this preset."
+            metavar="NAME",
+            help="Show the fields of this plug-in, or the file of this preset. (default: list all)",
+            show_default=False,
+            autocompletion=plugin_names(),
         ),
     ] = None,
     plugin: PluginFiles = None,

@@ -10,6 +10,7 @@ import typer
 
 from regkit.api import track as track_frames
 from regkit.cli.choices import Choices
+from regkit.cli.completion import plugin_names
 from regkit.cli.options import (
     MethodName,
     Out,
@@ -40,6 +41,7 @@ def track(
         str | None,
         typer.Option(
             metavar="TRACKER",
+            autocompletion=plugin_names("tracker"),
             help="Tracker from frame to frame, if the method has none of its own.",
             show_default=False,
         ),
