@@ -13,7 +13,8 @@ from typer.core import TyperCommand, TyperGroup
 from regkit import __version__
 from regkit.cli.completion import completing, stand_in
 from regkit.cli.console import print_error, show_warnings, tell_compiling
-from regkit.cli.exit_codes import ERROR
+from regkit.cli.exit_codes import ERROR, INTERRUPTED
+from regkit.cli.interrupt import Interrupt
 from regkit.system.compiled import when_compiling
 from regkit.system.errors import RegkitError
 
@@ -108,8 +109,14 @@ def main() -> None:
         stand_in()
     when_compiling(tell_compiling)
     show_warnings()
-    try:
-        app()
-    except RegkitError as error:
-        print_error(error)
-        sys.exit(ERROR)
+    with Interrupt() as interrupt:
+        try:
+            app()
+        except BaseException as error:
+            # What an interrupted library makes of Ctrl-C is not a fault to tell.
+            if interrupt.pressed:
+                sys.exit(INTERRUPTED)
+            if not isinstance(error, RegkitError):
+                raise
+            print_error(error)
+            sys.exit(ERROR)

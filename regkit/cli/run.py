@@ -12,6 +12,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from regkit.cli.console import errors, output
+from regkit.cli.exit_codes import INTERRUPTED
 from regkit.cli.interrupt import Interrupt
 from regkit.cli.options import PluginFiles, options, run_plugin_files
 from regkit.cli.run_progress import RunProgress
@@ -21,6 +22,8 @@ from regkit.experiment import run as run_experiment
 from regkit.metrics import Measure
 from regkit.report.labels import wrapped
 from regkit.report.tables import TERMINAL, rows
+
+INTERRUPTION = "interrupted; finished work is kept: continue with --out {folder}"
 
 
 def run(
@@ -73,19 +76,16 @@ def run(
     try:
         with (
             options(only="--only"),
-            Interrupt(stopping) as interrupt,
+            Interrupt(stopping, checked=True) as interrupt,
             RunProgress(interrupt, frames=not workers.remote) as progress,
         ):
+            interrupt.last_words = INTERRUPTION.format(folder=folder)
             outcome = run_experiment(
                 study, folder, progress, only=only or (), workers=workers, figures=figures
             )
     except KeyboardInterrupt:
-        errors.print(
-            f"interrupted; finished work is kept: continue with --out {folder}",
-            highlight=False,
-            soft_wrap=True,
-        )
-        raise typer.Exit(130) from None
+        errors.print(INTERRUPTION.format(folder=folder), highlight=False, soft_wrap=True)
+        raise typer.Exit(INTERRUPTED) from None
     if any(outcome.measures.values()):
         output.print(_table(outcome.measures))
     output.print(f"results: {folder}", highlight=False, soft_wrap=True)
