@@ -18,6 +18,8 @@ from regkit.skeleton import Pose, PoseDescription
 from regkit.start import Start
 from regkit.system.errors import DataError, RegkitError
 from regkit.system.optional import one_thread
+from regkit.system.progress import is_shown, working
+from regkit.system.progress import steps as progress_steps
 from regkit.system.renamed import renamed_arguments
 from regkit.tracking import Session, TrackedFrame, TrackRecorder
 
@@ -158,7 +160,8 @@ def _described(start: Beginning | None, place: str) -> Pose | PoseDescription | 
 
 def _begin(session: Session) -> Start:
     try:
-        return session.begin()
+        with working("searching the start"):
+            return session.begin()
     except RegkitError as error:
         raise error if session.start is None else error.at("start") from None
 
@@ -172,6 +175,9 @@ def _preprocessor_for(frame: Frame) -> Preprocessor:
 
 def _shown(steps: Iterator[TrackedFrame], length: int) -> Iterator[TrackedFrame]:
     """Yields the frames, with a progress bar on a terminal if there are many."""
+    if is_shown():
+        yield from steps if length < 2 else progress_steps(steps, "tracking", length)
+        return
     from rich.console import Console
     from rich.progress import track as shown
 

@@ -21,6 +21,7 @@ from regkit.clouds import check_writable, read_cloud, write_cloud
 from regkit.config.defaults import default_name
 from regkit.geometry.rigid import transformed
 from regkit.interfaces import Method
+from regkit.system.progress import working
 
 
 def align(
@@ -89,7 +90,7 @@ def align(
     chosen = method_named(name)
     points = read_cloud(source)
     resting = read_cloud(target)
-    with options(start="--start", voxel="--voxel"):
+    with options(start="--start", voxel="--voxel"), working("aligning"):
         found = align_clouds(
             points, resting, chosen, voxel=voxel, start=start, places=(str(source), str(target))
         )

@@ -15,8 +15,10 @@ from regkit.cli.completion import completing, stand_in
 from regkit.cli.console import print_error, show_warnings, tell_compiling
 from regkit.cli.exit_codes import ERROR, INTERRUPTED
 from regkit.cli.interrupt import Interrupt
+from regkit.cli.progress import display
 from regkit.system.compiled import when_compiling
 from regkit.system.errors import RegkitError
+from regkit.system.progress import show_on
 
 COMMANDS = {
     "run": "Run an experiment: register the template to every recording with every method.",
@@ -109,6 +111,7 @@ def main() -> None:
         stand_in()
     when_compiling(tell_compiling)
     show_warnings()
+    show_on(display)
     with Interrupt() as interrupt:
         try:
             app()

@@ -7,7 +7,6 @@ from typing import Annotated
 
 import typer
 from rich.markup import escape
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TaskID, TextColumn
 from rich.table import Table
 
 from regkit.calibration import Subject
@@ -69,8 +68,7 @@ def calibrate(
     check_replaceable(out)
     found = Source.read(source, template, settings or ())
     seen = found.recording(recording)
-    with _ProgressBars() as bars:
-        subject = found.calibration(frames).subject(seen, bars)
+    subject = found.calibration(frames).subject(seen)
     opening = OPENING.format(frames=subject.frames, recording=seen.name, file=out.name)
     skin = subject.proportions.skin(found.template.description())
     write_template(out, subject.description, skin, opening)
@@ -111,33 +109,3 @@ def _print_summary(subject: Subject, template_size: float) -> None:
             highlight=False,
             soft_wrap=True,
         )
-
-
-class _ProgressBars:
-    """Progress bars on a terminal, nothing in a pipe."""
-
-    def __init__(self) -> None:
-        self._bars = Progress(
-            TextColumn("{task.description}"),
-            BarColumn(),
-            MofNCompleteColumn(),
-            console=errors,
-            disable=not errors.is_terminal,
-        )
-        self._task: TaskID | None = None
-
-    def __enter__(self) -> _ProgressBars:
-        self._bars.start()
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._bars.stop()
-
-    def begin(self, task: str, steps: int) -> None:
-        """Shows a bar."""
-        self._task = self._bars.add_task(task, total=steps)
-
-    def advance(self) -> None:
-        """Advances the bar by one step."""
-        if self._task is not None:
-            self._bars.advance(self._task)

@@ -19,6 +19,7 @@ from regkit.fitting.bones import read_bone_map
 from regkit.fitting.template import FittedTemplate, parameters_of
 from regkit.interchange.meshes import read_mesh
 from regkit.system.errors import RegkitError
+from regkit.system.progress import working
 
 OPENING = """\
 Made by `regkit fit` from the mesh {mesh}. To use it:
@@ -94,7 +95,8 @@ def fit(
         skinned = read_mesh(mesh, parents)
     mapped = {} if bones is None else read_bone_map(bones)
     try:
-        fitted = FittedTemplate.to(skinned, description, mapped, vertices, shape or ())
+        with working("fitting the mesh"):
+            fitted = FittedTemplate.to(skinned, description, mapped, vertices, shape or ())
     except RegkitError as error:
         raise error.at(str(mesh)) from None
     named = _named(fitted.description, mesh.name)
