@@ -12,7 +12,7 @@ from rich.table import Table
 
 from regkit.cli.completion import example_names
 from regkit.cli.console import output
-from regkit.scaffold.examples import Example, examples
+from regkit.scaffold import Example, examples
 
 
 def example(

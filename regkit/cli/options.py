@@ -62,7 +62,8 @@ Out = Annotated[
     Path | None,
     typer.Option(
         metavar="FOLDER",
-        help="Write result.json, markers.csv, poses.npz and picture.png to this folder.",
+        help="Write result.json, markers.csv, hinges.csv, poses.npz and picture.png to "
+        "this folder.",
         show_default=False,
     ),
 ]

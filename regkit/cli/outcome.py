@@ -16,6 +16,7 @@ from rich.table import Table
 
 from regkit.api import Tracking
 from regkit.cli.console import errors, output
+from regkit.cli.hinge_table import hinge_table
 from regkit.report.png import png
 from regkit.system.errors import ConfigError
 from regkit.system.files import replacing, write_json, write_text
@@ -78,10 +79,10 @@ def _figures(tracking: Tracking) -> dict[str, Any]:
         "marker_names": list(tracking.joint_names),
     }
     if len(tracking) == 1:
-        names = tracking.track.named_arrays(tracking.body)["ball_names"].tolist()
+        skeleton = tracking.body.skeleton
         figures["T_camera_root"] = track.root[0].tolist()
-        figures["balls"] = dict(zip(names, track.balls[0].tolist(), strict=True))
-        figures["hinges"] = track.hinges[0].tolist()
+        figures["balls"] = dict(zip(skeleton.ball_names, track.balls[0].tolist(), strict=True))
+        figures["hinges"] = dict(zip(skeleton.hinge_names, track.hinges[0].tolist(), strict=True))
         figures["markers"] = dict(zip(tracking.joint_names, track.markers[0].tolist(), strict=True))
     return figures
 
@@ -109,6 +110,7 @@ def _table(tracking: Tracking, figures: dict[str, Any]) -> Table:
 def _write(tracking: Tracking, figures: dict[str, Any], out: Path) -> None:
     write_json(out / "result.json", figures)
     write_text(out / "markers.csv", _markers(tracking))
+    write_text(out / "hinges.csv", hinge_table(tracking))
     tracking.save(out / "poses.npz")
     picture = png(tracking.plot(), DPI)
     with replacing(out / "picture.png") as temporary:

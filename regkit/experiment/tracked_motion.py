@@ -48,7 +48,8 @@ def read_tracked_motion(folder: Path, fps: float | None = None) -> TrackedMotion
         body = template.body(float(arrays["size"]))
         transforms = _placed(body, arrays)
         if transforms is not None:
-            return TrackedMotion(name, body, transforms, given, _skin(template, body))
+            skin = _skin(template, body)
+            return TrackedMotion(name, body, transforms, arrays["hinges"], given, skin)
     raise DataError(
         "the template has changed since these poses were estimated; run the experiment again",
         place=str(folder),

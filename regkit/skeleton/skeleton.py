@@ -79,6 +79,26 @@ class Skeleton:
         """Indices of the hinges among the degrees of freedom."""
         return slice(self.ball_dofs.stop, self.dofs)
 
+    @cached_property
+    def ball_names(self) -> tuple[str, ...]:
+        """Name of the segment of each ball joint, (n_ball,)."""
+        segments = dict(zip(self.segment_links.tolist(), self.names, strict=True))
+        return tuple(segments[link] for link in self.ball_links.tolist())
+
+    @cached_property
+    def hinge_names(self) -> tuple[str, ...]:
+        """Name of each hinge, (n_hinge,): its segment's, ``NAME.first`` and ``NAME.second`` of two.
+
+        A universal joint has two.
+        """
+        names = [""] * len(self.hinge_links)
+        start = self.hinge_dofs.start
+        for segment, dofs in self.joint_dofs.items():
+            own = [dof - start for dof in dofs.tolist() if dof >= start]
+            for hinge, which in zip(own, ("first", "second"), strict=False):
+                names[hinge] = f"{segment}.{which}" if len(own) > 1 else segment
+        return tuple(names)
+
     def rest(self, root: Array | None = None) -> Pose:
         """Returns the rest pose: zero angles, except for the offsets of coupled hinges.
 

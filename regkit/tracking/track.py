@@ -56,12 +56,10 @@ class Track:
         return Track(**{field.name: getattr(self, field.name)[part] for field in fields(self)})
 
     def named_arrays(self, body: Body) -> dict[str, NDArray[Any]]:
-        """Returns these arrays, the names of markers and ball joints, and the size, for a file."""
-        skeleton = body.skeleton
-        links = list(skeleton.segment_links)
-        balls = [skeleton.names[links.index(link)] for link in skeleton.ball_links]
+        """Returns these arrays, the names of markers and joints, and the size, for a file."""
         return {field.name: getattr(self, field.name) for field in fields(self)} | {
             "marker_names": np.array(body.markers.names, dtype=np.str_),
-            "ball_names": np.array(balls, dtype=np.str_),
+            "ball_names": np.array(body.skeleton.ball_names, dtype=np.str_),
+            "hinge_names": np.array(body.skeleton.hinge_names, dtype=np.str_),
             "size": np.array(body.size),
         }
