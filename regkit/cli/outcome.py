@@ -18,20 +18,9 @@ from regkit.api import Tracking
 from regkit.cli.console import errors, output
 from regkit.cli.hinge_table import hinge_table
 from regkit.report.png import png
-from regkit.system.errors import ConfigError
 from regkit.system.files import replacing, write_json, write_text
 
 DPI = 110
-
-
-def check_out(out: Path | None) -> None:
-    """Refuses a file in place of the output folder, before any work is done.
-
-    Raises:
-        ConfigError: If the path is a file.
-    """
-    if out is not None and out.exists() and not out.is_dir():
-        raise ConfigError("this is a file; name a folder", place=f"--out {out}")
 
 
 def finish(tracking: Tracking, out: Path | None, *, as_json: bool) -> None:

@@ -15,6 +15,7 @@ from regkit.cli.console import errors, output
 from regkit.cli.exit_codes import INTERRUPTED
 from regkit.cli.interrupt import Interrupt
 from regkit.cli.options import PluginFiles, options, run_plugin_files
+from regkit.cli.out_folder import check_out
 from regkit.cli.run_progress import RunProgress
 from regkit.cli.workers import chosen_workers
 from regkit.experiment import Study
@@ -72,6 +73,7 @@ def run(
     workers = chosen_workers(jobs, cluster)
     study = Study.read(experiment, settings or (), called="--set")
     folder = out or Path("results") / study.name / f"{datetime.now():%Y%m%d-%H%M%S}"
+    check_out(folder, whole=True)
     stopping = "stopping" if workers.remote else "stopping after this frame"
     try:
         with (

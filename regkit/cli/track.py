@@ -21,7 +21,8 @@ from regkit.cli.options import (
     options,
     run_plugin_files,
 )
-from regkit.cli.outcome import check_out, finish
+from regkit.cli.out_folder import check_out
+from regkit.cli.outcome import finish
 from regkit.interfaces import Dataset
 
 
@@ -60,12 +61,13 @@ def track(
 ) -> None:
     """Track a template through a recording; the first frame's pose is found automatically."""
     run_plugin_files(plugin)
-    check_out(out)
     named = {"template": template, "method": method, "preprocessor": preprocessor}
     choices, name = Choices.of({**named, "tracker": tracker}, settings or ())
     data = Dataset.in_folder(folder, frames=frames)
     with options(**{"dataset.recordings": "--recording"}):
         chosen = Dataset.parse(data, place="FOLDER", field="dataset").only(recording)
+    target = out or Path("tracks") / chosen.name
+    check_out(target, whole=False)
     found = track_frames(
         chosen,
         choices.template,
@@ -74,4 +76,4 @@ def track(
         tracker=choices.tracker,
         start=choices.start,
     )
-    finish(replace(found, method=name), out or Path("tracks") / chosen.name, as_json=as_json)
+    finish(replace(found, method=name), target, as_json=as_json)

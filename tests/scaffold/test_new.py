@@ -12,7 +12,6 @@ from regkit.cli import new
 from regkit.config.document import Document
 from regkit.scaffold import KINDS, Scaffold
 
-
 LONG = ("term", "preprocessor", "tracker")
 """Kinds whose example runs for a release only; each runs the plug-ins of the others."""
 
