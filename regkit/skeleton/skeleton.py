@@ -22,11 +22,12 @@ from regkit.skeleton.compiled_steps import retracted_balls, retracted_root
 from regkit.skeleton.limits import Limits
 from regkit.skeleton.pose import Pose, PoseDescription
 from regkit.system.arrays import Array, Indices
+from regkit.system.brief import Brief
 from regkit.system.errors import ConfigError
 
 
 @dataclass(frozen=True, eq=False)
-class Skeleton:
+class Skeleton(Brief):
     """A tree of *links*, each with at most one joint, built by ``regkit.skeleton.compile``.
 
     A universal joint is two hinges, the first of them on a virtual link. So every link's joint is
@@ -62,6 +63,14 @@ class Skeleton:
     joint_dofs: Mapping[str, Indices]
     dof_mask: Array
     limits: Limits
+
+    def __repr__(self) -> str:
+        """Returns the numbers of segments and joints, in one line."""
+        root = "free" if self.free else "fixed"
+        return (
+            f"<Skeleton of {len(self.names)} segments: {root} root, {len(self.ball_links)} ball "
+            f"joints, {len(self.hinge_links)} hinges, {self.dofs} degrees of freedom>"
+        )
 
     @property
     def dofs(self) -> int:

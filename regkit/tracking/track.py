@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 from regkit.body import Body
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
+from regkit.system.brief import Brief
 
 
 @dataclass(frozen=True)
-class Track:
+class Track(Brief):
     """A tracked recording as arrays over its T frames.
 
     Attributes:
