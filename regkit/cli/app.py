@@ -32,8 +32,7 @@ COMMANDS = {
     "fit": "Create a template with the shape of a skinned mesh.",
     "import": "Create a template from another program's skeleton: BVH, or URDF with its limits.",
     "validate": "Check YAML files and report each mistake with its line.",
-    "plugins": "List the installed plug-ins with their distributions, or the fields of one "
-    "plug-in.",
+    "plugins": "List the installed plug-ins, or the fields of one of them.",
     "example": "Copy a runnable example with its data, or list the examples.",
     "new": "Create a package for a plug-in of your own, which passes conformance from the start.",
     "schema": "Write the JSON Schemas of experiments and their parts, for editors.",

@@ -42,7 +42,11 @@ def run(
     ] = None,
     settings: Annotated[
         list[str] | None,
-        typer.Option("--set", metavar="a.b.c=VALUE", help="Change a YAML value. Repeatable."),
+        typer.Option(
+            "--set",
+            metavar="a.b.c=VALUE",
+            help="Change a YAML value, such as dataset.frames=20. Repeatable.",
+        ),
     ] = None,
     plugin: PluginFiles = None,
     only: Annotated[

@@ -13,7 +13,6 @@ from regkit.cli.choices import Choices
 from regkit.cli.completion import plugin_names
 from regkit.cli.options import (
     MethodName,
-    Out,
     PluginFiles,
     PreprocessorName,
     Settings,
@@ -55,7 +54,15 @@ def track(
         int | None, typer.Option(min=1, metavar="N", help="Track only the first N frames.")
     ] = None,
     settings: Settings = None,
-    out: Out = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FOLDER",
+            help="Folder for result.json, markers.csv, hinges.csv, poses.npz and picture.png. "
+            "(default: tracks/RECORDING)",
+            show_default=False,
+        ),
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
     plugin: PluginFiles = None,
 ) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import re
 import shutil
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -12,6 +11,7 @@ from typing import Any
 
 from regkit.config.document import Document
 from regkit.config.model import did_you_mean
+from regkit.config.opening import first_sentence, opening_sentence
 from regkit.config.schema_line import MARK
 from regkit.system.errors import ConfigError, DataError
 from regkit.system.shipped import examples_folder
@@ -53,12 +53,8 @@ class Example:
         """First sentence of the file's opening comment or docstring."""
         text = self.file.read_text(encoding="utf-8")
         if self.file.suffix == ".py":
-            opening = ast.get_docstring(ast.parse(text)) or ""
-        else:
-            lines = [line for line in text.splitlines() if not line.startswith(MARK)]
-            end = next(at for at, line in enumerate(lines) if not line.startswith("#"))
-            opening = " ".join(line.removeprefix("#").strip() for line in lines[:end])
-        return re.split(r"(?<=[.])\s", " ".join(opening.split()))[0]
+            return first_sentence(ast.get_docstring(ast.parse(text)) or "")
+        return opening_sentence(text)
 
     @property
     def data(self) -> list[Path]:
