@@ -53,6 +53,7 @@ def align(
         float | None,
         typer.Option(
             min=0.0,
+            metavar="METRES",
             help="Voxel size in metres for downsampling both clouds; 0 turns downsampling off. "
             "(default: chosen to keep about 5000 points)",
             show_default=False,
@@ -76,6 +77,7 @@ def align(
         typer.Option(
             min=0.0,
             max=1.0,
+            metavar="SHARE",
             help="Fail if a smaller fraction of the source lies on the target.",
         ),
     ] = 0.3,

@@ -58,7 +58,9 @@ def calibrate(
     settings: Annotated[
         list[str] | None,
         typer.Option(
-            "--set", metavar="a.b.c=VALUE", help="Change a value of the experiment. Repeatable."
+            "--set",
+            metavar="a.b.c=VALUE",
+            help="Change a value of the experiment, such as dataset.frames=60. Repeatable.",
         ),
     ] = None,
     plugin: PluginFiles = None,
