@@ -93,6 +93,8 @@ def registry(monkeypatch):
 def regkit(monkeypatch, capsys):
     """The command line in this process; an error that it does not catch fails the test."""
     monkeypatch.setenv("COLUMNS", "200")
+    # However slow the machine is, no line of progress is among what a test compares.
+    monkeypatch.setattr("regkit.cli.progress.EVERY", 1e6)
 
     def run(*arguments: object) -> Ended:
         monkeypatch.setattr(sys, "argv", ["regkit", *map(str, arguments)])

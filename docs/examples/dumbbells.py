@@ -1,4 +1,7 @@
-"""A shape model in one file: `regkit run EXPERIMENT --plugin docs/examples/dumbbells.py`."""
+"""A shape model in one file: two Gaussians per capsule.
+
+regkit run EXPERIMENT.yaml --plugin dumbbells.py
+"""
 
 from typing import ClassVar, Literal
 

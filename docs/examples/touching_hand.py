@@ -1,6 +1,6 @@
 """A hand that touches a table: a custom constraint with regkit's CasADi functions.
 
-    python docs/examples/touching_hand.py
+    python touching_hand.py
 
 The index finger touches the plane y = 0, but is not visible. See docs/how-to/limits.md.
 """

@@ -16,6 +16,7 @@ from regkit.clouds.checks import check_shape, check_sizes
 from regkit.interfaces import Method
 from regkit.observation import Observation
 from regkit.system.arrays import Array
+from regkit.system.brief import Brief
 from regkit.system.errors import DataError
 from regkit.system.optional import one_blas_thread
 
@@ -30,7 +31,7 @@ MIN_POINTS = 10
 
 
 @dataclass(frozen=True)
-class Alignment:
+class Alignment(Brief):
     """The result of an alignment.
 
     Attributes:

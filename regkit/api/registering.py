@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import Any
 
 from regkit.api.choices import Choice, load_template, name_of
+from regkit.api.frame_files import load_frame
 from regkit.api.frames import Frames, GivenFrames, Intrinsics, Measured, frame_of, recording_of
 from regkit.api.registration import Registration
 from regkit.api.tracking import Tracking, TrackingError
@@ -15,8 +17,10 @@ from regkit.interfaces import Method, Preprocessor, Recording, Template, Tracker
 from regkit.observation import Frame
 from regkit.skeleton import Pose, PoseDescription
 from regkit.start import Start
-from regkit.system.errors import NoDataError, RegkitError
+from regkit.system.errors import ConfigError, NoDataError, RegkitError
 from regkit.system.optional import one_thread
+from regkit.system.progress import is_shown, working
+from regkit.system.progress import steps as progress_steps
 from regkit.system.renamed import renamed_arguments
 from regkit.tracking import Session, TrackedFrame, TrackRecorder, check_unit
 
@@ -32,7 +36,7 @@ Beginning = Pose | PoseDescription | Mapping[str, Any]
 
 @renamed_arguments(observer="preprocessor")
 def register(
-    cloud: Measured,
+    cloud: Measured | str | Path,
     template: Choice[Template],
     method: Choice[Method] | None = None,
     *,
@@ -44,8 +48,9 @@ def register(
 
     Args:
         cloud: Points (N, 3) [m] in the camera's frame (x right, y down, z forward), or a depth
-            image (H, W) [m] with 0 for pixels without a measurement. It must show the body alone,
-            unless ``preprocessor`` crops the surroundings.
+            image (H, W) [m] with 0 for pixels without a measurement; or a file, as ``load_frame``
+            reads it: a cloud, a mesh, or a depth image with its ``camera.json``. It must show the
+            body alone, unless ``preprocessor`` crops the surroundings.
         template: The body: ``"human"``, ``"hand"``, a file, or a result of ``load_template``.
         method: A preset such as ``"best"``, ``"spheres"``, ``"icp"`` or ``"paper"``, a mapping as
             in an experiment's YAML, or a method; by default regkit's best.
@@ -62,6 +67,10 @@ def register(
     Raises:
         RegkitError: If an argument is invalid, or the body cannot be registered.
     """
+    if isinstance(cloud, (str, Path)):
+        if camera is not None:
+            raise ConfigError("a file is seen by the camera.json beside it", place="camera")
+        cloud = load_frame(cloud)
     frame = frame_of(cloud, camera, place="cloud")
     recording = GivenFrames(name="cloud", fps=1.0, length=1, given=(frame,))
     return _tracked(recording, template, method, preprocessor, None, start, "regkit.register")[0]
@@ -180,7 +189,8 @@ def _described(start: Beginning | None, place: str) -> Pose | PoseDescription | 
 
 def _begin(session: Session) -> Start:
     try:
-        return session.begin()
+        with working("searching the start"):
+            return session.begin()
     except RegkitError as error:
         raise error if session.start is None else error.at("start") from None
 
@@ -194,6 +204,9 @@ def _preprocessor_for(frame: Frame) -> Preprocessor:
 
 def _shown(steps: Iterator[TrackedFrame], length: int) -> Iterator[TrackedFrame]:
     """Yields the frames, with a progress bar on a terminal if there are many."""
+    if is_shown():
+        yield from steps if length < 2 else progress_steps(steps, "tracking", length)
+        return
     from rich.console import Console
     from rich.progress import track as shown
 

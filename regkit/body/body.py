@@ -13,10 +13,11 @@ from regkit.geometry.capsules import Capsules
 from regkit.geometry.surface import SkinnedSurface
 from regkit.skeleton import Placement, Pose, Skeleton
 from regkit.system.arrays import Array, Indices
+from regkit.system.brief import Brief
 
 
 @dataclass(frozen=True)
-class Markers:
+class Markers(Brief):
     """Named points on segments, such as joints and fingertips.
 
     Attributes:
@@ -52,7 +53,7 @@ class Stance:
 
 
 @dataclass(frozen=True)
-class Body:
+class Body(Brief):
     """The body to register, at its size.
 
     In the rest pose the frames of the segments are parallel. For a person, x points to the left, y
@@ -80,6 +81,13 @@ class Body:
     size: float
     upright: bool
     surface: SkinnedSurface | None = None
+
+    def __repr__(self) -> str:
+        """Returns what the body consists of, in one line."""
+        parts = [f"{len(self.capsules)} capsules", f"{len(self.markers.names)} markers"]
+        if self.surface is not None:
+            parts.append(f"{len(self.surface.points)} surface points")
+        return f"<Body {self.name}: size {self.size:.4g} m, {self.skeleton!r}, {', '.join(parts)}>"
 
     def place(self, pose: Pose) -> Placement:
         """Returns the skeleton's placement in a pose."""

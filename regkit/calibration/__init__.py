@@ -1,6 +1,6 @@
 """Calibration: the proportions and shape of a person or hand, estimated from a recording."""
 
-from regkit.calibration.calibration import Calibration, Watcher
+from regkit.calibration.calibration import Calibration
 from regkit.calibration.subject import Subject
 
-__all__ = ["Calibration", "Subject", "Watcher"]
+__all__ = ["Calibration", "Subject"]

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 from itertools import islice
-from typing import Protocol
 
 import numpy as np
 
@@ -22,23 +20,14 @@ from regkit.start import Start
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError
 from regkit.system.optional import one_blas_thread
-from regkit.tracking import Session, TrackedFrame
+from regkit.system.progress import steps, working
+from regkit.tracking import Session
 
 ROUNDS = 2
 """Number of rounds of tracking and fitting: a body closer to the subject is tracked better."""
 
 VOXEL, SMALLEST_VOXEL = 0.018, 0.01
 """Voxel size as a fraction of the body's size, and its lower bound [m]."""
-
-
-class Watcher(Protocol):
-    """An observer of a calibration's progress."""
-
-    def begin(self, task: str, steps: int) -> None:
-        """Announces a task with a number of steps."""
-
-    def advance(self) -> None:
-        """Reports one completed step."""
 
 
 class Calibration(Model):
@@ -61,7 +50,7 @@ class Calibration(Model):
     solver: Solver = slot_default(Solver, max_iterations=30, value_tolerance=1e-4)
     """Solver of the joint problem over all frames."""
 
-    def subject(self, recording: Recording, watcher: Watcher) -> Subject:
+    def subject(self, recording: Recording) -> Subject:
         """Returns the subject of a recording.
 
         Raises:
@@ -69,13 +58,14 @@ class Calibration(Model):
                 implausible.
         """
         with one_blas_thread():
-            return self._subject(recording, watcher)
+            return self._subject(recording)
 
-    def _subject(self, recording: Recording, watcher: Watcher) -> Subject:
+    def _subject(self, recording: Recording) -> Subject:
         shape = Shape(self.template.description())
         # The fit finds the size; the start needs only a rough one.
         session = Session(recording, self.template, self._preprocessor(), self.start, sized_in=1)
-        start = session.begin()
+        with working("searching the start"):
+            start = session.begin()
         if not len(start.body.capsules):
             raise ConfigError(
                 f"the template '{start.body.name}' has no capsules, which calibration needs to "
@@ -83,8 +73,8 @@ class Calibration(Model):
             )
         x = shape.origin(start.body.size)
         for _ in range(ROUNDS):
-            looks = self._looks(session, start, watcher)
-            x, looks = self._fitted(shape, x, looks, watcher)
+            looks = self._looks(session, start)
+            x, looks = self._fitted(shape, x, looks)
             start = Start(shape.body(x), looks.first)
         return Subject.found(shape, x, looks, recording.name)
 
@@ -97,26 +87,16 @@ class Calibration(Model):
         data = Preprocessor.default(voxel=voxel, sigma=max(voxel / 3.0, SMALLEST_VOXEL / 2.0))
         return Preprocessor.parse(data, place="calibration", field="preprocessor")
 
-    def _looks(self, session: Session, start: Start, watcher: Watcher) -> Looks:
+    def _looks(self, session: Session, start: Start) -> Looks:
         """Tracks the body and returns the frames chosen for the fit."""
         length = min(session.recording.length, self.longest)
-        watcher.begin("tracking", length)
         registrar = self.method.bind(start.body)
         track = session.tracked(registrar, self.method.tracker or self.tracker, start.pose)
-        return spread(_watched(islice(track, length), watcher), length, self.frames)
+        return spread(steps(islice(track, length), "tracking", length), length, self.frames)
 
-    def _fitted(
-        self, shape: Shape, x: Array, looks: Looks, watcher: Watcher
-    ) -> tuple[Array, Looks]:
+    def _fitted(self, shape: Shape, x: Array, looks: Looks) -> tuple[Array, Looks]:
         """Returns the fitted proportions (1 + 2 G) and poses."""
-        watcher.begin("fitting", 1)
         problem = SubjectProblem(shape, x, looks.clouds, looks.poses)
-        solution = self.solver.minimize(problem)
-        watcher.advance()
+        with working("fitting"):
+            solution = self.solver.minimize(problem)
         return problem.shape(solution.x), replace(looks, poses=problem.poses(solution.x))
-
-
-def _watched(track: Iterator[TrackedFrame], watcher: Watcher) -> Iterator[TrackedFrame]:
-    for frame in track:
-        watcher.advance()
-        yield frame

@@ -14,6 +14,7 @@ from rich.table import Table
 from regkit.alignment import Alignment
 from regkit.alignment import align as align_clouds
 from regkit.cli.choices import method_named
+from regkit.cli.completion import plugin_names
 from regkit.cli.console import errors, output
 from regkit.cli.matrix import matrix_rows
 from regkit.cli.options import PluginFiles, Strict, default_of, options, run_plugin_files
@@ -22,6 +23,7 @@ from regkit.clouds import check_writable, read_cloud, write_cloud
 from regkit.config.defaults import default_name
 from regkit.geometry.rigid import transformed
 from regkit.interfaces import Method
+from regkit.system.progress import working
 from regkit.tracking import Verdict
 
 FRAME = 24
@@ -47,6 +49,7 @@ def align(
         str | None,
         typer.Option(
             metavar="METHOD",
+            autocompletion=plugin_names("method"),
             help="Method: a preset or kind, such as open3d_icp, or a mapping such as "
             "'{kind: open3d_icp, estimation: generalized}'. "
             f"(default: {default_of(Method, 'rigid')})",
@@ -57,6 +60,7 @@ def align(
         float | None,
         typer.Option(
             min=0.0,
+            metavar="METRES",
             help="Voxel size in metres for downsampling both clouds; 0 turns downsampling off. "
             "(default: chosen to keep about 5000 points)",
             show_default=False,
@@ -80,6 +84,7 @@ def align(
         typer.Option(
             min=0.0,
             max=1.0,
+            metavar="SHARE",
             help="Fail if a smaller fraction of the source lies on the target.",
         ),
     ] = 0.3,
@@ -95,7 +100,7 @@ def align(
     chosen = method_named(name)
     points = read_cloud(source)
     resting = read_cloud(target)
-    with options(start="--start", voxel="--voxel"):
+    with options(start="--start", voxel="--voxel"), working("aligning"):
         found = align_clouds(
             points, resting, chosen, voxel=voxel, start=start, places=(str(source), str(target))
         )

@@ -7,17 +7,22 @@ import sys
 from collections.abc import Callable
 from functools import wraps
 from keyword import iskeyword
-from typing import Any, ParamSpec
+from typing import Annotated, Any, ParamSpec
 
 import typer
 from typer.core import TyperCommand, TyperGroup
 
+from regkit import __version__
+from regkit.cli.completion import completing, stand_in
 from regkit.cli.console import print_error, show_warnings, tell_compiling
-from regkit.cli.exit_codes import ERROR, NOT_FOUND
+from regkit.cli.exit_codes import ERROR, INTERRUPTED, NOT_FOUND
+from regkit.cli.interrupt import Interrupt
+from regkit.cli.progress import display
 from regkit.cli.streams import flush_output, standard_streams
 from regkit.system.compiled import when_compiling
 from regkit.system.errors import NotFoundError, RegkitError
 from regkit.system.plugin_code import plugin_code
+from regkit.system.progress import show_on
 
 P = ParamSpec("P")
 
@@ -33,8 +38,8 @@ COMMANDS = {
     "fit": "Create a template with the shape of a skinned mesh.",
     "import": "Create a template from another program's skeleton: BVH, or URDF with its limits.",
     "validate": "Check YAML files and report each mistake with its line.",
-    "plugins": "List the installed plug-ins with their distributions, or the fields of one "
-    "plug-in.",
+    "plugins": "List the installed plug-ins, or the fields of one of them.",
+    "example": "Copy a runnable example with its data, or list the examples.",
     "new": "Create a package for a plug-in of your own, which passes conformance from the start.",
     "schema": "Write the JSON Schemas of experiments and their parts, for editors.",
     "doctor": "Check the installation and name the command that repairs each problem.",
@@ -67,7 +72,7 @@ class Commands(TyperGroup):
             BadParameter: If an option is given by its old name.
         """
         name, _, rest = super().resolve_command(ctx, args)
-        former = RENAMED_OPTIONS.get(str(name), {})
+        former = {} if ctx.resilient_parsing else RENAMED_OPTIONS.get(str(name), {})
         for option in (argument.partition("=")[0] for argument in rest):
             if option in former:
                 raise typer.BadParameter(f"'{option}' is now called '{former[option]}'", ctx=ctx)
@@ -105,24 +110,46 @@ def _ended_by_itself(command: Callable[P, None], name: str) -> Callable[P, None]
     return run
 
 
-app = typer.Typer(cls=Commands, add_completion=False, pretty_exceptions_enable=False)
+app = typer.Typer(cls=Commands, pretty_exceptions_enable=False)
+
+
+def print_version(asked: bool) -> None:
+    """Prints the version, if it was asked for, and ends."""
+    if asked:
+        typer.echo(f"regkit {__version__}")
+        raise typer.Exit
 
 
 @app.callback(no_args_is_help=True)
-def regkit() -> None:
+def regkit(
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version", callback=print_version, is_eager=True, help="Print the version and exit."
+        ),
+    ] = False,
+) -> None:
     """Register articulated and rigid shape models to point clouds and depth frames."""
 
 
 def main() -> None:
     """Runs the command line; prints an error that a user can correct and exits with code 1."""
+    if completing():
+        stand_in()
     when_compiling(tell_compiling)
     show_warnings()
-    with standard_streams():
+    show_on(display)
+    with standard_streams(), Interrupt() as interrupt:
         try:
             try:
                 app()
             finally:
                 flush_output()
-        except RegkitError as error:
+        except BaseException as error:
+            # What an interrupted library makes of Ctrl-C is not a fault to tell.
+            if interrupt.pressed:
+                sys.exit(INTERRUPTED)
+            if not isinstance(error, RegkitError):
+                raise
             print_error(error)
             sys.exit(NOT_FOUND if isinstance(error, NotFoundError) else ERROR)

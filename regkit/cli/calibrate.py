@@ -7,11 +7,11 @@ from typing import Annotated
 
 import typer
 from rich.markup import escape
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TaskID, TextColumn
 from rich.table import Table
 
 from regkit.calibration import Subject
 from regkit.cli.calibration_source import Source
+from regkit.cli.completion import plugin_names
 from regkit.cli.console import errors, output
 from regkit.cli.options import PluginFiles, Strict, default_of, run_plugin_files
 from regkit.cli.template_file import check_replaceable, write_template
@@ -47,6 +47,7 @@ def calibrate(
         str | None,
         typer.Option(
             metavar="TEMPLATE",
+            autocompletion=plugin_names("template"),
             help="Body in the recording: a name such as hand, a template's YAML file, or a mapping "
             "such as '{kind: hand, side: left}'. "
             f"(default: the experiment's template, or {default_of(Template)})",
@@ -66,7 +67,9 @@ def calibrate(
     settings: Annotated[
         list[str] | None,
         typer.Option(
-            "--set", metavar="a.b.c=VALUE", help="Change a value of the experiment. Repeatable."
+            "--set",
+            metavar="a.b.c=VALUE",
+            help="Change a value of the experiment, such as dataset.frames=60. Repeatable.",
         ),
     ] = None,
     strict: Strict = False,
@@ -77,8 +80,7 @@ def calibrate(
     check_replaceable(out)
     found = Source.read(source, template, settings or ())
     seen = found.recording(recording)
-    with _ProgressBars() as bars:
-        subject = found.calibration(frames).subject(seen, bars)
+    subject = found.calibration(frames).subject(seen)
     opening = OPENING.format(frames=subject.frames, recording=seen.name, file=out.name)
     skin = subject.proportions.skin(found.template.description())
     write_template(out, subject.description, skin, opening)
@@ -121,33 +123,3 @@ def _print_summary(subject: Subject, template_size: float) -> None:
             highlight=False,
             soft_wrap=True,
         )
-
-
-class _ProgressBars:
-    """Progress bars on a terminal, nothing in a pipe."""
-
-    def __init__(self) -> None:
-        self._bars = Progress(
-            TextColumn("{task.description}"),
-            BarColumn(),
-            MofNCompleteColumn(),
-            console=errors,
-            disable=not errors.is_terminal,
-        )
-        self._task: TaskID | None = None
-
-    def __enter__(self) -> _ProgressBars:
-        self._bars.start()
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._bars.stop()
-
-    def begin(self, task: str, steps: int) -> None:
-        """Shows a bar."""
-        self._task = self._bars.add_task(task, total=steps)
-
-    def advance(self) -> None:
-        """Advances the bar by one step."""
-        if self._task is not None:
-            self._bars.advance(self._task)

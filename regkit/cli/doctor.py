@@ -10,6 +10,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from regkit.cli.console import output
+from regkit.cli.extras import extras
 from regkit.config.former import left_behind
 from regkit.config.preset import preset, presets_of
 from regkit.interfaces import SLOTS
@@ -26,15 +27,36 @@ LIBRARIES = {name: name for name in ("numpy", "scipy", "numba", "pydantic", "mat
 
 
 def doctor() -> None:
-    """Check the installation and name the command that repairs each problem."""
+    """Check the installation and name the command that repairs each problem.
+
+    Optional libraries are listed with what they are for; one that is missing is no problem.
+    """
     table = Table("component", "state", "repair")
     findings = [_python(), *(_library(*names) for names in LIBRARIES.items())]
     findings += [_plugins(), _cache()]
     for what, state, cure in findings:
         table.add_row(what, escape(state), escape(cure), style="red" if cure else None)
     output.print(table)
+    _print_extras()
     if any(cure for _, _, cure in findings):
         raise typer.Exit(1)
+
+
+def _print_extras() -> None:
+    """Prints the optional libraries, and below them how to install those that are missing."""
+    listed = extras(besides={*LIBRARIES})
+    table = Table("optional library", "state", "for")
+    for one in listed:
+        table.add_row(one.name, one.version or "not installed", escape(", ".join(one.purposes)))
+    output.print(table)
+    for one in listed:
+        if one.version is None:
+            output.print(
+                f"to install {one.name}: {one.command}",
+                markup=False,
+                highlight=False,
+                soft_wrap=True,
+            )
 
 
 def _python() -> tuple[str, str, str]:

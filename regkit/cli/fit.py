@@ -11,6 +11,7 @@ from rich.table import Table
 
 from regkit.body import BodyDescription
 from regkit.cli.choices import template_named
+from regkit.cli.completion import plugin_names
 from regkit.cli.console import output
 from regkit.cli.options import PluginFiles, default_of, options, run_plugin_files
 from regkit.cli.template_file import check_replaceable, write_template
@@ -19,6 +20,7 @@ from regkit.fitting.template import FittedTemplate, parameters_of
 from regkit.interchange.meshes import read_mesh
 from regkit.interfaces import Template
 from regkit.system.errors import RegkitError
+from regkit.system.progress import working
 
 OPENING = """\
 Made by `regkit fit` from the mesh {mesh}. To use it:
@@ -40,6 +42,7 @@ def fit(
         str | None,
         typer.Option(
             metavar="TEMPLATE",
+            autocompletion=plugin_names("template"),
             help="Template that provides the joints: a name such as hand, a YAML file, or a "
             f"mapping such as '{{kind: hand, side: left}}'. (default: {default_of(Template)})",
             show_default=False,
@@ -93,7 +96,8 @@ def fit(
         skinned = read_mesh(mesh, parents)
     mapped = {} if bones is None else read_bone_map(bones)
     try:
-        fitted = FittedTemplate.to(skinned, description, mapped, vertices, shape or ())
+        with working("fitting the mesh"):
+            fitted = FittedTemplate.to(skinned, description, mapped, vertices, shape or ())
     except RegkitError as error:
         raise error.at(str(mesh)) from None
     named = _named(fitted.description, mesh.name)

@@ -14,6 +14,7 @@ from regkit.interchange.imported import THICKNESS, ImportedSkeleton
 from regkit.interchange.skeletons import read_skeleton
 from regkit.skeleton.joints import BallJoint
 from regkit.system.errors import ConfigError
+from regkit.system.progress import working
 
 OPENING = """\
 Made by `regkit import {command}`. To use it:
@@ -76,7 +77,7 @@ def import_(
     if not 0.0 < scale < float("inf"):
         raise ConfigError(f"the scale is {scale:g}; it must be positive", place="--scale")
     check_replaceable(out)
-    with options(up="--up", front="--front"):
+    with options(up="--up", front="--front"), working("importing"):
         imported = read_skeleton(file, scale=scale, title=title, up=up, front=front)
     given = {"--scale": f"{scale:g}" if scale != 1.0 else None, "--up": up, "--front": front}
     written = [word for option, value in given.items() if value for word in (option, value)]

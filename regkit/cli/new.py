@@ -8,14 +8,29 @@ from typing import Annotated
 import typer
 
 from regkit.cli.console import output
-from regkit.scaffold import PLACEHOLDER, Scaffold
+from regkit.scaffold import Scaffold
+
+KINDS = (
+    "shape",
+    "kernel",
+    "term",
+    "preprocessor",
+    "solver",
+    "method",
+    "tracker",
+    "template",
+    "dataset",
+)
+"""The kinds of plug-ins that ``regkit.scaffold`` knows; a completion does not import it."""
 
 
 def new(
     what: Annotated[
         str,
         typer.Argument(
-            metavar="WHAT", help="Kind of plug-in: shape, kernel, solver, dataset or template."
+            metavar="WHAT",
+            help=f"Kind of plug-in: {', '.join(KINDS[:-1])} or {KINDS[-1]}.",
+            autocompletion=lambda incomplete: [one for one in KINDS if one.startswith(incomplete)],
         ),
     ],
     name: Annotated[
@@ -28,15 +43,12 @@ def new(
     """Create a package for a plug-in of your own, which passes conformance from the start."""
     scaffold = Scaffold.checked(what, name)
     folder = scaffold.write(out)
-    # Without a source checkout the example names no recording.
-    placeholder = PLACEHOLDER in (folder / "example.yaml").read_text(encoding="utf-8")
-    recorded = " --set dataset.root=FOLDER" if placeholder else ""
     lines = [
         f"written: {folder}",
         f"the {what} is in {folder / 'src' / scaffold.module / f'{what}.py'}; next:",
         f'  cd {folder} && pip install -e ".[testing]"',
         "  pytest",
-        f"  regkit run example.yaml{recorded}",
+        "  regkit run example.yaml",
     ]
     for line in lines:
         output.print(line, markup=False, highlight=False, soft_wrap=True)

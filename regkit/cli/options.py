@@ -9,6 +9,7 @@ from typing import Annotated
 
 import typer
 
+from regkit.cli.completion import plugin_names
 from regkit.config.defaults import default_name
 from regkit.config.plugin import Plugin
 from regkit.config.registry import run_plugin_file
@@ -29,6 +30,7 @@ TemplateName = Annotated[
     typer.Option(
         "--template",
         metavar="TEMPLATE",
+        autocompletion=plugin_names("template"),
         help="Body to register: a name such as human or hand, a template's YAML file, a rigid "
         "cloud or mesh, or a mapping such as '{kind: hand, side: left}'. "
         f"(default: {default_of(Template)})",
@@ -41,6 +43,7 @@ MethodName = Annotated[
     typer.Option(
         "--method",
         metavar="METHOD",
+        autocompletion=plugin_names("method"),
         help="Method: a preset such as best or spheres, a kind, a preset's YAML file, or a mapping "
         f"such as '{{preset: best, terms: []}}'. (default: {default_of(Method)})",
         show_default=False,
@@ -52,6 +55,7 @@ PreprocessorName = Annotated[
     typer.Option(
         "--preprocessor",
         metavar="PREPROCESSOR",
+        autocompletion=plugin_names("preprocessor"),
         help="Preprocessing of a frame: a kind, or a mapping such as '{kind: points, voxel: 0.03, "
         "crop: {near: 2, far: 4}}'. (default: downsample to about 900 points)",
         show_default=False,
@@ -71,8 +75,8 @@ Out = Annotated[
     Path | None,
     typer.Option(
         metavar="FOLDER",
-        help="Write result.json, markers.csv, frames.csv, poses.npz and picture.png "
-        "to this folder.",
+        help="Write result.json, markers.csv, hinges.csv, frames.csv, poses.npz and picture.png to "
+        "this folder.",
         show_default=False,
     ),
 ]

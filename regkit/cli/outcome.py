@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import csv
 import json
 import math
-from io import StringIO
 from pathlib import Path
 from typing import Any
 
@@ -15,23 +13,14 @@ from rich.table import Table
 
 from regkit.api import Tracking
 from regkit.cli.console import errors, output
+from regkit.cli.hinge_table import hinge_table
 from regkit.cli.verdicts import conclude
 from regkit.report.png import png
-from regkit.system.errors import ConfigError
+from regkit.system.csv_table import csv_text
 from regkit.system.files import replacing, write_json, write_text
 from regkit.tracking import Verdict
 
 DPI = 110
-
-
-def check_out(out: Path | None) -> None:
-    """Refuses a file in place of the output folder, before any work is done.
-
-    Raises:
-        ConfigError: If the path is a file.
-    """
-    if out is not None and out.exists() and not out.is_dir():
-        raise ConfigError("this is a file; name a folder", place=f"--out {out}")
 
 
 def finish(tracking: Tracking, out: Path | None, *, as_json: bool, strict: bool) -> None:
@@ -85,10 +74,10 @@ def _figures(tracking: Tracking) -> dict[str, Any]:
         "marker_names": list(tracking.joint_names),
     }
     if len(tracking) == 1:
-        names = tracking.track.named_arrays(tracking.body)["ball_names"].tolist()
+        skeleton = tracking.body.skeleton
         figures["T_camera_root"] = track.root[0].tolist()
-        figures["balls"] = dict(zip(names, track.balls[0].tolist(), strict=True))
-        figures["hinges"] = track.hinges[0].tolist()
+        figures["balls"] = dict(zip(skeleton.ball_names, track.balls[0].tolist(), strict=True))
+        figures["hinges"] = dict(zip(skeleton.hinge_names, track.hinges[0].tolist(), strict=True))
         figures["markers"] = dict(zip(tracking.joint_names, track.markers[0].tolist(), strict=True))
     return figures
 
@@ -120,6 +109,7 @@ def _table(tracking: Tracking, figures: dict[str, Any]) -> Table:
 def _write(tracking: Tracking, figures: dict[str, Any], out: Path) -> None:
     write_json(out / "result.json", figures)
     write_text(out / "markers.csv", _markers(tracking))
+    write_text(out / "hinges.csv", hinge_table(tracking))
     write_text(out / "frames.csv", _frames(tracking))
     tracking.save(out / "poses.npz")
     picture = png(tracking.plot(), DPI)
@@ -129,43 +119,32 @@ def _write(tracking: Tracking, figures: dict[str, Any], out: Path) -> None:
 
 def _markers(tracking: Tracking) -> str:
     """Returns the marker positions [m] in the format of a recording's ``truth.csv``."""
-    text = StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(("frame", "joint", "x", "y", "z"))
-    for frame, markers in zip(tracking.indices, tracking.markers, strict=True):
-        for name, position in zip(tracking.joint_names, markers, strict=True):
-            writer.writerow((frame, name, *(f"{value:.6f}" for value in position)))
-    return text.getvalue()
+    return csv_text(
+        ("frame", "joint", "x", "y", "z"),
+        [
+            (frame, name, *(f"{value:.6f}" for value in position))
+            for frame, markers in zip(tracking.indices, tracking.markers, strict=True)
+            for name, position in zip(tracking.joint_names, markers, strict=True)
+        ],
+    )
 
 
 def _frames(tracking: Tracking) -> str:
     """Returns a table of the frames: verdict, agreement with the data, and cost."""
-    text, track = StringIO(), tracking.track
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(
-        ("frame", "time", "verdict", "points", "inlier_share", "coverage", "surface_distance_mm",
-         "converged", "seconds")
+    track, columns = tracking.track, ("inlier_shares", "coverages", "surface_distances")
+    shares = [
+        [f"{value:.6g}" if math.isfinite(value) else "" for value in row]
+        for row in zip(*(getattr(track, name) for name in columns), strict=True)
+    ]
+    return csv_text(
+        ("frame", "time_s", "verdict", "points", "inlier_share", "coverage", "surface_distance_m",
+         "converged", "seconds"),
+        [
+            (frame, f"{frame / tracking.fps:.6f}", track.verdicts[at], int(track.points[at]),
+             *shares[at], int(track.converged[at]), f"{track.seconds[at]:.6f}")
+            for at, frame in enumerate(tracking.indices)
+        ],
     )  # fmt: skip
-    for at, frame in enumerate(tracking.indices):
-        writer.writerow(
-            (
-                frame,
-                f"{frame / tracking.fps:.6f}",
-                track.verdicts[at],
-                int(track.points[at]),
-                *(
-                    f"{value:.4f}" if math.isfinite(value) else ""
-                    for value in (
-                        track.inlier_shares[at],
-                        track.coverages[at],
-                        1000.0 * track.surface_distances[at],
-                    )
-                ),
-                int(track.converged[at]),
-                f"{track.seconds[at]:.6f}",
-            )
-        )
-    return text.getvalue()
 
 
 def _share(percent: float | None) -> float | None:

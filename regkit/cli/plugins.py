@@ -9,46 +9,64 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
+from regkit.cli.completion import plugin_names
 from regkit.cli.console import output
 from regkit.cli.options import PluginFiles, run_plugin_files
-from regkit.config.installed import Installed
+from regkit.config.installed import OWN, Installed
 from regkit.config.model import did_you_mean
+from regkit.config.opening import opening_sentence
 from regkit.config.plugin import Plugin
 from regkit.config.preset import preset_file, presets_of
-from regkit.config.schema_line import MARK
 from regkit.interfaces import SLOTS, Solver
 from regkit.system.errors import PluginError, RegkitError
+
+WIDTH = 20
+"""Width of the column of names."""
 
 
 def plugins(
     kind: Annotated[
         str | None,
         typer.Argument(
-            metavar="NAME", help="Show the fields of this plug-in, or the file of this preset."
+            metavar="NAME",
+            help="Show the fields of this plug-in, or the file of this preset. (default: list all)",
+            show_default=False,
+            autocompletion=plugin_names(),
         ),
     ] = None,
     plugin: PluginFiles = None,
 ) -> None:
-    """List the installed plug-ins with their distributions, or the fields of one plug-in."""
+    """List the installed plug-ins, or the fields of one of them.
+
+    A plug-in that is not of regkit itself is followed by its distribution.
+    """
     run_plugin_files(plugin)
     if kind is not None:
         _print_fields(kind)
         return
-    table = Table("group", "kind", "description", "distribution")
     for slot in SLOTS:
-        for index, (name, origin) in enumerate(slot.available().items()):
-            table.add_row(
-                slot.group.removeprefix("regkit.") if not index else "",
-                name,
-                escape(_summary(slot, name)),
-                _distribution(origin),
-            )
-        table.add_section()
-        for name, point in presets_of(slot.group).items():
-            table.add_row("presets", name, _preset_summary(slot.group, name), _distribution(point))
-            table.add_section()
-    output.print(table)
+        group = slot.group.removeprefix("regkit.")
+        kinds = slot.available().items()
+        _print_list(group, {name: _summary(slot, name) + _by(one) for name, one in kinds})
+        presets = presets_of(slot.group).items()
+        _print_list(
+            f"{group}, presets",
+            {name: _preset_summary(slot.group, name) + _by(point) for name, point in presets},
+        )
     output.print(_limits_table())
+
+
+def _print_list(title: str, summaries: dict[str, str]) -> None:
+    """Prints a line or two for each plug-in of a group, on a terminal of 80 columns."""
+    if not summaries:
+        return
+    table = Table.grid(padding=(0, 1))
+    table.add_column(no_wrap=True, min_width=WIDTH)
+    for name, summary in summaries.items():
+        table.add_row(f"  {escape(name)}", escape(summary))
+    output.print(title, style="bold", highlight=False)
+    output.print(table)
+    output.print()
 
 
 def _limits_table() -> Table:
@@ -101,14 +119,16 @@ def _summary(slot: type[Plugin], kind: str) -> str:
 
 
 def _preset_summary(group: str, name: str) -> str:
-    """Returns the first line of the comment at the top of a preset's file."""
+    """Returns the first sentence of the comment at the top of a preset's file."""
     try:
         text = preset_file(group, name).read_text(encoding="utf-8")
     except (RegkitError, OSError) as error:
-        return escape(f"broken: {error}")
-    lines = [line for line in text.splitlines() if not line.startswith(MARK)]
-    return escape(lines[0].removeprefix("#").strip()) if lines else ""
+        return f"broken: {error}"
+    return opening_sentence(text)
 
 
-def _distribution(origin: Installed | type[Plugin]) -> str:
-    return origin.versions if isinstance(origin, Installed) else origin.__module__
+def _by(origin: Installed | type[Plugin]) -> str:
+    """Returns the distribution of a plug-in that is not of regkit itself."""
+    if isinstance(origin, Installed):
+        return "" if origin.distributions == (OWN,) else f" [{origin.versions}]"
+    return f" [{origin.__module__}]"

@@ -21,7 +21,8 @@ from regkit.cli.options import (
     TemplateName,
     run_plugin_files,
 )
-from regkit.cli.outcome import check_out, finish
+from regkit.cli.out_folder import check_out
+from regkit.cli.outcome import finish
 from regkit.system.errors import ConfigError, DataError
 
 
@@ -66,7 +67,8 @@ def register(
             place=str(file),
         )
     run_plugin_files(plugin)
-    check_out(out)
+    if out is not None:
+        check_out(out, whole=False)
     options = {"template": template, "method": method, "preprocessor": preprocessor}
     choices, name = Choices.of(options, settings or ())
     found = register_frame(

@@ -12,6 +12,7 @@ from regkit.config.model import did_you_mean
 from regkit.experiment import found
 from regkit.experiment import report as write_report
 from regkit.system.errors import ConfigError
+from regkit.system.progress import working
 
 
 def report(
@@ -28,7 +29,8 @@ def report(
     """Write the report of a results folder again, also after an interrupted run."""
     measures, failures = found(folder)
     pairs = [_pair(text, list(measures)) for text in compare or ()]
-    page = write_report(folder, measures, failures, pairs)
+    with working("writing the report"):
+        page = write_report(folder, measures, failures, pairs)
     output.print(f"report: {page}", highlight=False, soft_wrap=True)
 
 

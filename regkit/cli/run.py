@@ -16,6 +16,7 @@ from regkit.cli.console import errors, output, print_warning
 from regkit.cli.exit_codes import DONE, INTERRUPTED
 from regkit.cli.interrupt import Interrupt
 from regkit.cli.options import PluginFiles, Strict, options, run_plugin_files
+from regkit.cli.out_folder import check_out
 from regkit.cli.run_progress import RunProgress
 from regkit.cli.verdicts import run_exit_code
 from regkit.cli.workers import chosen_workers
@@ -27,6 +28,8 @@ from regkit.report.tables import TERMINAL, rows
 
 SHOWN = 8
 """Maximum number of doubtful tracks that are printed."""
+
+INTERRUPTION = "interrupted; finished work is kept: continue with --out {folder}"
 
 
 def run(
@@ -44,7 +47,11 @@ def run(
     ] = None,
     settings: Annotated[
         list[str] | None,
-        typer.Option("--set", metavar="a.b.c=VALUE", help="Change a YAML value. Repeatable."),
+        typer.Option(
+            "--set",
+            metavar="a.b.c=VALUE",
+            help="Change a YAML value, such as dataset.frames=20. Repeatable.",
+        ),
     ] = None,
     plugin: PluginFiles = None,
     only: Annotated[
@@ -76,22 +83,20 @@ def run(
     workers = chosen_workers(jobs, cluster)
     study = Study.read(experiment, settings or (), called="--set")
     folder = out or Path("results") / study.name / f"{datetime.now():%Y%m%d-%H%M%S}"
+    check_out(folder, whole=True)
     stopping = "stopping" if workers.remote else "stopping after this frame"
     try:
         with (
             options(only="--only"),
-            Interrupt(stopping) as interrupt,
+            Interrupt(stopping, checked=True) as interrupt,
             RunProgress(interrupt, frames=not workers.remote) as progress,
         ):
+            interrupt.last_words = INTERRUPTION.format(folder=folder)
             outcome = run_experiment(
                 study, folder, progress, only=only or (), workers=workers, figures=figures
             )
     except KeyboardInterrupt:
-        errors.print(
-            f"interrupted; finished work is kept: continue with --out {folder}",
-            highlight=False,
-            soft_wrap=True,
-        )
+        errors.print(INTERRUPTION.format(folder=folder), highlight=False, soft_wrap=True)
         raise typer.Exit(INTERRUPTED) from None
     if any(outcome.measures.values()):
         output.print(_table(outcome.measures))

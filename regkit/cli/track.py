@@ -11,9 +11,9 @@ import typer
 from regkit.api import track as track_frames
 from regkit.api.tracking import TrackingError
 from regkit.cli.choices import Choices
+from regkit.cli.completion import plugin_names
 from regkit.cli.options import (
     MethodName,
-    Out,
     PluginFiles,
     PreprocessorName,
     Settings,
@@ -22,7 +22,8 @@ from regkit.cli.options import (
     options,
     run_plugin_files,
 )
-from regkit.cli.outcome import check_out, finish, show
+from regkit.cli.out_folder import check_out
+from regkit.cli.outcome import finish, show
 from regkit.interfaces import Dataset
 
 
@@ -42,6 +43,7 @@ def track(
         str | None,
         typer.Option(
             metavar="TRACKER",
+            autocompletion=plugin_names("tracker"),
             help="Tracker from frame to frame, if the method has none of its own.",
             show_default=False,
         ),
@@ -54,20 +56,29 @@ def track(
         int | None, typer.Option(min=1, metavar="N", help="Track only the first N frames.")
     ] = None,
     settings: Settings = None,
-    out: Out = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FOLDER",
+            help="Folder for result.json, markers.csv, hinges.csv, frames.csv, poses.npz and "
+            "picture.png. "
+            "(default: tracks/RECORDING)",
+            show_default=False,
+        ),
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
     strict: Strict = False,
     plugin: PluginFiles = None,
 ) -> None:
     """Track a template through a recording; the first frame's pose is found automatically."""
     run_plugin_files(plugin)
-    check_out(out)
     named = {"template": template, "method": method, "preprocessor": preprocessor}
     choices, name = Choices.of({**named, "tracker": tracker}, settings or ())
     data = Dataset.in_folder(folder, frames=frames)
     with options(**{"dataset.recordings": "--recording"}):
         chosen = Dataset.parse(data, place="FOLDER", field="dataset").only(recording)
     results = out or Path("tracks") / chosen.name
+    check_out(results, whole=False)
     try:
         found = track_frames(
             chosen,

@@ -19,7 +19,11 @@ from pydantic import (
 from pydantic_core import CoreSchema, InitErrorDetails, PydanticCustomError
 
 from regkit.config.strict_numbers import strict_numbers
+from regkit.system.brief import brief_fields
 from regkit.system.printable import shortened
+
+LONGEST = 800
+"""Number of characters of a model's text that are shown."""
 
 
 class Model(BaseModel):
@@ -39,6 +43,15 @@ class Model(BaseModel):
         allow_inf_nan=False,
         validate_default=True,
     )
+
+    def __repr__(self) -> str:
+        """Returns the class and its fields, in a few characters each if they are many."""
+        text = super().__repr__()
+        return text if len(text) <= LONGEST else brief_fields(self, dict(self))
+
+    def __str__(self) -> str:
+        """Returns the same."""
+        return repr(self)
 
     @classmethod
     def __get_pydantic_core_schema__(

@@ -72,7 +72,7 @@ def read_tracked_motion(folder: Path, fps: float | None = None) -> TrackedMotion
                     "exported with the run's bones and markers, without mesh and surface",
                     place=str(results),
                 )
-            return TrackedMotion(name, body, transforms, given, skin)
+            return TrackedMotion(name, body, transforms, arrays["hinges"], given, skin)
     raise DataError(
         "no template of the run has these markers; run the experiment again", place=str(folder)
     )

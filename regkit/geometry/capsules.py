@@ -8,10 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from regkit.system.arrays import Array, Indices
+from regkit.system.brief import Brief
 
 
 @dataclass(frozen=True)
-class Capsules:
+class Capsules(Brief):
     """C tapered capsules, in segment frames or, after ``place``, in the world frame.
 
     Attributes:
@@ -140,7 +141,7 @@ class Capsules:
 
 
 @dataclass(frozen=True)
-class AxisPoints:
+class AxisPoints(Brief):
     """M samples of capsule axes, in the frame of the capsules.
 
     Attributes:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from regkit.geometry.rigid import rigid
 from regkit.system.archives import read_arrays
 from regkit.system.arrays import Array, Indices, read_only
+from regkit.system.brief import Brief
 from regkit.system.errors import DataError
 from regkit.system.files import write_arrays
 
@@ -31,7 +32,7 @@ SHAPE_KEYS = ("rest_vertices", "rest_bone_poses")
 
 
 @dataclass(frozen=True)
-class SkinnedMesh:
+class SkinnedMesh(Brief):
     """A mesh with V vertices, each skinned to up to A of J bones.
 
     Attributes:

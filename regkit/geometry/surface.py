@@ -13,11 +13,12 @@ import numpy as np
 from regkit.config.model import did_you_mean
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.system.arrays import Array, Indices
+from regkit.system.brief import Brief
 from regkit.system.errors import DataError
 
 
 @dataclass(frozen=True)
-class SkinnedSurface:
+class SkinnedSurface(Brief):
     """The measured or modelled surface of a body: the vertices of a mesh or the points of a cloud.
 
     Each of V vertices is skinned to A segments by linear blend skinning; a rigid cloud has A = 1.

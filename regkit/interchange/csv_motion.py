@@ -9,29 +9,35 @@ from regkit.interchange.motion import TrackedMotion
 from regkit.system.csv_table import csv_text
 from regkit.system.files import write_text
 
-COLUMNS = ("frame", "time", "kind", "name", "x", "y", "z", "qx", "qy", "qz", "qw")
+PLACE, TURN = ("x", "y", "z"), ("qx", "qy", "qz", "qw")
+
+COLUMNS = ("frame", "time", "kind", "name", *PLACE, *TURN, "angle_rad")
 """Columns of the table: times in [s], positions in [m] in the camera frame (x right, y down, z
-forward)."""
+forward), angles in [rad]."""
 
 
 def write_csv(motion: TrackedMotion, path: Path) -> None:
-    """Writes a row for each segment and each marker in each frame.
+    """Writes a row for each segment, each marker and each hinge in each frame.
 
     The row of a segment has its origin and the unit quaternion of ``R_camera_segment`` with
-    qw >= 0; that of a marker has no quaternion.
+    qw >= 0; that of a marker has its position, that of a hinge its angle alone.
 
     Raises:
         DataError: If the file cannot be written.
     """
     rows: list[tuple[object, ...]] = []
-    names, markers = motion.body.skeleton.names, motion.body.markers
-    for frame, (time, transforms) in enumerate(zip(motion.times, motion.transforms, strict=True)):
+    skeleton, markers = motion.body.skeleton, motion.body.markers
+    frames = zip(motion.times, motion.transforms, motion.hinges, strict=True)
+    for frame, (time, transforms, hinges) in enumerate(frames):
         when = (frame, f"{time:.6f}")
         quaternions = from_matrix(transforms[:, :3, :3])
-        for name, place, quaternion in zip(names, transforms[:, :3, 3], quaternions, strict=True):
-            rows.append((*when, "segment", name, *_words([*place, *quaternion])))
+        places = zip(skeleton.names, transforms[:, :3, 3], quaternions, strict=True)
+        for name, place, quaternion in places:
+            rows.append((*when, "segment", name, *_words([*place, *quaternion]), ""))
         for name, place in zip(markers.names, markers.place(transforms), strict=True):
-            rows.append((*when, "marker", name, *_words(list(place)), "", "", "", ""))
+            rows.append((*when, "marker", name, *_words(list(place)), *[""] * 5))
+        for name, angle in zip(skeleton.hinge_names, hinges, strict=True):
+            rows.append((*when, "hinge", name, *[""] * 7, *_words([angle])))
     write_text(path, csv_text(COLUMNS, rows))
 
 

@@ -22,6 +22,7 @@ class TrackedMotion:
         name: Name of the motion.
         body: The body at its size.
         transforms: ``T_camera_segment``, (T, S, 4, 4) [m].
+        hinges: Angle of each hinge, (T, n_hinge) [rad].
         fps: Frames per second.
         skin: The body's mesh at its size, with bones named like segments; None if there is none.
     """
@@ -29,6 +30,7 @@ class TrackedMotion:
     name: str
     body: Body
     transforms: Array
+    hinges: Array
     fps: float
     skin: SkinnedMesh | None
 

@@ -16,6 +16,7 @@ from regkit.config.model import did_you_mean
 from regkit.config.plugin import Plugin
 from regkit.config.quantities import FrameCount
 from regkit.observation import Frame, Truth
+from regkit.system.brief import Brief
 from regkit.system.errors import ConfigError, DataError
 from regkit.system.names import file_name
 from regkit.system.notes import note
@@ -23,7 +24,7 @@ from regkit.system.printable import one_line
 
 
 @dataclass(frozen=True)
-class Recording(ABC):
+class Recording(Brief, ABC):
     """Frames in temporal order.
 
     Attributes:
@@ -38,7 +39,7 @@ class Recording(ABC):
     length: int
     subject: str | None = field(default=None, kw_only=True)
 
-    def prepare(self) -> None:  # noqa: B027 - most recordings have nothing to prepare.
+    def prepare(self) -> None:
         """Prepares the source of the frames where that takes a while, such as rendering.
 
         It is called before the frames are requested, but the frames must also be available

@@ -14,6 +14,7 @@ from regkit.observation import Observation
 from regkit.primitives import Primitives
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
+from regkit.system.brief import Brief
 
 
 @dataclass(frozen=True)
@@ -74,7 +75,7 @@ LITTLE = 0.1
 """A point with a lower inlier probability is an outlier."""
 
 
-class Registrar(ABC):
+class Registrar(Brief, ABC):
     """A method bound to a body.
 
     Attributes:

@@ -6,10 +6,11 @@ from dataclasses import dataclass
 
 from regkit.geometry.camera import Camera
 from regkit.system.arrays import Array
+from regkit.system.brief import Brief
 
 
 @dataclass(frozen=True)
-class Frame:
+class Frame(Brief):
     """One measurement of a recording.
 
     Attributes:

@@ -8,11 +8,12 @@ from functools import cached_property
 from regkit.geometry.camera import Camera
 from regkit.observation.silhouette import Silhouette
 from regkit.system.arrays import Array
+from regkit.system.brief import Brief
 from regkit.system.errors import DataError
 
 
 @dataclass(frozen=True)
-class Observation:
+class Observation(Brief):
     """Data as a sum of N isotropic Gaussians, eq. 2.
 
     Attributes:

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from regkit.system.arrays import Array
+from regkit.system.brief import Brief
 
 
 @dataclass(frozen=True)
-class Truth:
+class Truth(Brief):
     """Reference positions of J named joints in T frames.
 
     Attributes:

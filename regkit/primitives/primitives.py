@@ -13,10 +13,11 @@ import numpy as np
 
 from regkit.primitives.accumulation import accumulated_stiffness, accumulated_wrenches
 from regkit.system.arrays import Array, Indices
+from regkit.system.brief import Brief
 
 
 @dataclass(frozen=True)
-class Primitives:
+class Primitives(Brief):
     """K primitives in the frames of their segments; a subclass defines the meaning of the scales.
 
     Attributes:
@@ -53,7 +54,7 @@ P_co = TypeVar("P_co", bound=Primitives, covariant=True)
 
 
 @dataclass(frozen=True)
-class Placed(Generic[P_co]):
+class Placed(Brief, Generic[P_co]):
     """Primitives in the world.
 
     Attributes:

@@ -1,5 +1,6 @@
-"""Scaffolding: new packages with a working plug-in that passes the conformance tests."""
+"""Scaffolding: new packages with a working plug-in, and copies of examples."""
 
-from regkit.scaffold.scaffold import KINDS, PLACEHOLDER, Scaffold
+from regkit.scaffold.examples import Example, examples
+from regkit.scaffold.scaffold import KINDS, Scaffold
 
-__all__ = ["KINDS", "PLACEHOLDER", "Scaffold"]
+__all__ = ["KINDS", "Example", "Scaffold", "examples"]

@@ -14,19 +14,36 @@ import jinja2
 
 from regkit.config.installed import Installed
 from regkit.config.plugin import Plugin
-from regkit.interfaces import Dataset, Kernel, ShapeModel, Solver, Template
+from regkit.interfaces import (
+    Dataset,
+    Kernel,
+    Method,
+    Preprocessor,
+    ShapeModel,
+    Solver,
+    Template,
+    Term,
+    Tracker,
+)
 from regkit.system.errors import ConfigError, DataError
+from regkit.system.shipped import examples_folder
 
 FOLDER = Path(__file__).parent
-PLACEHOLDER = "path/to/a/recording"
-"""Dataset of an example for which there is no sample recording."""
+RECORDING = "data/human_walk"
+"""Recording of a person, among the examples that come with regkit."""
+CLOUDS = "data/lump/clouds"
+"""Clouds of a rigid object, those of a new dataset."""
 SUFFIX = ".jinja"
 KINDS: dict[str, type[Plugin]] = {
     "shape": ShapeModel,
     "kernel": Kernel,
+    "term": Term,
+    "preprocessor": Preprocessor,
     "solver": Solver,
-    "dataset": Dataset,
+    "method": Method,
+    "tracker": Tracker,
     "template": Template,
+    "dataset": Dataset,
 }
 """The kinds of plug-ins that can be scaffolded, by their name on the command line."""
 
@@ -99,6 +116,7 @@ class Scaffold:
                 path = temporary / file
                 path.parent.mkdir(parents=True, exist_ok=True)
                 path.write_text(text, encoding="utf-8")
+            self._copy_data(temporary)
             temporary.rename(folder)
         except OSError as error:
             raise DataError(
@@ -124,7 +142,7 @@ class Scaffold:
             "distribution": self.distribution,
             "module": self.module,
             "class_name": "".join(map(str.capitalize, self.name.split("_"))) + self.what.title(),
-            "recording": _sample_recording(),
+            "recording": RECORDING,
         }
         for folder in ("package", self.what):
             for path in sorted((FOLDER / folder).rglob("*")):
@@ -135,8 +153,12 @@ class Scaffold:
                 place = place.replace("MODULE", self.module).replace("NAME", self.name)
                 yield Path(place), template.render(values)
 
-
-def _sample_recording() -> str:
-    """Returns the sample recording of a source checkout, or else a placeholder."""
-    sample = FOLDER.parents[1] / "docs" / "examples" / "data" / "human_walk"
-    return str(sample) if sample.is_dir() else PLACEHOLDER
+    def _copy_data(self, folder: Path) -> None:
+        """Copies the data that the package's example names and that it does not contain yet."""
+        example = (folder / "example.yaml").read_text(encoding="utf-8")
+        for name, source in (
+            (RECORDING, examples_folder() / RECORDING),
+            (CLOUDS, FOLDER / "dataset" / "data" / "lump"),
+        ):
+            if name in example:
+                shutil.copytree(source, folder / name)

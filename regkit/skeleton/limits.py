@@ -20,10 +20,11 @@ from regkit.skeleton.compiled_steps import within_limits
 from regkit.skeleton.couplings import Couplings
 from regkit.skeleton.pose import Pose
 from regkit.system.arrays import Array
+from regkit.system.brief import Brief
 
 
 @dataclass(frozen=True)
-class Limits:
+class Limits(Brief):
     """All joint limits of a skeleton; an unlimited joint has infinite bounds.
 
     Attributes:

@@ -12,10 +12,11 @@ from regkit.skeleton.compiled_placement import joint_twists, place_links, segmen
 from regkit.skeleton.pose import Pose
 from regkit.skeleton.skeleton import Skeleton
 from regkit.system.arrays import Array, Indices
+from regkit.system.brief import Brief
 
 
 @dataclass(frozen=True)
-class Placement:
+class Placement(Brief):
     """The world transforms of all links in a pose, and their Jacobian.
 
     Twists and wrenches are linear first: velocity [m] then rotation [rad], force then torque. They

@@ -22,11 +22,12 @@ from regkit.skeleton.compiled_steps import retracted_balls, retracted_root
 from regkit.skeleton.limits import Limits
 from regkit.skeleton.pose import Pose, PoseDescription
 from regkit.system.arrays import Array, Indices
+from regkit.system.brief import Brief
 from regkit.system.errors import ConfigError
 
 
 @dataclass(frozen=True, eq=False)
-class Skeleton:
+class Skeleton(Brief):
     """A tree of *links*, each with at most one joint, built by ``regkit.skeleton.compile``.
 
     A universal joint is two hinges, the first of them on a virtual link. So every link's joint is
@@ -63,6 +64,14 @@ class Skeleton:
     dof_mask: Array
     limits: Limits
 
+    def __repr__(self) -> str:
+        """Returns the numbers of segments and joints, in one line."""
+        root = "free" if self.free else "fixed"
+        return (
+            f"<Skeleton of {len(self.names)} segments: {root} root, {len(self.ball_links)} ball "
+            f"joints, {len(self.hinge_links)} hinges, {self.dofs} degrees of freedom>"
+        )
+
     @property
     def dofs(self) -> int:
         """Number n of degrees of freedom."""
@@ -78,6 +87,26 @@ class Skeleton:
     def hinge_dofs(self) -> slice:
         """Indices of the hinges among the degrees of freedom."""
         return slice(self.ball_dofs.stop, self.dofs)
+
+    @cached_property
+    def ball_names(self) -> tuple[str, ...]:
+        """Name of the segment of each ball joint, (n_ball,)."""
+        segments = dict(zip(self.segment_links.tolist(), self.names, strict=True))
+        return tuple(segments[link] for link in self.ball_links.tolist())
+
+    @cached_property
+    def hinge_names(self) -> tuple[str, ...]:
+        """Name of each hinge, (n_hinge,): its segment's, ``NAME.first`` and ``NAME.second`` of two.
+
+        A universal joint has two.
+        """
+        names = [""] * len(self.hinge_links)
+        start = self.hinge_dofs.start
+        for segment, dofs in self.joint_dofs.items():
+            own = [dof - start for dof in dofs.tolist() if dof >= start]
+            for hinge, which in zip(own, ("first", "second"), strict=False):
+                names[hinge] = f"{segment}.{which}" if len(own) > 1 else segment
+        return tuple(names)
 
     def rest(self, root: Array | None = None) -> Pose:
         """Returns the rest pose: zero angles, except for the offsets of coupled hinges.

@@ -5,5 +5,6 @@
 - ``files``, ``cache``: atomic files, and the cache folder.
 - ``compiled``: functions compiled by Numba on first use.
 - ``optional``: libraries imported on first use.
+- ``shipped``: the folder of the examples that come with regkit.
 - ``renamed``: old names of the Python API, answered with the new ones.
 """

@@ -60,12 +60,14 @@ class Pair:
         shape: The shape.
         name: Identifier of a test.
         scope: Smallest scope of the laws that are tested on it.
+        suspect: The shape, if only it is under test and not its partner.
     """
 
     plugin: Plugin
     shape: ShapeModel
     name: str
     scope: Scope = "class"
+    suspect: ShapeModel | None = None
 
 
 def cases(subjects: Sequence[str | type[Plugin]], examples: Examples) -> list[Case]:
@@ -119,7 +121,9 @@ def pairs(found: Sequence[Case], slot: type[Kernel] | type[Term]) -> list[Pair]:
         for index, (shape, two) in enumerate(reversed(partners.values())):
             other = one.scope == "option" or (index > 0 and two.scope == "option")
             scope: Scope = "option" if other else "pair" if index else "class"
-            made.append(Pair(one.plugin, shape, f"{one.name}-{two.name}", scope))
+            suspect = None if one.own else shape
+            name = f"{one.name}-{two.name}" if one.own else f"{two.name}-{one.name}"
+            made.append(Pair(one.plugin, shape, name, scope, suspect))
             if one.scope == "option":
                 break
     return made

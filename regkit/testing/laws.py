@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import ClassVar, TypeVar, get_args
 
 import numpy as np
@@ -11,6 +11,7 @@ import pytest
 from regkit.body import Body
 from regkit.testing.cases import Case, Pair, Scope
 from regkit.testing.samples import linkage, lump
+from regkit.testing.verdict import suspecting
 
 Law = TypeVar("Law", bound=Callable[..., None])
 
@@ -42,6 +43,14 @@ class Laws:
             if argument in metafunc.fixturenames:
                 chosen = [_parameter(argument, each) for each in cases if each.scope in checked]
                 metafunc.parametrize(argument, chosen)
+
+    @pytest.fixture(autouse=True)
+    def suspect(self, request: pytest.FixtureRequest) -> Iterator[None]:
+        """Names the one under test of a pair first, if a law is violated."""
+        called = getattr(request.node, "callspec", None)
+        pairs = [one for one in called.params.values() if isinstance(one, Pair)] if called else []
+        with suspecting(pairs[0].suspect if pairs else None):
+            yield
 
     @pytest.fixture
     def body(self) -> Body:

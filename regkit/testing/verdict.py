@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import copy
 import inspect
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import fields, is_dataclass
 from typing import Any
 
@@ -12,6 +14,18 @@ import numpy as np
 import pytest
 
 from regkit.config.plugin import Plugin
+
+_SUSPECT: ContextVar[Plugin | None] = ContextVar("the only one under test of a pair", default=None)
+
+
+@contextmanager
+def suspecting(plugin: Plugin | None) -> Iterator[None]:
+    """Context manager whose violated laws name ``plugin`` first, the one of a pair under test."""
+    token = _SUSPECT.set(plugin)
+    try:
+        yield
+    finally:
+        _SUSPECT.reset(token)
 
 
 def require(kept: bool | np.bool_, plugin: Plugin, broken: str, *, look_at: object) -> None:
@@ -23,11 +37,23 @@ def require(kept: bool | np.bool_, plugin: Plugin, broken: str, *, look_at: obje
         broken: What is wrong and by how much, worded to follow the plug-in's name.
         look_at: The class or method to correct.
     """
-    if not kept:
-        group = plugin.group.removeprefix("regkit.").removesuffix("s")
-        pytest.fail(
-            f"{group} '{plugin.kind}' {broken}; look at {whereabouts(look_at)}", pytrace=False
-        )
+    if kept:
+        return
+    suspect = _SUSPECT.get()
+    if suspect is None:
+        pytest.fail(f"{_named(plugin)} {broken}; look at {whereabouts(look_at)}", pytrace=False)
+    # The partner passes with other shapes, so the fault is most likely not in its file.
+    pytest.fail(
+        f"{_named(suspect)} violates a law together with {_named(plugin)}: look first at "
+        f"{whereabouts(type(suspect))}. The {_named(plugin)} {broken}; that is in "
+        f"{whereabouts(look_at)}",
+        pytrace=False,
+    )
+
+
+def _named(plugin: Plugin) -> str:
+    """Returns the group and the kind of a plug-in."""
+    return f"{plugin.group.removeprefix('regkit.').removesuffix('s')} '{plugin.kind}'"
 
 
 def whereabouts(what: object) -> str:

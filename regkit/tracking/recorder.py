@@ -12,13 +12,14 @@ from regkit.body import BodyFit
 from regkit.interfaces import Registrar
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
+from regkit.system.brief import Brief
 from regkit.tracking.loop import TrackedFrame
 from regkit.tracking.session import Session
 from regkit.tracking.track import Track
 
 
 @dataclass(frozen=True)
-class Snapshot:
+class Snapshot(Brief):
     """A frame for pictures.
 
     Attributes:

@@ -12,11 +12,12 @@ from numpy.typing import NDArray
 from regkit.body import Body
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
+from regkit.system.brief import Brief
 from regkit.tracking.verdict import Verdict, frame_verdicts
 
 
 @dataclass(frozen=True)
-class Track:
+class Track(Brief):
     """A tracked recording as arrays over its T frames.
 
     Attributes:
@@ -73,13 +74,11 @@ class Track:
         return Track(**{field.name: getattr(self, field.name)[part] for field in fields(self)})
 
     def named_arrays(self, body: Body) -> dict[str, NDArray[Any]]:
-        """Returns these arrays, verdicts, names of markers and balls, and the size, for a file."""
-        skeleton = body.skeleton
-        links = list(skeleton.segment_links)
-        balls = [skeleton.names[links.index(link)] for link in skeleton.ball_links]
+        """Returns these arrays, verdicts, names of markers and joints, and the size, for a file."""
         return {field.name: getattr(self, field.name) for field in fields(self)} | {
             "verdicts": np.array(self.verdicts, dtype=np.str_),
             "marker_names": np.array(body.markers.names, dtype=np.str_),
-            "ball_names": np.array(balls, dtype=np.str_),
+            "ball_names": np.array(body.skeleton.ball_names, dtype=np.str_),
+            "hinge_names": np.array(body.skeleton.hinge_names, dtype=np.str_),
             "size": np.array(body.size),
         }

@@ -336,3 +336,18 @@ def test_template_file_and_cloud_are_templates(tmp_path):
     assert regkit.load_template(file, size=1.7).kind == "file"
     assert regkit.load_template(DATA / "mannequin" / "model.npz").kind == "cloud"
     assert regkit.load_template({"kind": "hand", "side": "left"}).side == "left"
+
+
+def test_file_is_registered_as_its_frame(human, tmp_path):
+    start = {"root": {"position": [-0.05, -0.05, 3.25], "rotation_deg": [180, 0, 0]}}
+    file = DATA / "human_walk" / "depth" / "000000.png"
+    found = [
+        regkit.register(one, human, start=start).markers
+        for one in (file, str(file), regkit.load_frame(file))
+    ]
+    np.testing.assert_array_equal(found[0], found[1])
+    np.testing.assert_array_equal(found[0], found[2])
+    with pytest.raises(ConfigError, match=r"camera.json"):
+        regkit.register(file, human, camera=np.eye(3))
+    with pytest.raises(DataError, match="nowhere"):
+        regkit.register(tmp_path / "nowhere.ply", human)

@@ -127,7 +127,22 @@ def test_doctor_finds_nothing_to_mend_here(regkit):
     assert ended.code == 0
     for name in ("Python", "numpy", "open3d", "casadi", "plug-ins"):
         assert name in ended.out
-    assert "pip install" not in ended.out
+    needed, _, optional = ended.out.partition("optional library")
+    assert "pip install" not in needed
+    for name in ("h5py", "small_gicp", "biocpd", "probreg"):
+        assert f" {name} " in optional
+    for line in optional.splitlines():
+        if " not installed " in line:
+            assert f"to install {line.split()[1]}: pip install " in optional
+
+
+def test_lists_are_readable_on_80_columns(regkit, monkeypatch):
+    monkeypatch.setattr("regkit.cli.console.output._width", 80)
+    for command in ("plugins", "example", "doctor"):
+        lines = regkit(command).out.splitlines()
+        assert max(len(line) for line in lines if not line.startswith("to install")) <= 80
+        # A description in a narrow column would take many lines.
+        assert len(lines) < 160
 
 
 def test_schema_check_passes_on_the_committed_files(regkit):

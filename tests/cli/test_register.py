@@ -13,7 +13,7 @@ from regkit.clouds import write_cloud
 WALK = DATA / "human_walk"
 HUMAN = ("--template", "{kind: human, height: 1.63}")
 START = ("--set", "start={root: {position: [-0.05, -0.05, 3.25], rotation_deg: [180, 0, 0]}}")
-FILES = {"result.json", "markers.csv", "frames.csv", "poses.npz", "picture.png"}
+FILES = {"result.json", "markers.csv", "hinges.csv", "frames.csv", "poses.npz", "picture.png"}
 
 
 @pytest.fixture
@@ -72,6 +72,11 @@ def test_track_writes_the_motion_and_its_summary(regkit, out):
     with (out / "markers.csv").open() as stream:
         rows = list(csv.DictReader(stream))
     assert len(rows) == markers.shape[0] * markers.shape[1] == 2 * len(names)
+    with (out / "hinges.csv").open() as stream:
+        angles = [float(row["left_shin_rad"]) for row in csv.DictReader(stream)]
+    with np.load(out / "poses.npz") as arrays:
+        column = list(arrays["hinge_names"]).index("left_shin")
+        np.testing.assert_allclose(angles, arrays["hinges"][:, column], atol=1e-6)
     last = rows[-1]
     assert (last["frame"], last["joint"]) == ("1", names[-1])
     position = [float(last[axis]) for axis in "xyz"]

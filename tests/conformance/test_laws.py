@@ -27,6 +27,7 @@ from regkit.testing.laws import Laws
 from regkit.testing.plugin_laws import PluginLaws
 from regkit.testing.samples import linkage
 from regkit.testing.shape_laws import ShapeLaws
+from regkit.testing.verdict import require, suspecting
 from regkit_plugins.kernels.correlation import Correlation
 from regkit_plugins.shapes.gsog import GeneralizedSumOfGaussians
 
@@ -121,6 +122,22 @@ def test_faulty_kernel_breaks_its_law(tmp_path, fault):
         kernel_laws(loaded(tmp_path, KERNEL, old, new))[law]()
     assert str(caught.value).startswith("kernel 'radial_faulty' ")
     assert f" ({tmp_path / 'faulty.py'}:" in str(caught.value)
+
+
+def test_law_names_the_one_under_test_first(tmp_path):
+    """A built-in kernel is seldom at fault when it fails with the shape of another's package."""
+    faulty = loaded(tmp_path, SHAPE).Faulty
+    made = conformance(faulty).parameters["pair"]
+    assert made
+    for pair in made:
+        assert pair.suspect is pair.shape
+        assert pair.name.startswith("faulty-")
+    with pytest.raises(pytest.fail.Exception) as caught, suspecting(made[0].suspect):
+        require(False, Correlation(), "is odd", look_at=Correlation)
+    first, _, second = str(caught.value).partition("kernel 'correlation' is odd")
+    assert first.startswith("shape 'faulty' ")
+    assert f"({tmp_path / 'faulty.py'}:" in first
+    assert "correlation.py:" in second
 
 
 def test_problem_that_takes_an_array_for_its_point_breaks_the_law_of_steps(monkeypatch):

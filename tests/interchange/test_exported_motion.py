@@ -30,11 +30,14 @@ UPRIGHT = np.diag([1.0, -1.0, -1.0])
 def motion(linkage: Body, random: np.random.Generator) -> TrackedMotion:
     """Poses of the linkage, which has segments at an angle and every type of joint."""
     pose = linkage.skeleton.rest(rigid(Rotation.random(rng=random).as_matrix(), np.ones(3)))
-    transforms = []
+    transforms, hinges = [], []
     for _ in range(6):
         pose = linkage.skeleton.retract(pose, random.normal(0.0, 0.7, linkage.skeleton.dofs))
         transforms.append(linkage.place(pose).transforms)
-    return TrackedMotion("direct linkage", linkage, np.array(transforms), 25.0, None)
+        hinges.append(pose.hinges)
+    return TrackedMotion(
+        "direct linkage", linkage, np.array(transforms), np.array(hinges), 25.0, None
+    )
 
 
 @pytest.mark.parametrize("scale", [1.0, 0.01])
@@ -87,10 +90,17 @@ def test_csv_has_every_segment_and_marker_in_the_cameras_frame(
         rows = list(csv.DictReader(stream))
     assert tuple(rows[0]) == COLUMNS
     names, markers = motion.body.skeleton.names, motion.body.markers
-    assert len(rows) == len(motion.transforms) * (len(names) + len(markers.names))
+    hinges = motion.body.skeleton.hinge_names
+    assert len(rows) == len(motion.transforms) * (len(names) + len(markers.names) + len(hinges))
     for row in rows:
         frame, name = int(row["frame"]), row["name"]
         assert float(row["time"]) == pytest.approx(frame / 25.0)
+        if row["kind"] == "hinge":
+            angle = motion.hinges[frame, hinges.index(name)]
+            assert float(row["angle_rad"]) == pytest.approx(angle, abs=1e-7)
+            assert row["x"] == row["qw"] == ""
+            continue
+        assert row["angle_rad"] == ""
         place = [float(row[axis]) for axis in "xyz"]
         if row["kind"] == "marker":
             where = markers.place(motion.transforms[frame])[markers.names.index(name)]

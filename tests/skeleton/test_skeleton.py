@@ -183,3 +183,17 @@ def test_twist_beyond_half_a_turn_is_refused(linkage_text, tmp_path):
     path.write_text(linkage_text.replace("twist_deg: [-45, 45]", "twist_deg: [20, 300]"))
     with pytest.raises(ConfigError, match=r"twist_deg.*-180 and 180 degrees"):
         Document.read(path).validated(BodyDescription)
+
+
+def test_names_of_joints_stand_in_the_order_of_their_angles(linkage):
+    """Each angle moves the segment of its name, and no other joint."""
+    bones = linkage.skeleton
+    assert len(bones.ball_names) == len(bones.ball_links)
+    assert len(set(bones.hinge_names)) == len(bones.hinge_links)
+    for index, name in enumerate(bones.hinge_names):
+        segment, _, which = name.partition(".")
+        dofs = bones.joint_dofs[segment] - bones.hinge_dofs.start
+        assert index == dofs[("", "first", "second").index(which) - 1 if which else 0]
+        assert (len(dofs) == 2) is bool(which)
+    for index, name in enumerate(bones.ball_names):
+        assert bones.joint_dofs[name][0] == bones.ball_dofs.start + 3 * index

@@ -10,6 +10,7 @@ import numpy as np
 from regkit.geometry.camera import Camera
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.system.arrays import Array
+from regkit.system.progress import steps
 from regkit_synthesis.bodies.landmarks import Landmark, placed, some_vertices
 from regkit_synthesis.cameras.cameras import CAMERAS
 from regkit_synthesis.cameras.raycast import RayCaster, View, stored
@@ -102,9 +103,10 @@ class Scene:
             DependencyError: If Open3D cannot be loaded.
         """
         noise, scale = noise_of(self.sensor.noise), self.sensor.depth_scale
+        what = f"rendering {self.name}"
         images = [
             stored(noise.applied(view, random(frame)), scale)
-            for frame, view in enumerate(self.views())
+            for frame, view in enumerate(steps(self.views(), what, self.frames))
         ]
         return DepthRecording(
             name=self.name,

@@ -1,0 +1,39 @@
+"""The folder of ``--out``: no file, and no part of the results of another run."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from regkit.system.errors import ConfigError
+
+MARKS = (("config.yaml", "environment.json"), ("result.json", "poses.npz"))
+"""Files of which all are in a results folder: of ``run``, and of ``register`` and ``track``."""
+
+
+def check_out(out: Path, *, whole: bool) -> None:
+    """Refuses a file, or a folder inside another results folder, before any work is done.
+
+    Args:
+        out: The folder.
+        whole: Whether the folder may be a run's own results folder, to be continued.
+
+    Raises:
+        ConfigError: If the path is a file, or inside another results folder.
+    """
+    if out.exists() and not out.is_dir():
+        raise ConfigError("this is a file; name a folder", place=f"--out {out}")
+    place = out.resolve()
+    if not whole and _holds(place, MARKS[0]):
+        raise ConfigError(
+            "this is the results folder of a run; choose another one", place=f"--out {out}"
+        )
+    for above in place.parents:
+        if any(_holds(above, files) for files in MARKS):
+            raise ConfigError(
+                f"the folder is inside the results folder {above}; choose one outside of it",
+                place=f"--out {out}",
+            )
+
+
+def _holds(folder: Path, files: tuple[str, ...]) -> bool:
+    return all((folder / name).is_file() for name in files)

@@ -1,0 +1,132 @@
+"""Examples that come with regkit, each with the data that it needs."""
+
+from __future__ import annotations
+
+import ast
+import shutil
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from regkit.config.document import Document
+from regkit.config.model import did_you_mean
+from regkit.config.opening import first_sentence, opening_sentence
+from regkit.config.schema_line import MARK
+from regkit.system.errors import ConfigError, DataError
+from regkit.system.shipped import examples_folder
+
+
+@dataclass(frozen=True)
+class Example:
+    """An experiment, or a Python file, with its data.
+
+    Attributes:
+        file: The experiment's YAML file, or the Python file.
+    """
+
+    file: Path
+
+    @classmethod
+    def named(cls, name: str) -> Example:
+        """Returns an example.
+
+        Raises:
+            ConfigError: If there is no such example.
+        """
+        known = {one.name: one for one in examples()}
+        if name not in known:
+            raise ConfigError(
+                f"no example '{name}' (there are: {', '.join(known)})"
+                + did_you_mean(name, [*known]),
+                place="NAME",
+            )
+        return known[name]
+
+    @property
+    def name(self) -> str:
+        """Name on the command line."""
+        return self.file.stem
+
+    @property
+    def summary(self) -> str:
+        """First sentence of the file's opening comment or docstring."""
+        text = self.file.read_text(encoding="utf-8")
+        if self.file.suffix == ".py":
+            return first_sentence(ast.get_docstring(ast.parse(text)) or "")
+        return opening_sentence(text)
+
+    @property
+    def data(self) -> list[Path]:
+        """Files and folders that the experiment names and that come with it, relative to it."""
+        if self.file.suffix == ".py":
+            return []
+        named = dict.fromkeys(_texts(Document.read(self.file).data))
+        return [Path(text) for text in named if (self.file.parent / text).exists()]
+
+    @property
+    def command(self) -> str:
+        """Command that runs the copy, in its folder."""
+        if self.file.suffix == ".py":
+            if "__main__" in self.file.read_text(encoding="utf-8"):
+                return f"python {self.file.name}"
+            return f"regkit plugins {self.name} --plugin {self.file.name}"
+        root = Document.read(self.file).data["dataset"].get("root")
+        missing = root is not None and not (self.file.parent / root).exists()
+        return f"regkit run {self.file.name}" + (" --set dataset.root=FOLDER" if missing else "")
+
+    def copy(self, out: Path) -> Path:
+        """Copies the example to a new folder of its name in ``out``, and returns the folder.
+
+        Raises:
+            DataError: If the folder exists, or cannot be written.
+        """
+        folder, temporary = out / self.name, out / f".{self.name}.tmp"
+        if folder.exists():
+            raise DataError(
+                "the folder exists already; remove it, or choose another one with --out",
+                place=str(folder),
+            )
+        try:
+            temporary.mkdir(parents=True)
+            for path in self.data:
+                source, target = self.file.parent / path, temporary / path
+                target.parent.mkdir(parents=True, exist_ok=True)
+                if source.is_dir():
+                    shutil.copytree(source, target, dirs_exist_ok=True)
+                else:
+                    shutil.copyfile(source, target)
+            # The schema lies elsewhere, relative to the copy.
+            lines = self.file.read_text(encoding="utf-8").splitlines(keepends=True)
+            text = "".join(line for line in lines if not line.startswith(MARK))
+            (temporary / self.file.name).write_text(text, encoding="utf-8")
+            temporary.rename(folder)
+        except OSError as error:
+            raise DataError(
+                f"cannot be written: {error.strerror or error}", place=str(folder)
+            ) from None
+        finally:
+            shutil.rmtree(temporary, ignore_errors=True)
+        return folder
+
+
+def examples() -> list[Example]:
+    """Returns all examples, sorted by name.
+
+    Raises:
+        DataError: If this installation has none.
+    """
+    files = [*examples_folder().glob("*.yaml"), *examples_folder().glob("*.py")]
+    return [Example(file) for file in sorted(files)]
+
+
+def _texts(data: Any) -> Iterator[str]:
+    """Yields all texts in a YAML document."""
+    if isinstance(data, dict):
+        for value in data.values():
+            yield from _texts(value)
+    elif isinstance(data, list):
+        for value in data:
+            yield from _texts(value)
+    elif isinstance(data, str):
+        yield data
