@@ -28,6 +28,7 @@ from regkit.config.registry import add, registered
 from regkit.config.slot import plugin_of
 from regkit.config.slot_schema import slot_schema
 from regkit.system.errors import PluginError
+from regkit.system.plugin_code import described, raised_at
 
 
 class Plugin(Model):
@@ -90,6 +91,11 @@ class Plugin(Model):
             raise PluginError(
                 f"plug-in '{kind}' of {found.distributions[0]} {error.message}"
             ) from None
+        except Exception as error:
+            raise PluginError(
+                f"plug-in '{kind}' of {found.distributions[0]} is broken: {described(error)}",
+                place=raised_at(error),
+            ) from error
         return cast(type[Self], plugin)
 
     @classmethod

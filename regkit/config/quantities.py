@@ -25,7 +25,10 @@ Margin = Annotated[float, Field(ge=0.0, le=1e4)]
 Voxel = Annotated[float, Field(ge=1e-4, le=1e3)]
 """Side of a voxel [m]; its index on each axis must fit into an integer."""
 
-Angle = Annotated[float, Field(ge=-36000.0, le=36000.0)]
+LARGEST_ANGLE = 36000.0
+"""A hundred turns [deg]."""
+
+Angle = Annotated[float, Field(ge=-LARGEST_ANGLE, le=LARGEST_ANGLE)]
 """An angle or a limit of a hinge, up to a hundred turns [deg]."""
 
 Turn = Annotated[float, Field(ge=-720.0, le=720.0)]

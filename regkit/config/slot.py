@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Protocol
 
-from pydantic import BaseModel
+from pydantic import BaseModel, ValidationError
 from pydantic_core import PydanticCustomError
 
 from regkit.config.changes import with_changes
 from regkit.config.preset import preset
 from regkit.system.errors import PluginError, RegkitError
+from regkit.system.plugin_code import described, raised_at
 
 
 class Slot(Protocol):
@@ -48,7 +49,17 @@ def plugin_of(slot: Slot, value: Any) -> BaseModel:
         plugin = slot.load(kind)
     except RegkitError as error:
         raise PydanticCustomError("plugin_error", "{error}", {"error": str(error)}) from error
-    return plugin.model_validate(value)
+    try:
+        return plugin.model_validate(value)
+    except (ValidationError, RegkitError, RecursionError):
+        raise
+    # pydantic lets other exceptions of a plug-in's own validators pass.
+    except Exception as error:
+        raise PydanticCustomError(
+            "plugin_error",
+            "the plug-in '{kind}' fails at {place}: {reason}",
+            {"kind": kind, "place": raised_at(error), "reason": described(error)},
+        ) from error
 
 
 def _changed(slot: Slot, name: str, changes: Mapping[str, Any]) -> dict[str, Any]:

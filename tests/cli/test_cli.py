@@ -232,13 +232,13 @@ def test_validate_tells_every_file_and_fails_if_one_is_wrong(regkit, tmp_path, l
         ("name: x\n", "FILE: unknown type of file: an experiment has 'methods'"),
         ("methods: {}\n", "FILE:1: methods: dictionary should have at least 1 item"),
         ("segments: {}\n", "FILE:1: segments: dictionary should have at least 1 item"),
-        ("", "FILE:1: the file must hold a mapping of fields"),
+        ("", "FILE:1: the file is empty"),
         ("name: [\n", "FILE:2: not valid YAML"),
-        ('name: "\x01"\n', "FILE: not valid YAML: unacceptable character"),
-        (b"\xff\xfe\xfd", "FILE: cannot be read as text"),
+        ('name: "\x01"\n', "FILE:1: YAML does not allow the character U+0001"),
+        (b"\xff\xfe\xfd", "FILE:1: the text is UTF-16"),
         ("segments: {a: {joint: {type: free}}}\nstances: {odd: {joints: {b: 1}}}\ntitle: x\n"
          "size: {name: y, value: 1, range: [1, 2]}\n",
-         "stances.odd of wrong: "),
+         "FILE:2: stances.odd.joints.b: "),
     ],
 )  # fmt: skip
 def test_file_that_is_wrong_is_told(regkit, tmp_path, text, expected):

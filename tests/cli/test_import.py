@@ -129,3 +129,17 @@ def test_a_tree_is_named_only_for_gltf(regkit, tmp_path, out):
     ended = regkit("fit", body, "--parents", tmp_path / "tree.yaml", "--out", out)
     assert ended.code == 1
     assert "names the bones' parents itself" in ended.err
+
+
+@pytest.mark.filterwarnings("default")
+def test_limits_of_a_robot_beyond_a_hundred_turns_are_a_hundred_and_told(regkit, tmp_path):
+    robot, out = tmp_path / "r.urdf", tmp_path / "r.yaml"
+    robot.write_text(
+        '<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="revolute">'
+        '<parent link="a"/><child link="b"/><origin xyz="0 0 1"/><axis xyz="0 0 1"/>'
+        '<limit lower="0" upper="1e10" effort="1" velocity="1"/></joint></robot>'
+    )
+    ended = regkit("import", robot, "--out", out)
+    assert ended.code == 0, ended.err
+    assert "'j'" in ended.err
+    assert Document.read(out).data["segments"]["b"]["joint"]["limits_deg"] == [0, 36000]

@@ -43,7 +43,7 @@ MODULES = {
 
 EXPECTED = {
     "import_error": "cannot be imported: ModuleNotFoundError: No module named 'no_such_library'",
-    "exit": "cannot be imported: SystemExit: 3",
+    "exit": "cannot be imported: it calls sys.exit(3)",
     "function": "is not a concrete ShapeModel: <function odd",
     "class_creation": "cannot be imported: TypeError",
     "unknown_type": "has a field of an unknown type in Odd: name 'Loudness' is not defined",

@@ -147,6 +147,22 @@ def test_plugin_file_that_fails_is_told_with_its_line(regkit, tmp_path, text, li
     assert expected in ended.err
 
 
+def test_odd_exception_of_a_validator_names_the_plug_in_and_its_line(regkit, files, tmp_path):
+    path = tmp_path / "odd.py"
+    path.write_text(
+        "from pydantic import field_validator\n"
+        + FAULTY
+        + "\n    @field_validator('kind')\n    @classmethod\n    def _odd(cls, kind):\n"
+        "        return {}[kind]\n"
+    )
+    add_method(files.experiment, "faulty", "faulty")
+    ended = regkit("run", files.experiment, "--out", files.out, "--plugin", path)
+    assert ended.code == 1
+    assert ended.err.startswith(f"error: {files.experiment}:")
+    assert "KeyError" in ended.err
+    assert f"'faulty' fails at {path}:" in ended.err
+
+
 @pytest.mark.parametrize("name", ["own.txt", "nothing.py", "."])
 def test_plugin_file_that_is_none_is_refused(regkit, tmp_path, name):
     (tmp_path / "own.txt").write_text("x = 1\n")
