@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from regkit.geometry.mesh_file import (
+    Arrays,
     checked_bones,
     checked_indices,
     checked_labels,
@@ -69,27 +70,39 @@ class SkinnedMesh:
         """
         arrays = read_arrays(path, KEYS)
         with reading(path, "a skinned mesh"):
-            labels = checked_labels(arrays, "labels", "parents")
-            vertices = checked_shape(arrays, "rest_vertices", None, 3)
-            weights = checked_weights(arrays, "skin_weights", path)
-            # The bones of places without weight are padding.
-            carriers = arrays["skin_indices"]
-            if carriers.shape == weights.shape and len(weights) == len(vertices):
-                arrays["skin_indices"] = np.where(weights > 0.0, carriers, 0)
-            else:
-                raise DataError(
-                    f"skin_indices has the shape {carriers.shape}, skin_weights {weights.shape}; "
-                    f"both need a row for each of the {len(vertices)} vertices"
-                )
-            return cls(
-                read_only(vertices),
-                checked_indices(arrays, "faces", 3, 0, len(vertices)),
-                labels,
-                arrays["parents"].astype(np.intp),
-                read_only(checked_bones(arrays, "rest_bone_poses", len(labels))),
-                checked_indices(arrays, "skin_indices", None, 0, len(labels)),
-                read_only(weights),
+            return cls.of(arrays, path)
+
+    @classmethod
+    def of(cls, arrays: Arrays, path: Path) -> SkinnedMesh:
+        """Returns the mesh of the arrays ``KEYS``, which are checked.
+
+        Args:
+            arrays: The arrays by name.
+            path: Their file, for notes.
+
+        Raises:
+            DataError: If one of them is wrong.
+        """
+        labels = checked_labels(arrays, "labels", "parents")
+        vertices = checked_shape(arrays, "rest_vertices", None, 3)
+        weights = checked_weights(arrays, "skin_weights", path)
+        carriers = arrays["skin_indices"]
+        if carriers.shape != weights.shape or len(weights) != len(vertices):
+            raise DataError(
+                f"skin_indices has the shape {carriers.shape}, skin_weights {weights.shape}; "
+                f"both need a row for each of the {len(vertices)} vertices"
             )
+        # The bones of places without weight are padding.
+        carried = {"skin_indices": np.where(weights > 0.0, carriers, 0)}
+        return cls(
+            read_only(vertices),
+            checked_indices(arrays, "faces", 3, 0, len(vertices)),
+            labels,
+            arrays["parents"].astype(np.intp),
+            read_only(checked_bones(arrays, "rest_bone_poses", len(labels))),
+            checked_indices(carried, "skin_indices", None, 0, len(labels)),
+            read_only(weights),
+        )
 
     def write(self, path: Path) -> None:
         """Writes an ``.npz`` file that ``read`` accepts.

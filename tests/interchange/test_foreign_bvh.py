@@ -8,6 +8,7 @@ import pytest
 from places import CASES
 
 from regkit.interchange.bvh.bvh import Bvh
+from regkit.interchange.bvh.motion import _words
 from regkit.interchange.imported import MOST, ImportedSkeleton
 from regkit.interchange.skeletons import read_skeleton
 from regkit.system.errors import DataError, RegkitError
@@ -208,3 +209,13 @@ def test_a_deep_skeleton_is_a_body_in_time(tmp_path: Path) -> None:
     assert time.process_time() - begin < 2.0
     heights = body.place(body.skeleton.rest()).transforms[:, 1, 3]
     assert heights.max() == pytest.approx(400.0)
+
+
+def test_names_are_written_so_that_they_read_back(tmp_path: Path) -> None:
+    names = ["", "a {b}", "a\tb", "a b", "JOINT End Site", "左腕", "=1+1", "\x1b[31m", "\x85"]
+    words = _words(names)
+    assert len(set(words)) == len(names)
+    joints = "".join(f"JOINT {word}\n{{\nOFFSET 0 {k} 1\n}}\n" for k, word in enumerate(words))
+    head, rest = SMALL.split("  JOINT knee")
+    path = _write(tmp_path, f"{head}{joints}  JOINT knee{rest}")
+    assert list(Bvh.read(path).names[1:-1]) == words
