@@ -29,6 +29,9 @@ MIN_LENGTH = 1e-4
 MOST = 1000
 """Largest number of bones; a body with a hand's or face's details has a few hundred."""
 
+FARTHEST = 1e6
+"""Largest size of a skeleton [m]; that of a person in micrometres is larger."""
+
 UPRIGHT = 0.8
 """The size is the height if that is at least this fraction of the largest extent."""
 
@@ -101,6 +104,12 @@ class ImportedSkeleton:
             )
         upright = extents[1] >= UPRIGHT * extents.max()
         size = round(float(extents[1] if upright else extents.max()), 4)
+        if not size <= FARTHEST:
+            raise DataError(
+                f"the skeleton extends over {size:.3g} m; a length in the file is wrong, or the "
+                "scale",
+                place=str(path),
+            )
         if size <= 0.0:
             raise DataError(
                 "the skeleton has no extent: all joints are at the same position; at least one "

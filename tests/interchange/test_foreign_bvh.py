@@ -219,3 +219,17 @@ def test_names_are_written_so_that_they_read_back(tmp_path: Path) -> None:
     head, rest = SMALL.split("  JOINT knee")
     path = _write(tmp_path, f"{head}{joints}  JOINT knee{rest}")
     assert list(Bvh.read(path).names[1:-1]) == words
+
+
+@pytest.mark.parametrize("length", ["1e7", "-1e12", "1e29"])
+def test_a_skeleton_of_an_absurd_size_is_refused(tmp_path: Path, length: str) -> None:
+    with pytest.raises(DataError, match="extends over"):
+        _read(tmp_path, SMALL.replace("OFFSET 0 -5 1", f"OFFSET 0 {length} 1"))
+
+
+def test_numbers_that_overflow_are_refused_with_their_line(tmp_path: Path) -> None:
+    for old, line in (("OFFSET 0 -5 1", 12), ("OFFSET 0 0 0", 4)):
+        path = _write(tmp_path, SMALL.replace(old, "OFFSET 0 1e300 0"))
+        with pytest.raises(DataError, match=r"1e\+300") as caught:
+            Bvh.read(path)
+        assert caught.value.place == f"{path}:{line}"

@@ -10,6 +10,9 @@ import numpy as np
 
 from regkit.system.errors import DataError
 
+HUGE = 1e30
+"""Larger numbers are no lengths or angles, and their products overflow."""
+
 
 class Lines:
     """The statements of a text, by and large its lines, read one after the other.
@@ -82,6 +85,8 @@ class Lines:
         if not np.isfinite(values).all():
             bad = next(word for word, value in zip(words, values, strict=True) if value - value)
             raise self.wrong(f"{what} holds {bad}; all numbers must be finite")
+        if np.abs(values).max(initial=0.0) > HUGE:
+            raise self.wrong(f"{what} holds {max(values, key=abs):g}, which cannot be right")
         return values
 
     def _with_commas(self, words: list[str], what: str) -> list[float]:

@@ -10,6 +10,9 @@ from regkit.geometry.rotation import to_matrix
 from regkit.interchange.gltf.file import GltfFile
 from regkit.system.arrays import Array
 
+HUGE = 1e30
+"""Largest number in a transform."""
+
 
 @dataclass(frozen=True)
 class NodeMotion:
@@ -86,7 +89,8 @@ class Nodes:
         except (TypeError, ValueError) as error:
             raise file.wrong(f"the transform of a node has the wrong size: {error}") from None
         numbers = [given.translations, given.rotations, given.scales, *matrices.values()]
-        if not all(np.isfinite(one).all() for one in numbers):
+        # Products of larger numbers overflow; the comparison is false for NaN.
+        if not all((np.abs(one) < HUGE).all() for one in numbers):
             raise file.wrong("the transform of a node is not finite, or has a rotation of zero")
         return cls(_names(nodes), tuple(parents), tuple(ordered), given, matrices)
 

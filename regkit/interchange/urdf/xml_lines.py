@@ -17,6 +17,9 @@ from regkit.system.notes import note
 XACRO = "write the file out with `xacro FILE > robot.urdf`, and import that"
 """What to do with a file that is not processed yet."""
 
+HUGE = 1e30
+"""Larger numbers are no lengths or angles, and their products overflow."""
+
 _JUNK = expat.errors.codes[expat.errors.XML_ERROR_JUNK_AFTER_DOC_ELEMENT]
 
 
@@ -150,7 +153,7 @@ class Element:
                 place=self.place,
             )
             values = values[:count]
-        if len(values) != count or not np.isfinite(values).all():
+        if len(values) != count or not (np.abs(values) < HUGE).all():
             wanted = "a number" if count == 1 else f"{count} numbers"
             raise self.wrong(f'{attribute}="{" ".join(words)}" of <{self.tag}> must be {wanted}')
         return values
