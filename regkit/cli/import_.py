@@ -72,13 +72,27 @@ def import_(
             show_default=False,
         ),
     ] = None,
+    package: Annotated[
+        list[Path] | None,
+        typer.Option(
+            metavar="DIR",
+            help="Folder of a package, or of packages, with the meshes of a URDF file; may be "
+            "repeated. (default: ROS_PACKAGE_PATH, and the folders above the file)",
+            show_default=False,
+        ),
+    ] = None,
 ) -> None:
     """Create a template from another program's skeleton: BVH, or URDF with its limits."""
     if not 0.0 < scale < float("inf"):
         raise ConfigError(f"the scale is {scale:g}; it must be positive", place="--scale")
+    for folder in package or ():
+        if not folder.is_dir():
+            raise ConfigError(f"{folder} is not a folder", place="--package")
     check_replaceable(out)
     with options(up="--up", front="--front"), working("importing"):
-        imported = read_skeleton(file, scale=scale, title=title, up=up, front=front)
+        imported = read_skeleton(
+            file, scale=scale, title=title, up=up, front=front, packages=package or ()
+        )
     given = {"--scale": f"{scale:g}" if scale != 1.0 else None, "--up": up, "--front": front}
     written = [word for option, value in given.items() if value for word in (option, value)]
     opening = OPENING.format(command=" ".join([file.name, *written]), file=out.name)

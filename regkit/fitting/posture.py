@@ -52,9 +52,20 @@ class Posture:
         Raises:
             DataError: If the mesh is the template's mirror image.
         """
+        rotation, origin, mirrored = self.aligned_root()
+        if mirrored:
+            name = parents_first(self.template.segments)[0]
+            raise DataError(
+                f"the joints around '{name}' are a mirror image of the template's: exchange left "
+                "and right in the map, or use the template of the other side"
+            )
+        return rotation, origin
+
+    def aligned_root(self) -> tuple[Array, Array, bool]:
+        """Returns axes and origin of the root's frame, and whether a reflection is better."""
         name = parents_first(self.template.segments)[0]
         offsets = np.array([child.offset for child in self._children(name).values()])
-        pairs = self._pairs(name, self.joints[name])
+        pairs = self.pairs(name, self.joints[name])
         origin = self.joints[name]
         if len(offsets):
             # Find non-negative weights that sum to one and combine the joints to the root's origin.
@@ -62,14 +73,9 @@ class Posture:
             shares, missed = nnls(equations, np.array([0.0, 0.0, 0.0, 1.0]))
             if missed < 1e-3:
                 origin = shares @ np.array([self.joints[child] for child in self._children(name)])
-                pairs = self._pairs(name, origin)
+                pairs = self.pairs(name, origin)
         rotation, mirrored = _aligning_rotation(pairs, np.eye(3))
-        if mirrored:
-            raise DataError(
-                f"the joints around '{name}' are a mirror image of the template's: exchange left "
-                "and right in the map, or use the template of the other side"
-            )
-        return rotation, origin
+        return rotation, origin, mirrored
 
     def frames(self, flesh: Mapping[str, Flesh]) -> dict[str, SegmentFrame]:
         """Returns the frame of every segment; the joints must be in the root's axes.
@@ -84,28 +90,46 @@ class Posture:
         Raises:
             DataError: If the end of a limb points the wrong way.
         """
+        centres = {name: part.interior.mean(axis=0) for name, part in flesh.items()}
+        axes = self.rotations(centres)
+        for name in self.template.segments:
+            self._check_end(name, axes, centres)
+        return {name: SegmentFrame(self.joints[name], own.T) for name, own in axes.items()}
+
+    def rotations(self, centres: Mapping[str, Array]) -> dict[str, Array]:
+        """Returns the rotation (3, 3) of every segment in the root's axes; see ``frames``.
+
+        Args:
+            centres: Centre of each segment's flesh, in the root's axes, (3,) [m].
+        """
         segments = self.template.segments
         root, *others = parents_first(segments)
         axes = {root: np.eye(3)}
         for name in others:
-            segment = segments[name]
-            at_rest = vector_to_matrix(np.radians(segment.rotation_deg))
-            nominal = axes[segment.parent or root] @ at_rest
             pairs: list[tuple[Array, Array]] = []
-            if not isinstance(segment.joint or FixedJoint(), FixedJoint):
-                pairs = self._pairs(name, self.joints[name])
-                middle = self._middle(name)
-                if not self._children(name) and middle is not None:
-                    to_flesh = flesh[name].interior.mean(axis=0) - self.joints[name]
-                    pairs = [(_unit(middle), _unit(to_flesh))]
-                    self._check_end(name, nominal @ pairs[0][0], pairs[0][1])
-            axes[name] = _aligning_rotation(pairs, nominal)[0]
-        return {name: SegmentFrame(self.joints[name], axes[name].T) for name in segments}
+            if not isinstance(segments[name].joint or FixedJoint(), FixedJoint):
+                end = self._end(name, centres)
+                pairs = self.pairs(name, self.joints[name]) if end is None else [end]
+            axes[name] = _aligning_rotation(pairs, self._nominal(name, axes))[0]
+        return axes
+
+    def _nominal(self, name: str, axes: Mapping[str, Array]) -> Array:
+        """Returns the rotation (3, 3) of a segment that is at rest against its parent."""
+        segment = self.template.segments[name]
+        at_rest = vector_to_matrix(np.radians(segment.rotation_deg))
+        return np.asarray(axes[segment.parent or ""] @ at_rest)
+
+    def _end(self, name: str, centres: Mapping[str, Array]) -> tuple[Array, Array] | None:
+        """Returns the directions of a limb's end in template and mesh; None for other segments."""
+        middle = self._middle(name)
+        if self._children(name) or middle is None:
+            return None
+        return _unit(middle), _unit(centres[name] - self.joints[name])
 
     def _children(self, name: str) -> dict[str, SegmentDescription]:
         return {own: one for own, one in self.template.segments.items() if one.parent == name}
 
-    def _pairs(self, name: str, origin: Array) -> list[tuple[Array, Array]]:
+    def pairs(self, name: str, origin: Array) -> list[tuple[Array, Array]]:
         """Returns pairs of directions: in the template's segment, and in the mesh."""
         pairs = []
         for child, segment in self._children(name).items():
@@ -148,8 +172,18 @@ class Posture:
                 return middle if np.linalg.norm(middle) > 1e-6 else None
         return None
 
-    def _check_end(self, name: str, expected: Array, found: Array) -> None:
-        if expected @ found < np.cos(np.radians(110.0)):
+    def _check_end(
+        self, name: str, axes: Mapping[str, Array], centres: Mapping[str, Array]
+    ) -> None:
+        segment = self.template.segments[name]
+        end = self._end(name, centres)
+        if (
+            end is None
+            or segment.parent is None
+            or isinstance(segment.joint or FixedJoint(), FixedJoint)
+        ):
+            return
+        if self._nominal(name, axes) @ end[0] @ end[1] < np.cos(np.radians(110.0)):
             raise DataError(
                 f"'{name}' points the other way than in the template: are left and right exchanged "
                 "in the map, or does a bone belong to the wrong segment?"

@@ -14,6 +14,7 @@ from regkit.fitting.flesh import Flesh, divided
 from regkit.fitting.layout import Layout
 from regkit.fitting.mesh_shape import MeshShape
 from regkit.fitting.posture import Posture
+from regkit.fitting.sides import check_sides
 from regkit.fitting.skin import decimated, on_segments
 from regkit.geometry.rigid import inverse, rigid, transformed
 from regkit.geometry.skinned_mesh import SkinnedMesh
@@ -26,6 +27,15 @@ FINENESS = 150
 
 FEWEST = 8
 """Minimum number of points inside a segment for each of its primitives."""
+
+UNITS = {"millimetres": 1e-3, "centimetres": 1e-2, "inches": 0.0254, "feet": 0.3048}
+"""Other units of lengths [m]."""
+
+WIDER = 1.25
+"""A size in another unit may be outside the template's sizes by this factor."""
+
+SPREAD = 10.0
+"""Largest ratio between the extents of a mesh's vertices and of its joints."""
 
 LIKELY = 2.0
 """A mesh outside the template's sizes by more than this factor has other units."""
@@ -84,8 +94,12 @@ class FittedTemplate:
         joints = {name: transformed(T_template_mesh, at[None])[0] for name, at in joints.items()}
         joints[parents_first(template.segments)[0]] = np.zeros(3)
         size = _rough_size(template, joints)
+        _check_extent(mesh, joints)
         parts = divided(mesh, T_template_mesh, owners, list(template.segments), size / FINENESS)
         _check_filled(template, parts)
+        check_sides(
+            template, joints, {name: part.interior.mean(axis=0) for name, part in parts.items()}
+        )
         frames = Posture(template, joints).frames(parts)
         layout = Layout(T_template_mesh, owners, frames)
         shape = MeshShape(template, layout, parts, added)
@@ -121,9 +135,33 @@ def _rough_size(template: BodyDescription, joints: Mapping[str, Array]) -> float
     if not low / LIKELY <= size <= high * LIKELY:
         raise DataError(
             f"by its joints the mesh has a {template.size.name} of {size:.4g} m; the template's is "
-            f"{low:g} to {high:g} m: lengths must be in metres"
+            f"{low:g} to {high:g} m: lengths must be in metres" + _unit(size, low, high)
         )
     return size
+
+
+def _unit(size: float, low: float, high: float) -> str:
+    """Returns the end of a message that names the unit in which a size is likely given."""
+    for name, metres in UNITS.items():
+        if low / WIDER <= metres * size <= high * WIDER:
+            return f"; these may be {name}, multiply all lengths by {metres:g}"
+    return ""
+
+
+def _check_extent(mesh: SkinnedMesh, joints: Mapping[str, Array]) -> None:
+    """Checks that vertices and bones have the same unit and are in the same place.
+
+    Raises:
+        DataError: If the vertices extend much further than the joints, or hardly at all.
+    """
+    places = np.array(list(joints.values()))
+    vertices = float(np.ptp(mesh.vertices, axis=0).max())
+    bones = float(np.ptp(places, axis=0).max())
+    if bones > 0.0 and not bones / SPREAD <= vertices <= bones * SPREAD:
+        raise DataError(
+            f"the mesh's vertices extend over {vertices:.4g} m and its bones over {bones:.4g} m; "
+            "both must have one unit, and no vertex may be far from the body"
+        )
 
 
 def _sized(

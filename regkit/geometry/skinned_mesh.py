@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from regkit.geometry.mesh_file import (
+    Arrays,
+    checked_bones,
+    checked_indices,
+    checked_labels,
+    checked_shape,
+    checked_weights,
+    mesh_arrays,
+)
 from regkit.geometry.rigid import rigid
-from regkit.system.archives import read_arrays
 from regkit.system.arrays import Array, Indices, read_only
 from regkit.system.brief import Brief
 from regkit.system.errors import DataError
 from regkit.system.files import write_arrays
+from regkit.system.guard import reading
 
 KEYS = (
     "rest_vertices",
@@ -57,18 +64,45 @@ class SkinnedMesh(Brief):
     def read(cls, path: Path) -> SkinnedMesh:
         """Reads an ``.npz`` file with the arrays ``KEYS``.
 
+        Weights that do not sum to one are divided by their sums, which is told.
+
         Raises:
-            DataError: If the file is missing, is not an ``.npz`` file, or lacks one of the arrays.
+            DataError: If the file is missing or damaged, or one of the arrays is missing or wrong.
         """
-        arrays = _arrays(path, KEYS)
+        arrays = mesh_arrays(path, KEYS)
+        with reading(path, "a skinned mesh"):
+            return cls.of(arrays, path)
+
+    @classmethod
+    def of(cls, arrays: Arrays, path: Path) -> SkinnedMesh:
+        """Returns the mesh of the arrays ``KEYS``, which are checked.
+
+        Args:
+            arrays: The arrays by name.
+            path: Their file, for notes.
+
+        Raises:
+            DataError: If one of them is wrong.
+        """
+        labels = checked_labels(arrays, "labels", "parents")
+        vertices = checked_shape(arrays, "rest_vertices", None, 3)
+        weights = checked_weights(arrays, "skin_weights", path)
+        carriers = arrays["skin_indices"]
+        if carriers.shape != weights.shape or len(weights) != len(vertices):
+            raise DataError(
+                f"skin_indices has the shape {carriers.shape}, skin_weights {weights.shape}; "
+                f"both need a row for each of the {len(vertices)} vertices"
+            )
+        # The bones of places without weight are padding.
+        carried = {"skin_indices": np.where(weights > 0.0, carriers, 0)}
         return cls(
-            read_only(arrays["rest_vertices"]),
-            arrays["faces"].astype(np.intp),
-            tuple(str(label) for label in arrays["labels"]),
+            read_only(vertices),
+            checked_indices(arrays, "faces", 3, 0, len(vertices)),
+            labels,
             arrays["parents"].astype(np.intp),
-            read_only(arrays["rest_bone_poses"]),
-            arrays["skin_indices"].astype(np.intp),
-            read_only(arrays["skin_weights"]),
+            read_only(checked_bones(arrays, "rest_bone_poses", len(labels))),
+            checked_indices(carried, "skin_indices", None, 0, len(labels)),
+            read_only(weights),
         )
 
     def write(self, path: Path) -> None:
@@ -97,7 +131,7 @@ class SkinnedMesh(Brief):
             DataError: If the file is missing, is not an ``.npz`` file, lacks one of the arrays, or
                 belongs to a mesh of another topology.
         """
-        arrays = _arrays(path, SHAPE_KEYS)
+        arrays = mesh_arrays(path, SHAPE_KEYS)
         own = {"rest_vertices": self.vertices, "rest_bone_poses": self.rest}
         for key, array in arrays.items():
             if array.shape != own[key].shape:
@@ -105,11 +139,12 @@ class SkinnedMesh(Brief):
                     f"{key} has the shape {array.shape}; for this mesh it must be {own[key].shape}",
                     place=str(path),
                 )
-        return replace(
-            self,
-            vertices=read_only(arrays["rest_vertices"]),
-            rest=read_only(arrays["rest_bone_poses"]),
-        )
+        with reading(path, "the shape of a skinned mesh"):
+            return replace(
+                self,
+                vertices=read_only(checked_shape(arrays, "rest_vertices", None, 3)),
+                rest=read_only(checked_bones(arrays, "rest_bone_poses", len(self.labels))),
+            )
 
     def bone(self, label: str) -> int:
         """Returns the index of the bone named ``label``.
@@ -182,10 +217,3 @@ class SkinnedMesh(Brief):
             parent = self.parents[bone]
             origins[bone] = origins[parent] + rotations[parent] @ offsets[bone]
         return rigid(rotations @ self.rest[:, :3, :3], origins)
-
-
-def _arrays(path: Path, keys: Sequence[str]) -> dict[str, NDArray[np.generic]]:
-    """Returns the arrays named ``keys`` of an ``.npz`` file."""
-    if not path.exists():
-        raise DataError("the file is missing; it should hold a skinned mesh", place=str(path))
-    return read_arrays(path, keys, f"a skinned mesh, an .npz file with {', '.join(keys)}")

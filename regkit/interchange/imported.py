@@ -26,6 +26,12 @@ MIN_THICKNESS = 0.005
 MIN_LENGTH = 1e-4
 """Minimum length of a bone [m]."""
 
+MOST = 1000
+"""Largest number of bones; a body with a hand's or face's details has a few hundred."""
+
+FARTHEST = 1e6
+"""Largest size of a skeleton [m]; that of a person in micrometres is larger."""
+
 UPRIGHT = 0.8
 """The size is the height if that is at least this fraction of the largest extent."""
 
@@ -83,7 +89,7 @@ class ImportedSkeleton:
             DataError: If the skeleton has no extent, or is not a valid template.
         """
         extents = _extents(bones)
-        offsets = [_offsets(bones, index) for index in range(len(bones))]
+        offsets = _offsets(bones)
         min_radius = MIN_THICKNESS * float(extents.max())
         segments = {}
         for index, bone in enumerate(bones):
@@ -98,6 +104,12 @@ class ImportedSkeleton:
             )
         upright = extents[1] >= UPRIGHT * extents.max()
         size = round(float(extents[1] if upright else extents.max()), 4)
+        if not size <= FARTHEST:
+            raise DataError(
+                f"the skeleton extends over {size:.3g} m; a length in the file is wrong, or the "
+                "scale",
+                place=str(path),
+            )
         if size <= 0.0:
             raise DataError(
                 "the skeleton has no extent: all joints are at the same position; at least one "
@@ -125,15 +137,32 @@ class ImportedSkeleton:
         return cls(description, comments, shaped)
 
 
-def _offsets(bones: list[Bone], index: int) -> list[Array]:
-    """Returns the vectors (3,) [m] from a bone's joint to its children and its other markers."""
-    children = [bone.offset for bone in bones if bone.parent == index]
-    offsets: list[Array] = []
-    for offset in (*children, *bones[index].markers.values()):
-        # Several children may have the same position.
-        others = (np.zeros(3), *offsets)
-        if min(float(np.linalg.norm(offset - other)) for other in others) > MIN_LENGTH:
-            offsets.append(offset)
+def check_count(count: int, path: Path) -> None:
+    """Checks the number of a skeleton's bones.
+
+    Raises:
+        DataError: If a template cannot have so many.
+    """
+    if count > MOST:
+        raise DataError(
+            f"the skeleton has {count} joints; a template can have {MOST}", place=str(path)
+        )
+
+
+def _offsets(bones: list[Bone]) -> list[list[Array]]:
+    """Returns for each bone the vectors (3,) [m] to its children and its other markers."""
+    ends: list[list[Array]] = [[] for _ in bones]
+    for bone in bones:
+        if bone.parent >= 0:
+            ends[bone.parent].append(bone.offset)
+    offsets: list[list[Array]] = []
+    for bone, own in zip(bones, ends, strict=True):
+        found = [np.zeros(3)]
+        for offset in (*own, *bone.markers.values()):
+            # Several children may have the same position.
+            if np.linalg.norm(np.array(found) - offset, axis=1).min() > MIN_LENGTH:
+                found.append(offset)
+        offsets.append(found[1:])
     return offsets
 
 

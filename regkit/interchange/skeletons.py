@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from regkit.interchange.axes import body_axes
@@ -10,7 +11,9 @@ from regkit.interchange.bvh.template import bvh_template
 from regkit.interchange.imported import ImportedSkeleton
 from regkit.interchange.urdf.template import urdf_template
 from regkit.interchange.urdf.urdf import Urdf
+from regkit.interchange.urdf.xml_lines import XACRO
 from regkit.system.errors import ConfigError
+from regkit.system.guard import reading
 
 
 def read_skeleton(
@@ -20,6 +23,7 @@ def read_skeleton(
     title: str | None = None,
     up: str | None = None,
     front: str | None = None,
+    packages: Sequence[Path] = (),
 ) -> ImportedSkeleton:
     """Reads the skeleton of a ``.bvh`` or ``.urdf`` file as a template.
 
@@ -29,6 +33,7 @@ def read_skeleton(
         title: Title of the template; by default the name of the file or the robot.
         up: The up axis of the file; by default y for BVH and z for URDF.
         front: The front axis of the file; by default z for BVH and x for URDF.
+        packages: Folders in which the packages of a URDF file's meshes are looked for first.
 
     Raises:
         ConfigError: If the format is unknown, or the axes are invalid.
@@ -37,12 +42,18 @@ def read_skeleton(
     match path.suffix.lower():
         case ".bvh":
             axes = body_axes(up or "y", front or "z")
-            motion = Bvh.read(path, scale=scale)
-            return bvh_template(motion, path, title or f"The skeleton of {path.name}", axes)
+            motion = Bvh.read(path, scale=scale, posed=False)
+            named = title or f"The skeleton of {path.name}"
+            with reading(path, "a skeleton that a template can describe"):
+                return bvh_template(motion, path, named, axes)
         case ".urdf":
             axes = body_axes(up or "z", front or "x")
             robot = Urdf.read(path)
-            return urdf_template(robot, path, title or f"The robot {robot.name}", axes, scale)
+            named = title or f"The robot {robot.name}"
+            with reading(path, "a robot that a template can describe"):
+                return urdf_template(robot, path, named, axes, scale, packages)
+        case ".xacro":
+            raise ConfigError(f"is a template of a URDF file; {XACRO}", place=str(path))
         case suffix:
             raise ConfigError(
                 f"the format '{suffix}' cannot be imported; use .bvh or .urdf, or make a template "

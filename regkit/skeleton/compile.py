@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import from_vector, vector_to_matrix
@@ -81,13 +82,16 @@ def _skeleton(
     free: bool,
 ) -> Skeleton:
     parents = [description.segments[name].parent for name in names]
-    chains = [_chain(link, links.parents) for link in range(len(links.parents))]
+    place = {name: index for index, name in enumerate(names)}
     ball_links = np.array([link for link, _ in links.balls], dtype=np.intp)
     hinge_links = np.array([link for link, _, _ in links.hinges], dtype=np.intp)
-    movers = [*([0] * 6 if free else []), *np.repeat(ball_links, 3), *hinge_links]
+    movers = np.array(
+        [*([0] * 6 if free else []), *np.repeat(ball_links, 3), *hinge_links], dtype=np.intp
+    )
+    moved = _ancestors(links.parents)[[segment_links[name] for name in names]]
     return Skeleton(
         names=tuple(names),
-        parents=np.array([-1 if p is None else names.index(p) for p in parents], dtype=np.intp),
+        parents=np.array([-1 if p is None else place[p] for p in parents], dtype=np.intp),
         free=free,
         segment_links=np.array([segment_links[name] for name in names], dtype=np.intp),
         link_parents=np.array(links.parents, dtype=np.intp),
@@ -96,9 +100,7 @@ def _skeleton(
         hinge_links=hinge_links,
         hinge_axes=read_only([axis for _, axis, _ in links.hinges]).reshape(-1, 3),
         joint_dofs=_joint_dofs(links, segment_links, first=6 if free else 0),
-        dof_mask=read_only(
-            [[mover in chains[segment_links[name]] for name in names] for mover in movers]
-        ).reshape(len(movers), len(names)),
+        dof_mask=read_only(moved[:, movers].T),
         limits=_limits(links, segment_links),
     )
 
@@ -112,22 +114,24 @@ def _joint_dofs(links: _Links, segment_links: dict[str, int], *, first: int) -> 
     for link, _, _ in links.hinges:
         dofs[link] = [first]
         first += 1
+    owned = set(segment_links.values())
     joints: dict[str, Indices] = {}
     for name, link in segment_links.items():
         parent = links.parents[link]
-        virtual = parent >= 0 and parent not in segment_links.values()
+        virtual = parent >= 0 and parent not in owned
         own = (dofs.get(parent, []) if virtual else []) + dofs.get(link, [])
         if own:
             joints[name] = np.array(own, dtype=np.intp)
     return joints
 
 
-def _chain(link: int, parents: list[int]) -> list[int]:
-    """Returns a link and all its ancestors."""
-    chain = [link]
-    while parents[chain[-1]] >= 0:
-        chain.append(parents[chain[-1]])
-    return chain
+def _ancestors(parents: list[int]) -> NDArray[np.bool_]:
+    """Returns which links (L, L) are, by column, the link of a row or one of its ancestors."""
+    found = np.eye(len(parents), dtype=bool)
+    for link, parent in enumerate(parents):
+        if parent >= 0:
+            found[link] |= found[parent]
+    return found
 
 
 def _limits(links: _Links, segment_links: dict[str, int]) -> Limits:

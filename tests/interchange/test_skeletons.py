@@ -15,6 +15,7 @@ from regkit.interchange.skeletons import read_skeleton
 from regkit.interchange.urdf.urdf import Urdf
 from regkit.skeleton import Pose
 from regkit.system.errors import ConfigError, DataError
+from regkit.system.notes import RegkitWarning
 
 ASSET = ASSETS / "motion_bvhtoolbox" / "mocapbank.bvh"
 
@@ -145,14 +146,17 @@ def test_channels_tell_the_type_of_a_joint(tmp_path: Path) -> None:
     assert capsule.radius == pytest.approx(THICKNESS * 0.3)
 
 
-def test_a_bone_that_changes_its_length_is_refused(tmp_path: Path) -> None:
+def test_a_bone_that_changes_its_length_is_told_or_refused(tmp_path: Path) -> None:
     path = tmp_path / "short.bvh"
     text = SHORT.replace("Frames: 1", "Frames: 2")
     last = text.splitlines()[-1]
-    path.write_text(text + last.replace(" 2 0 0.5 ", " 2 0.1 0.5 ") + "\n")
-    with pytest.raises(DataError, match=r"'leg' moves by 0\.1 m along its position channels"):
+    path.write_text(text + last.replace(" 2 0 0.5 ", " 2 0.5 0.5 ") + "\n")
+    with pytest.warns(RegkitWarning, match="leg: 6"):
+        imported = read_skeleton(path)
+    assert imported.description.segments["leg"].offset == pytest.approx((2.0, 0.25, 0.5))
+    path.write_text(text + last.replace(" 2 0 0.5 ", " 2 3 0.5 ") + "\n")
+    with pytest.raises(DataError, match=r"'leg' moves by 37\.5 % "):
         read_skeleton(path)
-    read_skeleton(path, scale=0.001)
 
 
 ROBOT = """<?xml version="1.0"?>
@@ -237,6 +241,7 @@ def _check_moves_as_chained(path: Path, scale: float, random: np.random.Generato
             np.testing.assert_allclose(own[:3, :3], turned, atol=1e-9)
 
 
+@pytest.mark.filterwarnings("ignore:.*upper.stl:regkit.system.notes.RegkitWarning")
 def test_a_robot_moves_as_its_chain_of_joints_does(
     robot: Path, random: np.random.Generator
 ) -> None:
@@ -260,6 +265,7 @@ def test_roll_pitch_and_yaw_are_about_fixed_axes(robot: Path) -> None:
     np.testing.assert_allclose(upper.origin[:3, :3], turn, atol=1e-12)
 
 
+@pytest.mark.filterwarnings("ignore:.*upper.stl:regkit.system.notes.RegkitWarning")
 def test_a_robots_limits_and_followers_are_kept(robot: Path) -> None:
     segments = read_skeleton(robot).description.segments
     assert segments["upper"].joint.limits_deg is None
@@ -272,13 +278,14 @@ def test_a_robots_limits_and_followers_are_kept(robot: Path) -> None:
     assert finger.offset_deg == pytest.approx(np.degrees(0.1))
 
 
+@pytest.mark.filterwarnings("ignore:.*upper.stl:regkit.system.notes.RegkitWarning")
 def test_a_robots_shapes_become_capsules(robot: Path) -> None:
     imported = read_skeleton(robot, up="y", front="z")
     segments = imported.description.segments
     (base,) = segments["base"].capsules
     np.testing.assert_allclose([base.start, base.end], [[0, 0, 0], [0, 0, 0.2]], atol=1e-12)
     assert base.radius == 0.1
-    # The mesh of the upper arm is not read; a capsule goes to the elbow.
+    # The mesh of the upper arm is missing; a capsule goes to the elbow.
     (upper,) = segments["upper"].capsules
     assert upper.end == segments["lower"].offset
     assert imported.shaped == 1
@@ -297,39 +304,26 @@ def test_a_robots_shapes_become_capsules(robot: Path) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "line", "message"),
     [
-        ('"bend" type="revolute"', '"bend" type="prismatic"', 17, "joint 'bend' is prismatic; "),
-        ("<limit lower=", "<limits lower=", 17, "<joint> needs a <limit>"),
-        ('lower="-1" upper="2"', 'lower="3" upper="2"', 19, "lower=3 is above upper=2"),
+        ('"bend" type="revolute"', '"bend" type="prismatic"', 17, "translate (prismatic: bend)"),
         ('lower="-1"', 'lower="low"', 19, 'lower="low" of <limit> must be a number'),
         ('<axis xyz="0 1 1"/>', '<axis xyz="0 0 0"/>', 19, "the axis of joint 'bend' is zero"),
         ('xyz="0.3 0.02 0"', 'xyz="0.3 0.02"', 18, 'xyz="0.3 0.02" of <origin> must be 3 numbers'),
         ('<child link="hand"/>', '<child link="hnd"/>', 20, "no link 'hnd'; did you mean 'hand'?"),
         ('<child link="hand"/>', '<child link="lower"/>', 20, "a second joint"),
-        ('joint="pinch" ', 'joint="pich" ', 22, "follows 'pich', which is not a joint"),
-        ('joint="bend" ', 'joint="wrist" ', 25, "'pinch' follows 'wrist', which is spherical"),
         ('joint="bend" ', 'joint="grip" ', 22, "joint 'grip' follows itself"),
-        ('multiplier="0.2"', 'multiplier="0"', 27, "multiplier=0 is too small"),
         ('radius="0.03"', 'radius="-3"', 9, "radius of <capsule> must be positive: -3"),
-        ("<sphere radius", "<ball radius", 13, "<geometry> needs a <sphere>"),
         ('link name="thumb"', 'link name="hand"', 13, "a second link is named 'hand'"),
         ("</robot>", "</robt>", 28, "not XML: mismatched tag"),
-        ('<link name="finger"/>', '<link name="finger"/><link name="x"/>', 2, "2 links have no"),
     ],
 )  # fmt: skip
 def test_what_is_wrong_in_a_robot_is_told_with_its_line(
     robot: Path, old: str, new: str, line: int, message: str
 ) -> None:
-    robot.write_text(ROBOT.replace(old, new) if old != "<sphere radius" else _without_ball(new))
+    robot.write_text(ROBOT.replace(old, new))
     with pytest.raises(DataError) as caught:
         read_skeleton(robot)
     assert message in caught.value.message
     assert caught.value.place == f"{robot}:{line}"
-
-
-def _without_ball(new: str) -> str:
-    """The robot with another shape for its thumb."""
-    head, tail = ROBOT.split('<link name="thumb">')
-    return head + '<link name="thumb">' + tail.replace("<sphere radius", new)
 
 
 def test_other_formats_and_axes_are_refused(robot: Path) -> None:
@@ -339,7 +333,7 @@ def test_other_formats_and_axes_are_refused(robot: Path) -> None:
         read_skeleton(robot, up="w")
     with pytest.raises(ConfigError, match=r"^front: up is z; the front cannot be -z"):
         read_skeleton(robot, front="-z")
-    with pytest.raises(DataError, match="the file is missing"):
+    with pytest.raises(DataError, match="no such file"):
         read_skeleton(robot.with_name("none.urdf"))
     robot.write_text("<sdf/>")
     with pytest.raises(DataError, match=r"arm\.urdf:1: <sdf> where <robot>"):

@@ -157,7 +157,7 @@ def test_fingertip_lies_beyond_the_last_joint():
 
 
 def test_read_names_a_missing_file(tmp_path):
-    with pytest.raises(DataError, match=r"nothing\.npz: the file is missing"):
+    with pytest.raises(DataError, match=r"nothing\.npz: there is no such file"):
         SkinnedMesh.read(tmp_path / "nothing.npz")
 
 

@@ -7,11 +7,12 @@ from pathlib import Path
 
 import numpy as np
 
+from regkit.geometry.mesh_file import mesh_arrays
 from regkit.geometry.rigid import rigid
-from regkit.geometry.skinned_mesh import KEYS, SkinnedMesh
-from regkit.system.archives import array_names, read_arrays
-from regkit.system.arrays import Array, read_only
-from regkit.system.errors import ConfigError
+from regkit.geometry.skinned_mesh import KEYS, SHAPE_KEYS, SkinnedMesh
+from regkit.system.arrays import Array
+from regkit.system.errors import ConfigError, DataError
+from regkit.system.guard import reading
 
 _EXPORT = {"skin_indices": "skin_i", "skin_weights": "skin_w"}
 """Names of two arrays in an export of anny."""
@@ -36,25 +37,19 @@ def read_npz_body(path: Path, shape: int) -> SkinnedMesh:
 
 def _export(path: Path, shape: int) -> SkinnedMesh | None:
     """Returns a shape of an export of anny, or None if the file is not one."""
-    # Reading it as a mesh file reports what is wrong with a missing file.
-    if not path.is_file() or not {_EXPORT.get(key, key) for key in KEYS} <= set(array_names(path)):
+    try:
+        named = mesh_arrays(path, [_EXPORT.get(key, key) for key in KEYS])
+    except DataError:
+        # Reading it as a mesh file reports what is wrong with the file.
         return None
-    stored = read_arrays(path, [_EXPORT.get(key, key) for key in KEYS])
-    arrays = dict(zip(KEYS, stored.values(), strict=True))
+    arrays = dict(zip(KEYS, named.values(), strict=True))
     count = len(arrays["rest_vertices"])
     if not 0 <= shape < count:
         raise ConfigError(
             f"there is no shape {shape}; the file holds {count}, from 0 on", place=str(path)
         )
-    return SkinnedMesh(
-        read_only(arrays["rest_vertices"][shape]),
-        arrays["faces"].astype(np.intp),
-        tuple(str(label) for label in arrays["labels"]),
-        arrays["parents"].astype(np.intp),
-        read_only(arrays["rest_bone_poses"][shape]),
-        arrays["skin_indices"].astype(np.intp),
-        read_only(arrays["skin_weights"]),
-    )
+    with reading(path, "an export of anny"):
+        return SkinnedMesh.of(arrays | {key: arrays[key][shape] for key in SHAPE_KEYS}, path)
 
 
 def turned_mesh(mesh: SkinnedMesh, rotation: Array) -> SkinnedMesh:

@@ -40,6 +40,11 @@ def read_bvh(
             f"it has {len(bvh.frames)} frames; a motion needs two, after {skip} that are skipped",
             place=str(path),
         )
+    if bvh.frame_time <= 0.0:
+        raise DataError(
+            f"Frame Time is {bvh.frame_time:g}; a motion needs the time between its frames",
+            place=str(path),
+        )
     rig, rotation = _rig(bvh, map_name, path)
     poses = [bvh.at_frame(frame) for frame in range(skip, len(bvh.frames))]
     left, right = (bvh.names.index(rig.parts[f"{side}_hip"]) for side in ("left", "right"))

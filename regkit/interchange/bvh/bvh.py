@@ -15,6 +15,8 @@ from pathlib import Path
 
 import numpy as np
 
+from regkit.geometry.rotation import to_matrix
+from regkit.interchange.bvh.frames import read_motion
 from regkit.interchange.bvh.hierarchy import (
     BvhJoint,
     hierarchy_text,
@@ -23,11 +25,14 @@ from regkit.interchange.bvh.hierarchy import (
     row,
 )
 from regkit.interchange.bvh.lines import Lines
-from regkit.interchange.bvh.pose import BvhPose, posed, relative_motion
+from regkit.interchange.bvh.pose import BvhPose, posed, relative_positions, relative_rotations
+from regkit.interchange.encodings import Decoded
 from regkit.interchange.gltf.slerp import slerp
+from regkit.interchange.remarks import Remarks
 from regkit.system.arrays import Array, read_only
 from regkit.system.errors import DataError
 from regkit.system.files import write_text
+from regkit.system.guard import reading
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +41,7 @@ class Bvh:
 
     Attributes:
         joints: The J joints, parents before children.
-        frame_time: Time between frames [s].
+        frame_time: Time between frames [s]; zero if the file has none.
         frames: Values of all channels in the order of the joints, (F, C): positions [m], angles
             [deg].
     """
@@ -46,36 +51,25 @@ class Bvh:
     frames: Array
 
     @classmethod
-    def read(cls, path: Path, *, scale: float = 1.0) -> Bvh:
-        """Reads a file.
+    def read(cls, path: Path, *, scale: float = 1.0, posed: bool = True) -> Bvh:
+        """Reads a file; what is assumed or left out is told.
 
         Args:
             path: The file.
             scale: Metres per unit of the file; 0.01 for centimetres.
+            posed: Whether the frames matter. If not, frames that cannot be read are left out.
 
         Raises:
             DataError: If the file is missing or invalid.
         """
-        try:
-            text = path.read_text(encoding="utf-8-sig")
-        except FileNotFoundError:
-            raise DataError(
-                "the file is missing; it should hold a BVH motion", place=str(path)
-            ) from None
-        except OSError as error:
-            raise DataError(f"cannot be read: {error.strerror}", place=str(path)) from None
-        except UnicodeDecodeError:
-            raise DataError("not UTF-8 text; a BVH file is a text file", place=str(path)) from None
-        lines = Lines(path, text)
-        joints = read_hierarchy(lines, scale)
-        count = lines.field("Frames")
-        if count < 0 or count != int(count):
-            raise lines.wrong(f"Frames is {count:g}; it must be a whole number")
-        frame_time = lines.field("Frame Time")
-        if frame_time <= 0.0:
-            raise lines.wrong(f"Frame Time is {frame_time:g}; it must be positive")
+        with reading(path, "a BVH file"):
+            decoded = Decoded.of(path.read_bytes())
+            lines, remarks = Lines(path, decoded.text), Remarks()
+            joints = read_hierarchy(lines, scale, remarks)
+            decoded.tell(path)
+            frame_time, frames = read_motion(lines, joints, posed=posed)
+            remarks.tell()
         names = [channel for joint in joints for channel in joint.channels]
-        frames = _frames(lines, int(count), len(names))
         frames[:, [name.endswith("position") for name in names]] *= scale
         return cls(joints, frame_time, read_only(frames))
 
@@ -125,7 +119,7 @@ class Bvh:
 
     def offsets(self, joint: int) -> Array:
         """Returns the position of a joint relative to its parent in every frame, (F, 3) [m]."""
-        return self._relative[1][:, joint]
+        return self._positions[:, joint]
 
     def at_frame(self, index: int) -> BvhPose:
         """Returns the pose in a frame.
@@ -133,8 +127,7 @@ class Bvh:
         Raises:
             IndexError: If there is no such frame.
         """
-        rotations, translations = self._relative
-        return posed(self.joints, rotations[index], translations[index])
+        return posed(self.joints, self._rotations[index], self._positions[index])
 
     def at(self, time: float) -> BvhPose:
         """Returns the pose at ``time`` [s], with spherical interpolation of each joint's rotation.
@@ -142,28 +135,32 @@ class Bvh:
         The pose is constant before the first and after the last frame.
 
         Raises:
-            DataError: If the motion has no frames.
+            DataError: If the motion has no frames, or no time between them.
         """
-        if not len(self.frames):
-            raise DataError("the motion has no frames; at least one is needed")
+        if not len(self.frames) or self.frame_time <= 0.0:
+            raise DataError(
+                f"the motion has {len(self.frames)} frames and a frame time of "
+                f"{self.frame_time:g} s; both must be positive"
+            )
         exact = float(np.clip(time / self.frame_time, 0.0, len(self.frames) - 1.0))
         left = min(int(exact), max(0, len(self.frames) - 2))
         right = min(left + 1, len(self.frames) - 1)
         share = exact - left
-        rotations, translations = self._relative
+        rotations, positions = self._rotations, self._positions
         return posed(
             self.joints,
             slerp(rotations[left], rotations[right], share),
-            (1.0 - share) * translations[left] + share * translations[right],
+            (1.0 - share) * positions[left] + share * positions[right],
         )
 
+    def rotations(self, joint: int) -> Array:
+        """Returns the rotation of a joint relative to its parent in every frame, (F, 3, 3)."""
+        return to_matrix(self._rotations[:, joint])
+
     @cached_property
-    def _relative(self) -> tuple[Array, Array]:
-        return relative_motion(self.joints, self.frames)
+    def _rotations(self) -> Array:
+        return relative_rotations(self.joints, self.frames)
 
-
-def _frames(lines: Lines, count: int, channels: int) -> Array:
-    frames = [lines.numbers(line, channels, "a frame") for line in lines.rest()]
-    if len(frames) != count:
-        raise lines.wrong(f"Frames is {count}, but {len(frames)} frames follow")
-    return np.array(frames).reshape(count, channels)
+    @cached_property
+    def _positions(self) -> Array:
+        return relative_positions(self.joints, self.frames)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from regkit.interchange.bvh.lines import Lines
+from regkit.interchange.remarks import Remarks
 from regkit.system.arrays import Array, read_only
 
 CHANNELS = (
@@ -36,12 +37,13 @@ class BvhJoint:
     ends: tuple[Array, ...] = ()
 
 
-def read_hierarchy(lines: Lines, scale: float) -> tuple[BvhJoint, ...]:
-    """Parses the joints of a file, parents before children, up to the line ``MOTION``.
+def read_hierarchy(lines: Lines, scale: float, remarks: Remarks) -> tuple[BvhJoint, ...]:
+    """Parses the joints of a file, parents before children, up to the end of the root.
 
     Args:
         lines: The lines of the file.
         scale: Metres per unit of the file.
+        remarks: Takes what is assumed.
 
     Raises:
         DataError: If the hierarchy is invalid.
@@ -49,32 +51,46 @@ def read_hierarchy(lines: Lines, scale: float) -> tuple[BvhJoint, ...]:
     if lines.take("HIERARCHY").upper() != "HIERARCHY":
         raise lines.wrong("the first line must be HIERARCHY; this is not a BVH file")
     joints: list[BvhJoint] = []
+    ends: list[list[Array]] = []
+    names: set[str] = set()
     open_joints: list[int] = []
-    while True:
-        line = lines.take("MOTION" if joints and not open_joints else "the rest of the joints")
+    while open_joints or not joints:
+        line = lines.take("the rest of the joints")
         word, *rest = line.split(None, 1)
-        name = "".join(rest)
         match word.upper():
-            case "MOTION" if joints and not open_joints:
-                return tuple(joints)
             case "}" if open_joints:
                 open_joints.pop()
-            case "END" if open_joints:
-                joint = joints[open_joints[-1]]
-                end = _offset(lines, scale)
+            case "END" | "ENDSITE" if open_joints:
+                offset, _ = _attributes(lines, scale, "End Site")
+                ends[open_joints[-1]].append(offset)
                 _expect(lines, "}")
-                joints[open_joints[-1]] = replace(joint, ends=(*joint.ends, end))
             case "ROOT" | "JOINT" if bool(open_joints) == (word.upper() == "JOINT"):
-                if joints and not open_joints:
-                    raise lines.wrong(f"'{name}' is a second ROOT; there must be exactly one")
-                if not name or name in (joint.name for joint in joints):
-                    raise lines.wrong(f"{word} needs a unique name; it has '{name}'")
+                name = _unique("".join(rest), names, len(joints), lines, remarks)
                 parent = open_joints[-1] if open_joints else -1
                 open_joints.append(len(joints))
-                joints.append(BvhJoint(name, parent, _offset(lines, scale), _channels(lines)))
+                joints.append(BvhJoint(name, parent, *_attributes(lines, scale, word)))
+                ends.append([])
             case _:
-                wanted = "JOINT, End Site or }" if open_joints else "MOTION" if joints else "ROOT"
+                wanted = "JOINT, End Site or }" if open_joints else "ROOT"
                 raise lines.wrong(f"'{line[:40]}' where {wanted} is expected")
+    if lines.ahead().upper().startswith("ROOT"):
+        name = lines.take("MOTION")[4:44].strip()
+        raise lines.wrong(f"'{name}' is a second ROOT; there must be exactly one")
+    return tuple(replace(joint, ends=tuple(own)) for joint, own in zip(joints, ends, strict=True))
+
+
+def _unique(name: str, names: set[str], number: int, lines: Lines, remarks: Remarks) -> str:
+    """Returns a joint's name, or another if it is empty or taken."""
+    given = name.strip()
+    name = given or f"joint_{number}"
+    count = 1
+    while name in names:
+        count += 1
+        name = f"{given or 'joint'}_{number if not given else count}"
+    if name != given:
+        remarks.add("joints without a name of their own get one", f"{given} -> {name}", lines.place)
+    names.add(name)
+    return name
 
 
 def _expect(lines: Lines, wanted: str) -> None:
@@ -83,19 +99,29 @@ def _expect(lines: Lines, wanted: str) -> None:
         raise lines.wrong(f"'{line[:40]}' where {wanted} is expected")
 
 
-def _offset(lines: Lines, scale: float) -> Array:
-    """Parses the opening brace of a joint, and returns its offset."""
+def _attributes(lines: Lines, scale: float, of: str) -> tuple[Array, tuple[str, ...]]:
+    """Parses the opening brace of a joint, and returns its offset (3,) [m] and its channels."""
     _expect(lines, "{")
-    word, *numbers = lines.take("OFFSET").split()
-    if word.upper() != "OFFSET":
-        raise lines.wrong(f"'{word}' where OFFSET is expected")
-    return read_only(scale * np.array(lines.numbers(" ".join(numbers), 3, "OFFSET")))
+    offset, channels = None, None
+    while True:
+        word, *words = lines.ahead().split() or [""]
+        match word.upper():
+            case "OFFSET" if offset is None:
+                lines.take("OFFSET")
+                offset = scale * np.array(lines.numbers(" ".join(words), 3, "OFFSET"))
+            case "CHANNELS" if channels is None:
+                lines.take("CHANNELS")
+                channels = _channels(lines, words)
+            case _ if offset is None:
+                raise lines.wrong(f"'{lines.take('OFFSET')[:40]}' where OFFSET is expected")
+            case _:
+                break
+    if of.upper() not in ("ROOT", "JOINT") and channels:
+        raise lines.wrong("an End Site has channels; it cannot move")
+    return read_only(offset), channels or ()
 
 
-def _channels(lines: Lines) -> tuple[str, ...]:
-    word, *words = lines.take("CHANNELS").split()
-    if word.upper() != "CHANNELS":
-        raise lines.wrong(f"'{word}' where CHANNELS is expected")
+def _channels(lines: Lines, words: list[str]) -> tuple[str, ...]:
     if not words or words[0] != str(len(words) - 1):
         raise lines.wrong(
             f"CHANNELS announces {words[0] if words else 'nothing'}, but "
@@ -113,13 +139,22 @@ def _channels(lines: Lines) -> tuple[str, ...]:
 def in_file_order(joints: Sequence[BvhJoint]) -> list[int]:
     """Returns the indices of the joints in file order, depth first."""
     order: list[int] = []
+    children = children_of(joints)
     ahead = [0]
     while ahead:
         index = ahead.pop()
         order.append(index)
-        children = [child for child, joint in enumerate(joints) if joint.parent == index]
-        ahead += reversed(children)
+        ahead += reversed(children[index])
     return order
+
+
+def children_of(joints: Sequence[BvhJoint]) -> list[list[int]]:
+    """Returns the indices of each joint's children."""
+    children: list[list[int]] = [[] for _ in joints]
+    for index, joint in enumerate(joints):
+        if joint.parent >= 0:
+            children[joint.parent].append(index)
+    return children
 
 
 def hierarchy_text(joints: Sequence[BvhJoint], scale: float) -> list[str]:

@@ -10,9 +10,12 @@ import numpy as np
 
 from regkit.system.errors import DataError
 
+HUGE = 1e30
+"""Larger numbers are no lengths or angles, and their products overflow."""
+
 
 class Lines:
-    """The non-empty lines of a text, read one after the other.
+    """The statements of a text, by and large its lines, read one after the other.
 
     Args:
         path: The file, for error messages.
@@ -30,27 +33,32 @@ class Lines:
         Raises:
             DataError: If the file ends here; the message names ``wanted``.
         """
-        if self._next == len(self._statements):
+        if self.ended:
             raise DataError(f"the file ends where {wanted} is expected", place=self.place)
         self._next += 1
         return self._statements[self._next - 1][1]
 
-    def rest(self) -> Iterator[str]:
-        """Yields all remaining lines."""
-        while self._next < len(self._statements):
-            yield self.take("another line")
+    def ahead(self) -> str:
+        """Returns the next line without taking it; empty at the end of the file."""
+        return "" if self.ended else self._statements[self._next][1]
 
-    def field(self, name: str) -> float:
-        """Returns the number after ``name:`` in the next line.
+    @property
+    def ended(self) -> bool:
+        """Whether all lines are taken."""
+        return self._next == len(self._statements)
+
+    def field(self, name: str) -> float | None:
+        """Returns the number after ``name:`` in the next line; None if it is another line.
 
         Raises:
-            DataError: If the line is something else.
+            DataError: If no number follows.
         """
-        line = self.take(f"{name}:")
-        word, colon, number = line.partition(":")
-        if not colon or word.strip().lower() != name.lower():
-            raise self.wrong(f"'{line[:40]}' where {name}: is expected")
-        return self.numbers(number, 1, name)[0]
+        pattern = r"\s*".join(name.split()) + r"\s*:?(.*)"
+        found = re.fullmatch(pattern, self.ahead(), re.IGNORECASE)
+        if found is None:
+            return None
+        self.take(name)
+        return self.numbers(found.group(1), 1, name)[0]
 
     @property
     def place(self) -> str:
@@ -72,18 +80,36 @@ class Lines:
             raise self.wrong(f"{what} has {len(words)} numbers; it needs {count}")
         try:
             values = list(map(float, words))
-        except ValueError as error:
-            raise self.wrong(f"{what} has a word that is not a number ({error})") from None
+        except ValueError:
+            values = self._with_commas(words, what)
         if not np.isfinite(values).all():
             bad = next(word for word, value in zip(words, values, strict=True) if value - value)
             raise self.wrong(f"{what} holds {bad}; all numbers must be finite")
+        if np.abs(values).max(initial=0.0) > HUGE:
+            raise self.wrong(f"{what} holds {max(values, key=abs):g}, which cannot be right")
         return values
+
+    def _with_commas(self, words: list[str], what: str) -> list[float]:
+        """Returns numbers with decimal commas."""
+        try:
+            return [float(word.replace(",", ".")) for word in words]
+        except ValueError as error:
+            raise self.wrong(f"{what} has a word that is not a number ({error})") from None
+
+
+_LINE_ENDS = re.compile(r"\r\n|\r|\n")
+_OPENING = ("HIERARCHY", "OFFSET", "CHANNELS", "MOTION", "FRAMES")
+_INLINE = re.compile(
+    r"\s+(?=(?:ROOT|OFFSET|CHANNELS|JOINT|End\s+Site|Frames|Frame\s+Time)\b)", re.IGNORECASE
+)
 
 
 def _statements(text: str) -> Iterator[tuple[int, str]]:
     """Yields the statements of a text with their line numbers; a brace is a statement."""
-    for number, line in enumerate(text.splitlines(), start=1):
-        pieces = re.split(r"([{}])", line) if "{" in line or "}" in line else [line]
-        for piece in pieces:
-            if piece.strip():
-                yield number, piece.strip()
+    for number, line in enumerate(_LINE_ENDS.split(text), start=1):
+        for piece in re.split(r"([{}])", line) if "{" in line or "}" in line else [line]:
+            statement = piece.strip()
+            if statement[:9].upper().startswith(_OPENING):
+                yield from ((number, one) for one in _INLINE.split(statement))
+            elif statement:
+                yield number, statement

@@ -50,10 +50,10 @@ def bvh_of(motion: TrackedMotion) -> Bvh:
 
 
 def _words(names: Sequence[str]) -> list[str]:
-    """Returns names without whitespace and braces, which end a name in the format, and unique."""
+    """Returns unique names without control characters, whitespace and braces, which end a name."""
     words: list[str] = []
     for name in names:
-        word = re.sub(r"[\s{}]", "_", name)
+        word = re.sub(r"[\s{}\x00-\x1f\x7f-\x9f]", "_", name) or "_"
         while word in words or (word != name and word in names):
             word += "_"
         words.append(word)

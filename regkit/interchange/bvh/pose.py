@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,27 +25,41 @@ class BvhPose:
     positions: Array
 
 
-def relative_motion(joints: Sequence[BvhJoint], frames: Array) -> tuple[Array, Array]:
-    """Returns the joints' rotations (F, J, 4) and positions (F, J, 3) [m] relative to the parents.
+def relative_rotations(joints: Sequence[BvhJoint], frames: Array) -> Array:
+    """Returns the joints' rotations relative to their parents, unit quaternions (F, J, 4).
 
     Args:
         joints: The joints (J), parents first.
         frames: Numbers of all channels (F, C), positions [m] and angles [deg].
     """
-    count = len(frames)
-    rotations = np.tile(IDENTITY, (count, len(joints), 1))
-    positions = np.tile([joint.offset for joint in joints], (count, 1, 1))
-    column = 0
-    for index, joint in enumerate(joints):
-        for channel in joint.channels:
-            axis, numbers = CHANNELS.index(channel) % 3, frames[:, column]
-            if channel.endswith("position"):
-                positions[:, index, axis] = numbers
-            else:
-                rotation = from_vector(np.radians(numbers)[:, None] * np.eye(3)[axis])
-                rotations[:, index] = product(rotations[:, index], rotation)
-            column += 1
-    return rotations, positions
+    rotations = np.tile(IDENTITY, (len(frames), len(joints), 1))
+    for index, channel, numbers in _columns(joints, frames):
+        if not channel.endswith("position"):
+            axis = np.eye(3)[CHANNELS.index(channel) % 3]
+            rotation = from_vector(np.radians(numbers)[:, None] * axis)
+            rotations[:, index] = product(rotations[:, index], rotation)
+    return rotations
+
+
+def relative_positions(joints: Sequence[BvhJoint], frames: Array) -> Array:
+    """Returns the joints' positions relative to their parents, (F, J, 3) [m].
+
+    Args:
+        joints: The joints (J), parents first.
+        frames: Numbers of all channels (F, C), positions [m] and angles [deg].
+    """
+    positions = np.tile([joint.offset for joint in joints], (len(frames), 1, 1))
+    for index, channel, numbers in _columns(joints, frames):
+        if channel.endswith("position"):
+            positions[:, index, CHANNELS.index(channel)] = numbers
+    return positions
+
+
+def _columns(joints: Sequence[BvhJoint], frames: Array) -> Iterator[tuple[int, str, Array]]:
+    """Yields the index of the joint, the name and the numbers (F,) of every channel."""
+    channels = [(index, one) for index, joint in enumerate(joints) for one in joint.channels]
+    for (index, channel), numbers in zip(channels, frames.T, strict=True):
+        yield index, channel, numbers
 
 
 def posed(joints: Sequence[BvhJoint], rotations: Array, positions: Array) -> BvhPose:

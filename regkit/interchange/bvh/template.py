@@ -7,8 +7,17 @@ from pathlib import Path
 import numpy as np
 
 from regkit.interchange.bvh.bvh import Bvh
-from regkit.interchange.bvh.hierarchy import BvhJoint
-from regkit.interchange.imported import MIN_LENGTH, Bone, ImportedSkeleton, ball, vector
+from regkit.interchange.bvh.hierarchy import BvhJoint, children_of
+from regkit.interchange.bvh.root import STILL, BvhRoot, movement
+from regkit.interchange.imported import (
+    MIN_LENGTH,
+    Bone,
+    ImportedSkeleton,
+    ball,
+    check_count,
+    vector,
+)
+from regkit.interchange.remarks import Remarks
 from regkit.skeleton.joints import (
     FixedJoint,
     FreeJoint,
@@ -22,8 +31,9 @@ from regkit.system.errors import DataError
 SPREAD = (0.8, 1.25)
 """Range of the size relative to the skeleton's own, for other people with the same skeleton."""
 
-MAX_TRANSLATION = 1e-3
-"""Largest motion along the position channels of a joint that counts as fixed [m]."""
+LOOSE = 0.1
+"""A joint that moves along its position channels by more, relative to the skeleton's extent, is not
+part of a body whose joints rotate."""
 
 
 def bvh_template(motion: Bvh, path: Path, title: str, axes: Array) -> ImportedSkeleton:
@@ -39,18 +49,27 @@ def bvh_template(motion: Bvh, path: Path, title: str, axes: Array) -> ImportedSk
         axes: ``R_body_file``, (3, 3).
 
     Raises:
-        DataError: If a joint other than the root moves along a position channel.
+        DataError: If there are too many joints, or one other than the root moves far along its
+            position channels.
     """
-    names = set(motion.names)
+    check_count(len(motion.joints), path)
+    root = BvhRoot.of(motion, path)
+    place_of = {member: place for place, member in enumerate(root.members)}
+    axes = axes @ root.axes
+    names, children = set(motion.names), children_of(motion.joints)
+    remarks = Remarks()
     bones = []
-    for index, joint in enumerate(motion.joints):
+    for index in root.members:
+        joint, top = motion.joints[index], index == root.members[0]
         sites = {_end_name(joint.name, k, names): end for k, end in enumerate(joint.ends)}
         markers = {joint.name: np.zeros(3)} | {name: axes @ end for name, end in sites.items()}
-        ends = [*(other.offset for other in motion.joints if other.parent == index), *joint.ends]
+        ends = [*(motion.joints[child].offset for child in children[index]), *joint.ends]
         bone = next((axes @ end for end in ends if np.linalg.norm(end) > MIN_LENGTH), None)
-        own = FreeJoint() if index == 0 else _joint(joint, axes, bone)
-        offset = np.zeros(3) if index == 0 else axes @ _fixed_offset(motion, index, path)
-        bones.append(Bone(joint.name, joint.parent, offset, own, None, markers))
+        own = FreeJoint() if top else _joint(joint, axes, bone)
+        offset = np.zeros(3) if top else axes @ _mean_offset(motion, index, path, remarks)
+        parent = -1 if top else place_of[joint.parent]
+        bones.append(Bone(joint.name, parent, offset, own, None, markers))
+    remarks.tell()
     return ImportedSkeleton.of(bones, path, title, spread=SPREAD)
 
 
@@ -66,21 +85,27 @@ def _joint(joint: BvhJoint, axes: Array, bone: Array | None) -> Joint:
     return FixedJoint()
 
 
-def _fixed_offset(motion: Bvh, index: int, path: Path) -> Array:
-    """Returns the constant position of a joint relative to its parent, (3,) [m].
+def _mean_offset(motion: Bvh, index: int, path: Path, remarks: Remarks) -> Array:
+    """Returns the mean position of a joint relative to its parent, (3,) [m].
 
     Raises:
-        DataError: If the position changes over time.
+        DataError: If the position changes too much over time.
     """
     joint = motion.joints[index]
-    places = motion.offsets(index)
-    moves = np.ptp(places, axis=0).max(initial=0.0) if len(places) else 0.0
-    if moves > MAX_TRANSLATION:
+    moved = movement(motion, index)
+    if moved > LOOSE:
         raise DataError(
-            f"the joint '{joint.name}' moves by {moves:.3g} m along its position channels; the "
-            "joints of a template can only rotate",
+            f"the joint '{joint.name}' moves by {100.0 * moved:.3g} % of the skeleton's extent "
+            "along its position channels; the joints of a template can only rotate",
             place=str(path),
         )
+    if moved > STILL:
+        remarks.add(
+            "joints move along their position channels, and stay at their mean positions",
+            f"{joint.name}: {100.0 * moved:.2g} % of the extent",
+            str(path),
+        )
+    places = motion.offsets(index)
     return np.asarray(places.mean(axis=0) if len(places) else joint.offset)
 
 

@@ -124,7 +124,7 @@ class GltfClip:
         for index, animation in enumerate(file.content.animations or ()):
             try:
                 targets = [
-                    (animation.samplers[channel.sampler], channel.target)
+                    (file.item(animation.samplers, channel.sampler, "sampler"), channel.target)
                     for channel in animation.channels
                     if channel.target.path in _WIDTHS and channel.target.node is not None
                 ]
@@ -140,11 +140,10 @@ class GltfClip:
 
 
 def _channel(file: GltfFile, sampler: Any, target: Any) -> GltfChannel:
-    if not 0 <= target.node < len(file.content.nodes):
-        raise file.wrong(
-            f"an animation moves node {target.node}; there are {len(file.content.nodes)} nodes"
-        )
+    file.item(file.content.nodes, target.node, "node")
     interpolation = str(sampler.interpolation or "LINEAR")
+    if interpolation not in ("LINEAR", "STEP", "CUBICSPLINE"):
+        raise file.wrong(f"an animation has the interpolation '{interpolation}'")
     times = file.floats(sampler.input)[:, 0]
     if not len(times) or (np.diff(times) <= 0.0).any():
         raise file.wrong(

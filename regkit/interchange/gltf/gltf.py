@@ -14,18 +14,16 @@ from pathlib import Path
 import numpy as np
 
 from regkit.config.model import did_you_mean
-from regkit.geometry.rigid import transformed
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.interchange.bone_frames import along_bones, nearest_rotations
 from regkit.interchange.gltf import webxr_hand
+from regkit.interchange.gltf.bind import BindPose
 from regkit.interchange.gltf.clip import GltfClip
 from regkit.interchange.gltf.file import GltfFile
 from regkit.interchange.gltf.nodes import Nodes
 from regkit.interchange.gltf.skin import skinned_vertices
-from regkit.system.arrays import Array, read_only
-
-UNEVEN = 1e-3
-"""Largest relative difference between the scales of the axes of a uniform scale."""
+from regkit.system.arrays import read_only
+from regkit.system.guard import reading
 
 
 @dataclass(frozen=True)
@@ -42,10 +40,11 @@ class RiggedBody:
 
     @classmethod
     def read(cls, path: Path, *, parents: Mapping[str, str | None] | None = None) -> RiggedBody:
-        """Reads the only skin of a ``.glb`` or ``.gltf`` file, and all meshes skinned to it.
+        """Reads the skeleton of a ``.glb`` or ``.gltf`` file, and all meshes skinned to it.
 
-        Vertices that differ only in texture coordinates or normals are merged, which closes the
-        surface at texture seams.
+        Meshes may have skins of their own, if the skins have one bind pose. Vertices that differ
+        only in texture coordinates or normals are merged, which closes the surface at texture
+        seams. What is left out is told.
 
         Args:
             path: The file.
@@ -53,36 +52,25 @@ class RiggedBody:
                 tree. For WebXR hands it is built in.
 
         Raises:
-            DataError: If the file is missing or invalid, or does not have exactly one skin.
+            DataError: If the file is missing or invalid, or has no skinned mesh.
             DependencyError: If pygltflib is missing.
         """
-        file = GltfFile.read(path)
+        with reading(path, "a glTF 2.0 file"):
+            return cls._of(GltfFile.read(path), parents)
+
+    @classmethod
+    def _of(cls, file: GltfFile, parents: Mapping[str, str | None] | None) -> RiggedBody:
         nodes = Nodes.of(file)
-        skins = file.content.skins or []
-        if len(skins) != 1:
-            raise file.wrong(f"the file has {len(skins)} skins; it must have exactly one")
-        joints = [int(joint) for joint in skins[0].joints]
-        if not joints or not all(0 <= joint < len(nodes.names) for joint in joints):
-            raise file.wrong(f"the skin's joints {joints[:20]} are not all nodes")
-        if skins[0].inverseBindMatrices is None:
-            binds = np.tile(np.eye(4), (len(joints), 1, 1))
-        else:
-            binds = file.floats(skins[0].inverseBindMatrices).reshape(-1, 4, 4).swapaxes(1, 2)
-        if len(binds) != len(joints):
-            raise file.wrong(f"the skin has {len(joints)} joints and {len(binds)} matrices")
-        above = _parents(file, nodes, joints, parents)
+        pose = BindPose.of(file, nodes)
+        above = _parents(file, nodes, list(pose.joints), parents)
         order = _parents_first(file, above)
         place = np.argsort(order)
-        joints, binds = [joints[bone] for bone in order], binds[order]
+        joints, bound = [pose.joints[bone] for bone in order], pose.bound[order]
         above = [int(place[above[bone]]) if above[bone] >= 0 else -1 for bone in order]
-        # The transform of the vertices by the first bone in the scene.
-        shown = nodes.placed(nodes.given)[joints[0]] @ binds[0]
-        _check_even(file, shown)
-        bound = shown @ np.linalg.inv(binds)
         rest = along_bones(bound[:, :3, 3], nearest_rotations(bound[:, :3, :3]), above)
-        vertices = skinned_vertices(file, len(joints)).joined()
+        vertices = skinned_vertices(file, pose).joined()
         mesh = SkinnedMesh(
-            vertices=read_only(transformed(shown, vertices.positions)),
+            vertices=read_only(vertices.positions),
             faces=vertices.faces,
             labels=tuple(nodes.names[joint] for joint in joints),
             parents=np.array(above, dtype=np.intp),
@@ -91,7 +79,7 @@ class RiggedBody:
             weights=read_only(vertices.weights),
         )
         # The pose of a bone is its node's motion of the bone frame at rest.
-        frames = binds @ np.linalg.inv(shown) @ rest
+        frames = np.linalg.inv(bound) @ rest
         return cls(mesh, GltfClip.all_of(file, nodes, joints, frames))
 
 
@@ -138,19 +126,3 @@ def _parents_first(file: GltfFile, parents: list[int]) -> list[int]:
     if len(ordered) < len(parents):
         raise file.wrong("the parents of the bones form a cycle; they must form a tree")
     return ordered
-
-
-def _check_even(file: GltfFile, transform: Array) -> None:
-    """Rejects a transform with a non-uniform scale or a reflection.
-
-    Raises:
-        DataError: If the scale is not uniform, or the transform is a reflection.
-    """
-    sizes = np.linalg.svd(transform[:3, :3])[1]
-    if sizes[2] < (1.0 - UNEVEN) * sizes[0] or sizes[0] == 0.0:
-        raise file.wrong(
-            f"the skeleton is scaled unevenly ({', '.join(f'{size:.4g}' for size in sizes)}); "
-            "apply its scale to the mesh before the export"
-        )
-    if np.linalg.det(transform[:3, :3]) < 0.0:
-        raise file.wrong("the skeleton is mirrored; apply its scale before the export")

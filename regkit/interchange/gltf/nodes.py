@@ -6,9 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from regkit.geometry.rotation import normalized, to_matrix
+from regkit.geometry.rotation import to_matrix
 from regkit.interchange.gltf.file import GltfFile
 from regkit.system.arrays import Array
+
+HUGE = 1e30
+"""Largest number in a transform."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +64,7 @@ class Nodes:
         parents = [-1] * len(nodes)
         for index, node in enumerate(nodes):
             for child in node.children or ():
-                if not 0 <= child < len(nodes) or parents[child] >= 0:
+                if not isinstance(child, int) or not 0 <= child < len(nodes) or parents[child] >= 0:
                     raise file.wrong(
                         f"node {index} has the child {child}, which is missing or has another "
                         "parent"
@@ -75,7 +78,7 @@ class Nodes:
         try:
             given = NodeMotion(
                 _rows([node.translation for node in nodes], (0.0, 0.0, 0.0)),
-                normalized(_rows([node.rotation for node in nodes], (0.0, 0.0, 0.0, 1.0))),
+                _unit(_rows([node.rotation for node in nodes], (0.0, 0.0, 0.0, 1.0))),
                 _rows([node.scale for node in nodes], (1.0, 1.0, 1.0)),
             )
             matrices = {
@@ -83,8 +86,12 @@ class Nodes:
                 for index, node in enumerate(nodes)
                 if node.matrix
             }
-        except ValueError as error:
+        except (TypeError, ValueError) as error:
             raise file.wrong(f"the transform of a node has the wrong size: {error}") from None
+        numbers = [given.translations, given.rotations, given.scales, *matrices.values()]
+        # Products of larger numbers overflow; the comparison is false for NaN.
+        if not all((np.abs(one) < HUGE).all() for one in numbers):
+            raise file.wrong("the transform of a node is not finite, or has a rotation of zero")
         return cls(_names(nodes), tuple(parents), tuple(ordered), given, matrices)
 
     def placed(self, motion: NodeMotion) -> Array:
@@ -114,9 +121,21 @@ def _rows(rows: list[list[float] | None], default: tuple[float, ...]) -> Array:
     )
 
 
+def _unit(quaternions: Array) -> Array:
+    """Returns unit quaternions (N, 4); NaN for a zero one."""
+    lengths = np.linalg.norm(quaternions, axis=1, keepdims=True)
+    return quaternions / np.where(lengths > 0.0, lengths, np.nan)
+
+
 def _names(nodes: list[object]) -> tuple[str, ...]:
     names: list[str] = []
+    taken: set[str] = set()
     for index, node in enumerate(nodes):
         name = str(getattr(node, "name", None) or f"node_{index}")
-        names.append(f"{name}_{index}" if name in names else name)
+        if name in taken:
+            name = f"{name}_{index}"
+        while name in taken:
+            name += "_"
+        taken.add(name)
+        names.append(name)
     return tuple(names)

@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections import Counter
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
+from regkit.geometry.rigid import transformed
+from regkit.interchange.gltf.bind import BindPose
 from regkit.interchange.gltf.file import GltfFile
 from regkit.system.arrays import Array, Indices
+from regkit.system.notes import note
 
-TRIANGLES = 4
-"""The mode of a primitive of individual triangles, section 3.7.2.1."""
+TRIANGLES, STRIP, FAN = 4, 5, 6
+"""The modes of primitives with triangles, section 3.7.2.1."""
+
+ROUNDED = 0.03
+"""Weights whose sum is further from one are more than rounded to eight bits."""
 
 
 @dataclass(frozen=True)
@@ -20,7 +27,7 @@ class SkinnedVertices:
 
     Attributes:
         positions: Positions in the bind pose, (V, 3) [m].
-        bones: Indices of the skin's joints, (V, A).
+        bones: Indices of the joints, (V, A).
         weights: Skinning weights, (V, A); the rows sum to one.
         faces: Vertex indices of the triangles, (F, 3).
     """
@@ -44,24 +51,35 @@ class SkinnedVertices:
         )
 
 
-def skinned_vertices(file: GltfFile, joints: int) -> SkinnedVertices:
-    """Returns the vertices of all meshes that are skinned to the file's skin.
+def skinned_vertices(file: GltfFile, pose: BindPose) -> SkinnedVertices:
+    """Returns the vertices of all skinned meshes in the scene, whose bones are the pose's joints.
 
     Args:
         file: The file.
-        joints: Number of joints of the skin.
+        pose: The bind pose of its skins.
 
     Raises:
-        DataError: If there are none, or they are invalid.
+        DataError: If they are invalid, or have no triangles.
     """
-    parts = [
-        _part(file, primitive, joints)
-        for node in file.content.nodes
-        if node.skin is not None and node.mesh is not None
-        for primitive in file.content.meshes[node.mesh].primitives
-    ]
+    parts, left_out = [], Counter[str]()
+    for node in file.content.nodes:
+        if node.skin is None or node.mesh is None:
+            continue
+        mesh = file.item(file.content.meshes, node.mesh, "mesh")
+        members = np.array(pose.members[node.skin], dtype=np.intp)
+        for primitive in mesh.primitives:
+            if primitive.mode in (0, 1, 2, 3):
+                left_out["points or lines"] += 1
+                continue
+            if primitive.targets:
+                left_out["morph targets"] += 1
+            part = _part(file, primitive, len(members))
+            positions = transformed(pose.shown[node.skin], part.positions)
+            parts.append(replace(part, positions=positions, bones=members[part.bones]))
+    for what, count in left_out.items():
+        note(f"{what} of skinned meshes are left out: {count}", place=file.path)
     if not parts:
-        raise file.wrong("no mesh uses the skin; the file needs a skinned mesh")
+        raise file.wrong("no mesh that uses a skin has triangles")
     carriers = max(part.bones.shape[1] for part in parts)
     starts = np.cumsum([0, *(len(part.positions) for part in parts)])
     return SkinnedVertices(
@@ -73,11 +91,7 @@ def skinned_vertices(file: GltfFile, joints: int) -> SkinnedVertices:
 
 
 def _part(file: GltfFile, primitive: Any, joints: int) -> SkinnedVertices:
-    if primitive.mode not in (None, TRIANGLES):
-        raise file.wrong(
-            f"a skinned mesh has the mode {primitive.mode}; only triangles (mode {TRIANGLES}) are "
-            "supported"
-        )
+    """Returns the vertices of a primitive, whose bones are joints of its skin."""
     attributes = {
         key: value for key, value in vars(primitive.attributes).items() if value is not None
     }
@@ -89,32 +103,60 @@ def _part(file: GltfFile, primitive: Any, joints: int) -> SkinnedVertices:
         raise file.wrong("a mesh of the skin has JOINTS without WEIGHTS")
     bones = np.concatenate([file.integers(attributes[f"JOINTS_{name}"]) for name in sets], axis=1)
     weights = np.concatenate([file.floats(attributes[f"WEIGHTS_{name}"]) for name in sets], axis=1)
-    if not len(positions) == len(bones) == len(weights):
+    if not len(positions) == len(bones) == len(weights) or bones.shape != weights.shape:
         raise file.wrong(
-            f"a mesh has {len(positions)} positions, {len(bones)} joints and {len(weights)} "
+            f"a mesh has {len(positions)} positions, {bones.shape} joints and {weights.shape} "
             "weights; their numbers must be equal"
         )
-    if (bones >= joints).any():
+    if positions.shape[1] != 3:
+        raise file.wrong(f"positions have {positions.shape[1]} coordinates; they need 3")
+    if ((bones >= joints) & (weights != 0.0)).any():
         raise file.wrong(f"a vertex follows joint {int(bones.max())}; the skin has {joints} joints")
     sums = weights.sum(axis=1, keepdims=True)
     if (sums <= 0.0).any() or (weights < 0.0).any():
         vertex = int(np.argmax((sums[:, 0] <= 0.0) | (weights < 0.0).any(axis=1)))
         raise file.wrong(f"vertex {vertex} of a mesh follows no bone: {weights[vertex].tolist()}")
-    if primitive.indices is None:
-        faces = np.arange(len(positions))
-    else:
-        faces = file.integers(primitive.indices)[:, 0]
-    if len(faces) % 3 or (faces >= len(positions)).any():
-        raise file.wrong(
-            f"a mesh has {len(faces)} triangle corners up to the vertex {int(faces.max())}, but "
-            f"{len(positions)} vertices; corners must be a multiple of 3 and existing vertices"
+    uneven = np.abs(sums[:, 0] - 1.0) > ROUNDED
+    if uneven.any():
+        first = int(np.argmax(uneven))
+        note(
+            f"weights of {int(uneven.sum())} vertices do not sum to 1, those of vertex {first} to "
+            f"{sums[first, 0]:.4g}; they are divided by their sums",
+            place=file.path,
         )
+    corners = np.arange(len(positions))
+    if primitive.indices is not None:
+        corners = file.integers(primitive.indices)[:, 0]
+    if len(corners) and int(corners.max()) >= len(positions):
+        raise file.wrong(
+            f"a triangle has the vertex {int(corners.max())}; the mesh has {len(positions)}"
+        )
+    faces = _triangles(file, corners, primitive.mode)
     # Bones are sorted by weight; columns without any weight are dropped.
     order = np.argsort(-weights, axis=1, kind="stable")
     weights = np.take_along_axis(weights / sums, order, axis=1)
     bones = np.where(weights > 0.0, np.take_along_axis(bones, order, axis=1), 0)
     used = max(1, int((weights > 0.0).sum(axis=1).max()))
-    return SkinnedVertices(positions, bones[:, :used], weights[:, :used], faces.reshape(-1, 3))
+    return SkinnedVertices(positions, bones[:, :used], weights[:, :used], faces)
+
+
+def _triangles(file: GltfFile, corners: Indices, mode: int | None) -> Indices:
+    """Returns the triangles (F, 3) of a primitive, section 3.7.2.1."""
+    if mode == STRIP:
+        faces = np.stack([corners[:-2], corners[1:-1], corners[2:]], axis=1)
+        # Every second triangle of a strip turns the other way.
+        faces[1::2] = faces[1::2, [1, 0, 2]]
+        return faces
+    if mode == FAN:
+        first = np.full(max(0, len(corners) - 2), corners[0] if len(corners) else 0)
+        return np.stack([first, corners[1:-1], corners[2:]], axis=1)
+    if mode not in (None, TRIANGLES):
+        raise file.wrong(f"a skinned mesh has the mode {mode}, which the format does not know")
+    if len(corners) % 3:
+        raise file.wrong(
+            f"a mesh has {len(corners)} triangle corners; they must be a multiple of 3"
+        )
+    return corners.reshape(-1, 3)
 
 
 def _widened(rows: Any, columns: int) -> Any:

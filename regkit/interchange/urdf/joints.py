@@ -10,6 +10,7 @@ import numpy as np
 from regkit.config.model import did_you_mean
 from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import vector_to_matrix
+from regkit.interchange.remarks import Remarks
 from regkit.interchange.urdf.xml_lines import Element
 from regkit.skeleton.joints import MIN_RATIO
 from regkit.system.arrays import Array
@@ -20,6 +21,12 @@ HINGES = ("revolute", "continuous")
 
 TYPES = (*HINGES, "fixed", "spherical")
 """Supported joint types."""
+
+OTHERS = ("floating", "planar", "prismatic")
+"""Joint types of the format that translate, which a template has only at its root."""
+
+ENDLESS = 200.0 * np.pi
+"""A limit of more than a hundred turns stands for none [rad]."""
 
 
 @dataclass(frozen=True)
@@ -43,7 +50,7 @@ class UrdfJoint:
 
     Attributes:
         name: Name of the joint.
-        kind: One of ``TYPES``.
+        kind: One of ``TYPES`` or ``OTHERS``.
         parent: Name of the parent link.
         child: Name of the child link, which has the frame of the joint.
         origin: T_parent_child at zero angles, (4, 4) [m].
@@ -81,71 +88,130 @@ def origin(element: Element) -> Array:
     return rigid(z @ y @ x, found.numbers("xyz", 3, np.zeros(3)))
 
 
-def read_joint(element: Element) -> UrdfJoint:
-    """Returns the joint of an element.
+def read_joint(element: Element, remarks: Remarks) -> UrdfJoint:
+    """Returns the joint of an element; fields that its type does not use are not read.
+
+    Args:
+        element: The element.
+        remarks: Takes what is passed over.
 
     Raises:
-        DataError: If an attribute is missing or invalid, or the type is not supported.
+        DataError: If an attribute is missing or invalid, or the type is not of the format.
     """
     name, kind = element.text("name"), element.text("type")
-    if kind not in TYPES:
+    if kind not in (*TYPES, *OTHERS):
         raise element.wrong(
-            f"joint '{name}' is {kind}; the joints of a template can only be {', '.join(TYPES)}"
+            f"joint '{name}' has the type '{kind}'; the types of the format are "
+            f"{', '.join((*TYPES, *OTHERS))}"
         )
-    parent, child = element.need("parent").text("link"), element.need("child").text("link")
-    axis = np.array([1.0, 0.0, 0.0])
-    if (found := element.find("axis")) is not None:
-        axis = found.numbers("xyz", 3)
-        if np.linalg.norm(axis) < 1e-9:
-            raise found.wrong(f"the axis of joint '{name}' is zero; it must have a direction")
-    limits = _limits(element.need("limit")) if kind == "revolute" else None
-    mimic = element.find("mimic")
+    hinge = kind in HINGES
+    if not hinge and not _has_direction(element.find("axis")):
+        remarks.add("joints that turn about no axis have a zero one, unused", name, element.place)
     return UrdfJoint(
         name=name,
         kind=kind,
-        parent=parent,
-        child=child,
+        parent=element.need("parent").text("link"),
+        child=element.need("child").text("link"),
         origin=origin(element),
-        axis=axis / np.linalg.norm(axis),
-        limits=limits,
-        mimic=None if mimic is None else _mimic(mimic),
+        axis=_axis(element, name) if hinge else np.array([1.0, 0.0, 0.0]),
+        limits=_limits(element, name, remarks) if kind == "revolute" else None,
+        mimic=_mimic(element, name, remarks) if hinge else None,
         place=element.place,
     )
 
 
-def _limits(element: Element) -> tuple[float, float]:
-    low, high = element.number("lower", 0.0), element.number("upper", 0.0)
+def _has_direction(axis: Element | None) -> bool:
+    """Whether an axis, of a type of joint that needs none, is absent or has a direction."""
+    if axis is None:
+        return True
+    try:
+        return bool(axis.numbers("xyz", 3, np.ones(3)).any())
+    except DataError:
+        return False
+
+
+def _axis(element: Element, name: str) -> Array:
+    """Returns the unit axis of a hinge, x by default, (3,).
+
+    Raises:
+        DataError: If it has no direction.
+    """
+    found = element.find("axis")
+    if found is None or "xyz" not in found.attributes:
+        return np.array([1.0, 0.0, 0.0])
+    axis = found.numbers("xyz", 3)
+    length = float(np.linalg.norm(axis))
+    if length < 1e-9:
+        raise found.wrong(f"the axis of joint '{name}' is zero; it must have a direction")
+    return np.asarray(axis / length)
+
+
+def _limits(element: Element, name: str, remarks: Remarks) -> tuple[float, float] | None:
+    found = element.find("limit")
+    if found is None:
+        remarks.add("hinges without the <limit> they need are unlimited", name, element.place)
+        return None
+    low, high = (_limit(found, word) for word in ("lower", "upper"))
     if low > high:
-        raise element.wrong(f"lower={low:g} is above upper={high:g}; exchange them")
-    return low, high
-
-
-def _mimic(element: Element) -> Mimic:
-    ratio = element.number("multiplier", 1.0)
-    if abs(ratio) < MIN_RATIO:
-        raise element.wrong(
-            f"multiplier={ratio:g} is too small; make a joint that does not turn a fixed joint"
+        remarks.add(
+            "hinges are unlimited, because their lower limit is above the upper one",
+            f"{name}: {low:g} > {high:g}",
+            found.place,
         )
-    return Mimic(element.text("joint"), ratio, element.number("offset", 0.0))
+        return None
+    if low == high:
+        remarks.add(
+            "hinges cannot turn, because their limits are equal; without lower and upper both "
+            "are 0",
+            name,
+            found.place,
+        )
+    return None if low <= -ENDLESS and high >= ENDLESS else (max(low, -ENDLESS), min(high, ENDLESS))
 
 
-def resolved(joints: Mapping[str, UrdfJoint]) -> dict[str, UrdfJoint]:
+def _limit(element: Element, attribute: str) -> float:
+    text = element.attributes.get(attribute, "0").strip().lower()
+    if text.lstrip("+-") in ("inf", "infinity"):
+        return -np.inf if text.startswith("-") else np.inf
+    return element.number(attribute, 0.0)
+
+
+def _mimic(element: Element, name: str, remarks: Remarks) -> Mimic | None:
+    found = element.find("mimic")
+    # Exporters write <mimic joint=""/> for every joint, as they do with other unused fields.
+    if found is None or not found.attributes.get("joint", "").strip():
+        return None
+    mimic = Mimic(found.text("joint"), found.number("multiplier", 1.0), found.number("offset", 0.0))
+    if abs(mimic.ratio) < MIN_RATIO:
+        remarks.add(
+            "hinges turn by themselves, because the multiplier of their <mimic> is practically "
+            "zero",
+            f"{name}: {mimic.ratio:g}",
+            found.place,
+        )
+        return None
+    return mimic
+
+
+def resolved(joints: Mapping[str, UrdfJoint], remarks: Remarks) -> dict[str, UrdfJoint]:
     """Returns the joints with chains of couplings resolved to independent leaders.
+
+    A joint that follows none of the hinges turns by itself, with a remark.
 
     Args:
         joints: Joints by the name of their child link.
+        remarks: Takes what is passed over.
 
     Raises:
-        DataError: If a joint follows itself, or a joint that is not a hinge.
+        DataError: If a joint follows itself.
     """
-    by_name = {joint.name: joint for joint in joints.values()}
-    for joint in joints.values():
-        if joint.mimic is not None:
-            _check_leader(joint, joint.mimic.joint, by_name)
-    led = dict(joints)
+    child_of = {joint.name: child for child, joint in joints.items()}
+    by_name = {name: joints[child] for name, child in child_of.items()}
+    own = {child: _with_leader(joint, by_name, remarks) for child, joint in joints.items()}
+    led = {}
     for child, joint in joints.items():
-        mimic, seen = joint.mimic, [joint.name]
-        while mimic is not None and (above := by_name[mimic.joint].mimic) is not None:
+        mimic, seen = own[child].mimic, [joint.name]
+        while mimic is not None and (above := own[child_of[mimic.joint]].mimic) is not None:
             if mimic.joint in seen:
                 raise DataError(
                     f"joint '{joint.name}' follows itself ({' -> '.join([*seen, mimic.joint])})",
@@ -155,16 +221,29 @@ def resolved(joints: Mapping[str, UrdfJoint]) -> dict[str, UrdfJoint]:
             # a = r b + o and b = s c + p give a = r s c + (r p + o).
             offset = mimic.ratio * above.offset + mimic.offset
             mimic = Mimic(above.joint, mimic.ratio * above.ratio, offset)
+        if mimic is not None and abs(mimic.ratio) < MIN_RATIO:
+            remarks.add(
+                "hinges turn by themselves, because what they follow hardly turns them",
+                f"{joint.name}: {mimic.ratio:g}",
+                joint.place,
+            )
+            mimic = None
         led[child] = replace(joint, mimic=mimic)
     return led
 
 
-def _check_leader(joint: UrdfJoint, name: str, joints: Mapping[str, UrdfJoint]) -> None:
-    leader = joints.get(name)
-    kind = "which is not a joint" if leader is None else f"which is {leader.kind}"
-    if leader is None or leader.kind not in HINGES:
-        raise DataError(
-            f"joint '{joint.name}' follows '{name}', {kind}; it can follow a hinge "
-            f"({' or '.join(HINGES)})" + ("" if leader else did_you_mean(name, list(joints))),
-            place=joint.place,
-        )
+def _with_leader(joint: UrdfJoint, joints: Mapping[str, UrdfJoint], remarks: Remarks) -> UrdfJoint:
+    """Returns a joint, without its coupling if the leader is not a hinge."""
+    if joint.mimic is None:
+        return joint
+    leader = joints.get(joint.mimic.joint)
+    if leader is not None and leader.kind in HINGES:
+        return joint
+    kind = "no joint" if leader is None else leader.kind
+    hint = did_you_mean(joint.mimic.joint, list(joints)) if leader is None else ""
+    remarks.add(
+        "hinges turn by themselves, because what they follow is not a hinge",
+        f"{joint.name} follows '{joint.mimic.joint}', which is {kind}{hint}",
+        joint.place,
+    )
+    return replace(joint, mimic=None)

@@ -2,80 +2,161 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+
 import numpy as np
 
 from regkit.interchange.imported import vector
+from regkit.interchange.remarks import Remarks
 from regkit.interchange.urdf.joints import origin
+from regkit.interchange.urdf.mesh_capsule import mesh_capsule, read_triangles
+from regkit.interchange.urdf.mesh_files import MeshFiles
 from regkit.interchange.urdf.urdf import UrdfLink
 from regkit.interchange.urdf.xml_lines import Element
 from regkit.skeleton.description import CapsuleDescription
 from regkit.system.arrays import Array
+from regkit.system.errors import DataError
+
+SMALLEST = 1e-6
+"""A shape with a smaller radius has no extent [m]."""
+
+Core = tuple[Array, Array, float]
+"""The ends (3,) of a capsule's axis, and its radius [m]."""
 
 
-def capsules_of(link: UrdfLink, T_bone_link: Array, scale: float) -> tuple[CapsuleDescription, ...]:
-    """Returns a link's shapes as capsules in a bone's frame.
+@dataclass(frozen=True)
+class LinkShapes:
+    """The capsules of a robot's links.
 
     Spheres and capsules are exact. A cylinder becomes the inscribed capsule of the same length and
     radius; a cylinder that is shorter than wide, and a cube, the sphere of equal volume. A box
-    becomes a capsule along its longest side with the box's cross-sectional area. Meshes are
-    ignored.
+    becomes a capsule along its longest side with the box's cross-sectional area. A mesh becomes the
+    capsule of ``mesh_capsule``.
 
-    Args:
-        link: The link.
-        T_bone_link: Transform from the link's frame to the bone's, (4, 4) [m].
-        scale: Metres per unit of the file.
-
-    Raises:
-        DataError: If a length is missing or not positive.
+    Attributes:
+        files: Finds the files of meshes.
+        remarks: Takes what is passed over.
     """
-    capsules = []
-    for shape in link.shapes:
-        core = _core(shape.need("geometry"))
-        if core is None:
-            continue
-        half, radius = core
-        T_bone_shape = T_bone_link @ origin(shape)
-        ends = [
-            vector(scale * (T_bone_shape[:3, :3] @ (sign * half) + T_bone_shape[:3, 3]))
-            for sign in (-1.0, 1.0)
-        ]
-        capsules.append(CapsuleDescription(start=ends[0], end=ends[1], radius=scale * radius))
-    return tuple(capsules)
+
+    files: MeshFiles
+    remarks: Remarks
+    _triangles: dict[str, Array | None] = field(default_factory=dict)
+
+    def capsules(
+        self, link: UrdfLink, T_bone_link: Array, scale: float
+    ) -> tuple[CapsuleDescription, ...]:
+        """Returns the capsules of a link in a bone's frame, of the visual shapes if no other is.
+
+        Args:
+            link: The link.
+            T_bone_link: Transform from the link's frame to the bone's, (4, 4) [m].
+            scale: Metres per unit of the file.
+
+        Raises:
+            DataError: If a length is missing or negative.
+        """
+        for shapes in (link.collision, link.visual):
+            cores = [(shape, self._core(shape)) for shape in shapes]
+            capsules = []
+            for shape, core in cores:
+                if core is None:
+                    continue
+                T_bone_shape = T_bone_link @ origin(shape)
+                start, end = (
+                    vector(scale * (T_bone_shape[:3, :3] @ point + T_bone_shape[:3, 3]))
+                    for point in core[:2]
+                )
+                capsules.append(CapsuleDescription(start=start, end=end, radius=scale * core[2]))
+            if capsules:
+                return tuple(capsules)
+        return ()
+
+    def _core(self, shape: Element) -> Core | None:
+        """Returns the capsule of a shape; None if it has no extent, or cannot be read."""
+        geometry = shape.find("geometry")
+        found = None if geometry is None else _first_known(geometry)
+        if found is None:
+            tags = "nothing" if geometry is None else [one.tag for one in geometry.children]
+            self.remarks.add("shapes of unknown kinds are passed over", f"{tags}", shape.place)
+            return None
+        core = self._mesh(found) if found.tag == "mesh" else _CORES[found.tag](found)
+        if core is not None and core[2] < SMALLEST:
+            lengths = " ".join(f'{key}="{text}"' for key, text in found.attributes.items())
+            self.remarks.add(
+                "shapes without extent are passed over", f"{found.tag} {lengths}", found.place
+            )
+            return None
+        return core
+
+    def _mesh(self, mesh: Element) -> Core | None:
+        address = mesh.text("filename")
+        if address not in self._triangles:
+            self._triangles[address] = self._read(address, mesh)
+        triangles = self._triangles[address]
+        if triangles is None:
+            return None
+        return mesh_capsule(triangles * mesh.numbers("scale", 3, np.ones(3)))
+
+    def _read(self, address: str, mesh: Element) -> Array | None:
+        path = self.files.find(address)
+        if path is None:
+            self.remarks.add(
+                "meshes are missing, and links without another shape get a capsule along each "
+                "bone; name the folder of the package",
+                address,
+                mesh.place,
+            )
+            return None
+        try:
+            return read_triangles(path)
+        except DataError as error:
+            self.remarks.add("meshes cannot be read, and are passed over", f"{error}", mesh.place)
+            return None
 
 
-def _core(geometry: Element) -> tuple[Array, float] | None:
-    """Returns half the axis (3,) and the radius of a geometry's capsule; None for a mesh."""
-    along_z = np.array([0.0, 0.0, 0.5])
-    if (sphere := geometry.find("sphere")) is not None:
-        return np.zeros(3), _length(sphere, "radius")
-    if (capsule := geometry.find("capsule")) is not None:
-        # The length is the distance between the centres of the end spheres.
-        return along_z * _length(capsule, "length"), _length(capsule, "radius")
-    if (cylinder := geometry.find("cylinder")) is not None:
-        length, radius = _length(cylinder, "length"), _length(cylinder, "radius")
-        return _inside(along_z, length, radius, np.pi * radius**2 * length)
-    if (box := geometry.find("box")) is not None:
-        sides = box.numbers("size", 3)
-        if (sides <= 0.0).any():
-            raise box.wrong(f"the sides of a box must be positive: {sides.tolist()}")
-        longest = int(np.argmax(sides))
-        volume = float(np.prod(sides))
-        radius = float(np.sqrt(volume / sides[longest] / np.pi))
-        return _inside(0.5 * np.eye(3)[longest], float(sides[longest]), radius, volume)
-    if geometry.find("mesh") is not None:
-        return None
-    raise geometry.wrong("<geometry> needs a <sphere>, <capsule>, <cylinder>, <box> or <mesh>")
+def _first_known(geometry: Element) -> Element | None:
+    return next((one for one in geometry.children if one.tag in (*_CORES, "mesh")), None)
 
 
-def _inside(half: Array, length: float, radius: float, volume: float) -> tuple[Array, float]:
+def _sphere(sphere: Element) -> Core:
+    return np.zeros(3), np.zeros(3), _length(sphere, "radius")
+
+
+def _capsule(capsule: Element) -> Core:
+    # The length is the distance between the centres of the end spheres.
+    half = np.array([0.0, 0.0, 0.5 * _length(capsule, "length")])
+    return -half, half, _length(capsule, "radius")
+
+
+def _cylinder(cylinder: Element) -> Core:
+    length, radius = _length(cylinder, "length"), _length(cylinder, "radius")
+    return _inside(np.array([0.0, 0.0, 0.5]), length, radius, np.pi * radius**2 * length)
+
+
+def _box(box: Element) -> Core:
+    sides = box.numbers("size", 3)
+    if (sides < 0.0).any():
+        raise box.wrong(f"the sides of a box must be positive: {sides.tolist()}")
+    longest = int(np.argmax(sides))
+    volume = float(np.prod(sides))
+    radius = float(np.sqrt(volume / max(sides[longest], SMALLEST) / np.pi))
+    return _inside(0.5 * np.eye(3)[longest], float(sides[longest]), radius, volume)
+
+
+_CORES = {"sphere": _sphere, "capsule": _capsule, "cylinder": _cylinder, "box": _box}
+"""The capsule of an element, by its tag."""
+
+
+def _inside(half: Array, length: float, radius: float, volume: float) -> Core:
     """Returns the capsule of a total length, or the sphere of the volume if wider than long."""
     if length <= 2.0 * radius:
-        return np.zeros(3), float(np.cbrt(0.75 * volume / np.pi))
-    return half * (length - 2.0 * radius), radius
+        return np.zeros(3), np.zeros(3), float(np.cbrt(0.75 * volume / np.pi))
+    end = half * (length - 2.0 * radius)
+    return -end, end, radius
 
 
 def _length(element: Element, attribute: str) -> float:
     value = element.number(attribute)
-    if value <= 0.0:
+    if value < 0.0:
         raise element.wrong(f"{attribute} of <{element.tag}> must be positive: {value:g}")
     return value

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -9,12 +10,20 @@ import numpy as np
 
 from regkit.config.quantities import LARGEST_ANGLE
 from regkit.geometry.rigid import rigid
-from regkit.interchange.imported import MIN_LENGTH, Bone, ImportedSkeleton, ball, vector
+from regkit.interchange.imported import (
+    MIN_LENGTH,
+    Bone,
+    ImportedSkeleton,
+    ball,
+    check_count,
+    vector,
+)
+from regkit.interchange.remarks import Remarks
 from regkit.interchange.urdf.joints import Mimic, UrdfJoint
-from regkit.interchange.urdf.shapes import capsules_of
+from regkit.interchange.urdf.mesh_files import MeshFiles
+from regkit.interchange.urdf.shapes import LinkShapes
 from regkit.interchange.urdf.urdf import Urdf
 from regkit.skeleton.joints import (
-    MIN_RATIO,
     CouplingDescription,
     FixedJoint,
     FreeJoint,
@@ -22,7 +31,6 @@ from regkit.skeleton.joints import (
     Joint,
 )
 from regkit.system.arrays import Array
-from regkit.system.errors import DataError
 from regkit.system.notes import note
 
 SPREAD = (1.0, 1.0)
@@ -30,7 +38,7 @@ SPREAD = (1.0, 1.0)
 
 
 def urdf_template(
-    robot: Urdf, path: Path, title: str, axes: Array, scale: float
+    robot: Urdf, path: Path, title: str, axes: Array, scale: float, packages: Sequence[Path] = ()
 ) -> ImportedSkeleton:
     """Returns the template of a robot, with a segment and a marker for each link, of its name.
 
@@ -40,42 +48,44 @@ def urdf_template(
         robot: The robot.
         path: The file.
         title: Title of the template.
-        axes: ``R_body_root``, (3, 3).
+        axes: ``R_body_file``, (3, 3).
         scale: Metres per unit of the file.
+        packages: Folders in which the packages of meshes are looked for first.
 
     Raises:
-        DataError: If a shape is invalid, or the ratio of a coupling is too small.
+        DataError: If there are too many links, or a shape is invalid.
     """
+    check_count(len(robot.links), path)
     names = list(robot.links)
-    rotations = {names[0]: axes}
+    index_of = {name: index for index, name in enumerate(names)}
+    rotations = {names[0]: axes @ robot.axes}
+    for name, joint in robot.joints.items():
+        rotations[name] = rotations[joint.parent] @ joint.origin[:3, :3]
+    offsets: dict[str, list[Array]] = {name: [] for name in names}
+    for joint in robot.joints.values():
+        offsets[joint.parent].append(rotations[joint.parent] @ joint.origin[:3, 3])
+    remarks = Remarks()
+    shapes = LinkShapes(MeshFiles(path.resolve().parent, packages), remarks)
     bones = []
     for name, link in robot.links.items():
-        joint = robot.joints.get(name)
-        own: Joint = FreeJoint()
-        offset, parent = np.zeros(3), -1
-        if joint is not None:
-            above = rotations[joint.parent]
-            rotations[name] = above @ joint.origin[:3, :3]
-            offset = scale * above @ joint.origin[:3, 3]
-            parent = names.index(joint.parent)
-            offsets = [
-                rotations[name] @ other.origin[:3, 3]
-                for other in robot.joints.values()
-                if other.parent == name
-            ]
-            own = _joint(joint, rotations[name], offsets, robot)
-        shapes = capsules_of(link, rigid(rotations[name], np.zeros(3)), scale)
+        found = robot.joints.get(name)
+        capsules = shapes.capsules(link, rigid(rotations[name], np.zeros(3)), scale)
         bones.append(
             Bone(
                 name=name,
-                parent=parent,
-                offset=offset,
-                joint=own,
-                capsules=shapes if shapes or not link.shapes else None,
+                parent=-1 if found is None else index_of[found.parent],
+                offset=np.zeros(3)
+                if found is None
+                else scale * rotations[found.parent] @ found.origin[:3, 3],
+                joint=FreeJoint()
+                if found is None
+                else _joint(found, rotations[name], offsets[name], robot),
+                capsules=capsules if capsules or not (link.collision or link.visual) else None,
                 markers={name: np.zeros(3)},
-                comment="" if joint is None else f"Joint '{joint.name}', {joint.kind}.",
+                comment="" if found is None else f"Joint '{found.name}', {found.kind}.",
             )
         )
+    remarks.tell()
     if not any(bone.capsules for bone in bones):
         bones = [replace(bone, capsules=None) for bone in bones]
     return ImportedSkeleton.of(bones, path, title, spread=SPREAD)
@@ -103,18 +113,8 @@ def _joint(joint: UrdfJoint, rotation: Array, offsets: list[Array], robot: Urdf)
 
 
 def _coupling(joint: UrdfJoint, mimic: Mimic, robot: Urdf) -> CouplingDescription:
-    """Returns the coupling of a hinge.
-
-    Raises:
-        DataError: If its ratio, the product along a chain of couplings, is too small.
-    """
+    """Returns the coupling of a hinge."""
     leader = next(other for other in robot.joints.values() if other.name == mimic.joint)
-    if abs(mimic.ratio) < MIN_RATIO:
-        raise DataError(
-            f"joint '{joint.name}' follows '{leader.name}' with the ratio {mimic.ratio:g}, which "
-            "is too small; make a joint that does not turn a fixed joint",
-            place=joint.place,
-        )
     return CouplingDescription(
         to=leader.child, ratio=mimic.ratio, offset_deg=float(np.degrees(mimic.offset))
     )

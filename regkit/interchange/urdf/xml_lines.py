@@ -9,8 +9,18 @@ from xml.parsers import expat
 
 import numpy as np
 
+from regkit.interchange.urdf.xml_text import xml_text
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
+from regkit.system.notes import note
+
+XACRO = "write the file out with `xacro FILE > robot.urdf`, and import that"
+"""What to do with a file that is not processed yet."""
+
+HUGE = 1e30
+"""Larger numbers are no lengths or angles, and their products overflow."""
+
+_JUNK = expat.errors.codes[expat.errors.XML_ERROR_JUNK_AFTER_DOC_ELEMENT]
 
 
 @dataclass(frozen=True)
@@ -34,14 +44,10 @@ class Element:
         """Returns the root element of a file; trailing null bytes are ignored.
 
         Raises:
-            DataError: If the file is missing, unreadable or not XML.
+            DataError: If the file is not XML, or declares entities.
+            OSError: If it is missing or unreadable.
         """
-        try:
-            content = path.read_bytes()
-        except FileNotFoundError:
-            raise DataError("the file is missing", place=str(path)) from None
-        except OSError as error:
-            raise DataError(f"cannot be read: {error.strerror}", place=str(path)) from None
+        text = xml_text(path.read_bytes(), path)
         outermost = cls("", {}, str(path))
         around = [outermost]
         parser = expat.ParserCreate()
@@ -54,14 +60,34 @@ class Element:
         def end(tag: str) -> None:
             around.pop()
 
+        def declared(name: str, *_: object) -> None:
+            # A few nested entities expand to gigabytes.
+            raise DataError(
+                f"declares the entity '{name}', which is not expanded; write its text instead",
+                place=f"{path}:{parser.CurrentLineNumber}",
+            )
+
         parser.StartElementHandler = start
         parser.EndElementHandler = end
+        parser.EntityDeclHandler = declared
         try:
-            parser.Parse(content.rstrip(b"\0 \t\r\n"), True)
+            parser.Parse(text, True)
         except expat.ExpatError as error:
-            reason = expat.ErrorString(error.code)
-            raise DataError(f"not XML: {reason}", place=f"{path}:{error.lineno}") from None
+            place = f"{path}:{error.lineno}"
+            if error.code == _JUNK and outermost.children:
+                note("what follows the document is passed over", place=place)
+            else:
+                reason = expat.ErrorString(error.code)
+                raise DataError(f"not XML: {reason}", place=place) from None
         return outermost.children[0]
+
+    def everything(self) -> Iterator[Element]:
+        """Yields the element and all elements within it."""
+        ahead = [self]
+        while ahead:
+            element = ahead.pop()
+            yield element
+            ahead += element.children
 
     def all(self, tag: str) -> Iterator[Element]:
         """Returns the children with a tag."""
@@ -109,12 +135,25 @@ class Element:
         """
         if attribute not in self.attributes and default is not None:
             return default
-        words = self.text(attribute).split()
+        words = _words(self.text(attribute), count)
+        if any("$" in word for word in words):
+            raise self.wrong(
+                f'{attribute}="{self.text(attribute)}" of <{self.tag}> is an expression of xacro; '
+                + XACRO
+            )
         try:
             values = np.array([float(word) for word in words])
         except ValueError:
             values = np.full(1, np.nan)
-        if len(values) != count or not np.isfinite(values).all():
+        if len(values) > count > 1 and np.isfinite(values).all():
+            given = " ".join(words)
+            note(
+                f'{attribute}="{given}" of <{self.tag}> has {len(values)} numbers; the first '
+                f"{count} are used",
+                place=self.place,
+            )
+            values = values[:count]
+        if len(values) != count or not (np.abs(values) < HUGE).all():
             wanted = "a number" if count == 1 else f"{count} numbers"
             raise self.wrong(f'{attribute}="{" ".join(words)}" of <{self.tag}> must be {wanted}')
         return values
@@ -122,3 +161,16 @@ class Element:
     def wrong(self, message: str) -> DataError:
         """Returns an error at this element."""
         return DataError(message, place=self.place)
+
+
+def _words(text: str, count: int) -> list[str]:
+    """Returns the numbers in a text as words with a decimal point.
+
+    Numbers are separated by whitespace, or by commas. If whitespace alone separates as many as
+    are needed, a comma within a word is a decimal sign.
+    """
+    words = [word.strip(",") for word in text.split()]
+    words = [word for word in words if word]
+    if len(words) == count and all(word.count(",") <= 1 for word in words):
+        return [word.replace(",", ".") for word in words]
+    return text.replace(",", " ").split()
