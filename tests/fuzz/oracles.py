@@ -6,6 +6,7 @@ those that the file declares, indices exist, names can be printed.
 
 from __future__ import annotations
 
+import codecs
 import re
 from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
@@ -62,10 +63,9 @@ def counted(pattern: bytes) -> Oracle:
 def lines(points: Any, file: Damaged) -> Iterator[str]:
     """A text cloud has a point for each line that is not blank, a comment or a header."""
     yield from cloud(points, file)
-    text = file.content.decode("utf-8", "replace")
-    rows = [
-        line for line in re.split(r"\r\n|\n|\r", text) if line.strip() and line.strip()[0] != "#"
-    ]
+    wide = file.content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
+    text = file.content.decode("utf-16" if wide else "utf-8-sig", "replace")
+    rows = [line for line in text.splitlines() if line.strip() and line.strip()[0] not in "#/"]
     if not file.noted and not len(rows) - 2 <= len(points) <= len(rows):
         yield f"points: {len(points)} of {len(rows)} lines"
     tokens = re.split(r"[\s;\"]+", text)
