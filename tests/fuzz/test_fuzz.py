@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import json
+import os
+import signal
+import subprocess
 import sys
 import time
 import warnings
@@ -10,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from places import ROOT
 
 from regkit.system.errors import DataError
 from regkit.system.notes import note
@@ -17,7 +22,8 @@ from tests.fuzz import trial
 from tests.fuzz.case import Case
 from tests.fuzz.kind import Kind
 from tests.fuzz.seeds import GROUPS, seeds_of
-from tests.fuzz.trial import tried
+from tests.fuzz.trial import Outcome, tried
+from tests.fuzz.workers import Worker
 
 KINDS = [(group, kind) for group, kinds in GROUPS.items() for kind in kinds]
 COSTLY = ("results/", "datasets/itop")
@@ -44,12 +50,24 @@ def sound(kind: Kind, group: str, number: int = 0) -> Case:
 
 
 @pytest.mark.xfail(strict=False, reason="the readers' guards are still to come")
-@pytest.mark.parametrize("block", range(8))
+@pytest.mark.parametrize("block", range(6))
 @pytest.mark.parametrize("group", GROUPS)
 def test_damage_is_refused_or_harmless(group, block):
     cases = cheap(group, range(CASES * block, CASES * (block + 1)))
     failures = [f"{case.place}: {outcome}" for case in cases if (outcome := tried(case)).failed]
     assert not failures, "\n".join(failures)
+
+
+@pytest.mark.long
+@pytest.mark.xfail(strict=False, reason="the readers' guards are still to come")
+def test_damaged_results_are_refused_or_harmless(tmp_path):
+    """In a process of its own, as ``make fuzz`` does it; the last line has the figures."""
+    options = ("--inputs", "600", "--kind", "results/", "--keep", str(tmp_path / "kept"))
+    command = [sys.executable, "-m", "tests.fuzz", *options]
+    ended = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    figures = json.loads(ended.stdout.splitlines()[-1])
+    assert figures["inputs"]["cases"] > 10
+    assert ended.returncode == 0, ended.stdout
 
 
 @pytest.mark.parametrize(("group", "kind"), [pytest.param(*one, id=one[1].name) for one in KINDS])
@@ -59,7 +77,7 @@ def test_what_is_sound_is_accepted(group, kind):
         pytest.skip("its files take seconds to make")
     if kind.name in AWAITED:
         pytest.xfail("the reader is still to come")
-    for number in range(len(seeds_of(group, kind.name))):
+    for number in range(min(3, len(seeds_of(group, kind.name)))):
         outcome = tried(sound(kind, group, number), seconds=60.0)
         assert outcome.result == "accepted", outcome
 
@@ -72,6 +90,26 @@ def test_a_case_is_given_by_its_seed_and_number():
 
 
 # What the harness finds.
+
+
+@pytest.mark.long
+def test_a_process_that_crashes_is_told_and_replaced(monkeypatch):
+    monkeypatch.setenv("PYTHONPATH", str(ROOT / "tests" / "support"))
+    worker = Worker(seed=0)
+    try:
+        assert worker.begin(("inputs", 7))
+        os.kill(worker.process.pid, signal.SIGSEGV)
+        assert _ended(worker).result == "crash"
+        assert worker.begin(("inputs", 7))
+        assert _ended(worker).result != "crash"
+    finally:
+        worker.end()
+
+
+def _ended(worker: Worker) -> Outcome:
+    while (outcome := worker.outcome()) is None:
+        time.sleep(0.1)
+    return outcome
 
 
 def _refuse(path: Path) -> None:

@@ -75,25 +75,27 @@ def tried(case: Case, seconds: float = SECONDS) -> Outcome:
     _import_readers(case.group, case.kind.name)
     with tempfile.TemporaryDirectory(prefix="regkit-fuzz-") as scratch:
         path = case.written(Path(scratch))
-        _reset_peak()
-        before, begun = _memory("VmRSS"), time.process_time()
+        cost = _Cost()
         with warnings.catch_warnings(record=True) as told:
             warnings.simplefilter("always")
-            result, reason, where = _result(case, path, told, seconds)
-        took, peak = time.process_time() - begun, max(0, _memory("VmHWM") - before)
-        if result in FINE and took > seconds:
-            result, reason = "slow", f"{took:.1f} s"
-        elif result in FINE and peak > BYTES:
-            result, reason = "memory", f"{peak / 1e9:.2f} GB"
+            result, reason, where = _result(case, path, told, cost, seconds)
+        if result in FINE and cost.seconds > seconds:
+            result, reason = "slow", f"{cost.seconds:.1f} s"
+        elif result in FINE and cost.bytes > BYTES:
+            result, reason = "memory", f"{cost.bytes / 1e9:.2f} GB"
         shown = reason.replace(scratch, "").replace(sys.prefix, "")[:2000]
-        return Outcome(result, shown, where, took, peak)
+        return Outcome(result, shown, where, cost.seconds, cost.bytes)
 
 
 def _result(
-    case: Case, path: Path, told: list[warnings.WarningMessage], seconds: float
+    case: Case,
+    path: Path,
+    told: list[warnings.WarningMessage],
+    cost: _Cost,
+    seconds: float,
 ) -> tuple[str, str, str]:
     try:
-        with _alarm(seconds):
+        with _alarm(seconds), cost:
             value = case.kind.read(path)
     except RegkitError as error:
         return "refused", str(error), ""
@@ -119,6 +121,23 @@ def _result(
     if complaints:
         return "nonsense", "; ".join(complaints[:4]), complaints[0].partition(":")[0]
     return "accepted", "", ""
+
+
+class _Cost:
+    """Context manager: what the reader takes, without the oracle that looks at its answer."""
+
+    seconds: float = 0.0
+    bytes: int = 0
+
+    def __enter__(self) -> None:
+        with suppress(OSError):
+            # The kernel forgets the peak so far.
+            Path("/proc/self/clear_refs").write_text("5")
+        self._before, self._begun = _memory("VmRSS"), time.process_time()
+
+    def __exit__(self, *_: object) -> None:
+        self.seconds = time.process_time() - self._begun
+        self.bytes = max(0, _memory("VmHWM") - self._before)
 
 
 @contextmanager
@@ -159,8 +178,3 @@ def _memory(field: str) -> int:
             if line.startswith(field):
                 return 1024 * int(line.split()[1])
     return 0
-
-
-def _reset_peak() -> None:
-    with suppress(OSError):
-        Path("/proc/self/clear_refs").write_text("5")

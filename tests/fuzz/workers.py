@@ -32,7 +32,7 @@ CASES = 3000
 def outcomes(seed: int, numbers: Iterable[Number], jobs: int) -> Iterator[tuple[Number, Outcome]]:
     """Yields what comes of each case, in the order in which they end."""
     waiting = iter(numbers)
-    workers = [_Worker(seed) for _ in range(jobs)]
+    workers = [Worker(seed) for _ in range(jobs)]
     try:
         busy = [worker for worker in workers if worker.begin(next(waiting, None))]
         while busy:
@@ -51,7 +51,7 @@ def outcomes(seed: int, numbers: Iterable[Number], jobs: int) -> Iterator[tuple[
 
 
 @dataclass
-class _Worker:
+class Worker:
     """A process, and the case that it tries."""
 
     seed: int
@@ -65,17 +65,17 @@ class _Worker:
         self.connection, theirs = context.Pipe()
         handle, self._trace = tempfile.mkstemp(prefix="regkit-fuzz-trace-")
         os.close(handle)
-        self._process = context.Process(
+        self.process = context.Process(
             target=_work, args=(theirs, self.seed, self._trace), daemon=True
         )
-        self._process.start()
+        self.process.start()
         theirs.close()
 
     def begin(self, case: Number | None) -> bool:
         """Start a case; false if there is none."""
         if case is None:
             return False
-        if self.done >= CASES or not self._process.is_alive():
+        if self.done >= CASES or not self.process.is_alive():
             self._restart()
         self.case, self.begun, self.done = case, time.monotonic(), self.done + 1
         self.connection.send(case)
@@ -87,12 +87,12 @@ class _Worker:
             if self.connection.poll():
                 return Outcome(**self.connection.recv())
         except (EOFError, ConnectionResetError):
-            self._process.join()
-            return self._crashed(self._process.exitcode or 0)
+            self.process.join()
+            return self._crashed(self.process.exitcode or 0)
         if time.monotonic() - self.begun < HANGS:
             return None
-        self._process.kill()
-        self._process.join()
+        self.process.kill()
+        self.process.join()
         return Outcome("slow", f"killed after {HANGS:g} s")
 
     def _crashed(self, code: int) -> Outcome:
@@ -107,8 +107,8 @@ class _Worker:
         self.__post_init__()
 
     def end(self) -> None:
-        self._process.kill()
-        self._process.join()
+        self.process.kill()
+        self.process.join()
         self.connection.close()
         Path(self._trace).unlink(missing_ok=True)
 

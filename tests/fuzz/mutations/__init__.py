@@ -10,7 +10,7 @@ from tests.fuzz.mutations.binary import BINARY
 from tests.fuzz.mutations.images import IMAGES
 from tests.fuzz.mutations.packed import PACKED
 from tests.fuzz.mutations.text import TEXT
-from tests.fuzz.mutations.trees import JSON, YAML
+from tests.fuzz.mutations.tree_files import JSON, YAML
 from tests.fuzz.mutations.unsuitable import UnsuitableError
 from tests.fuzz.mutations.yaml_text import YAML_TEXT
 

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from random import Random
 
 from tests.fuzz.mutations.binary import BINARY
-from tests.fuzz.mutations.trees import JSON
+from tests.fuzz.mutations.tree_files import JSON
 from tests.fuzz.mutations.unsuitable import UnsuitableError
 
 Mutation = Callable[[Random, bytes], bytes]

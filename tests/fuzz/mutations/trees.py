@@ -1,15 +1,10 @@
-"""Damage to the structure of YAML and JSON: types, keys, depths, lengths, numbers."""
+"""Damage to a tree of lists and mappings: types, keys, depths, lengths, numbers."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable
-from io import StringIO
 from random import Random
 from typing import Any
-
-from ruamel import yaml as ruamel
-from ruamel.yaml.error import YAMLError
 
 from tests.fuzz.mutations.unsuitable import UnsuitableError
 
@@ -157,45 +152,3 @@ def json_copy(node: Any) -> Any:
 
 _CHANGES = (replace, replace, absurd_number, absurd_number, absurd_number, remove, rename, add)
 CHANGES: tuple[Callable[[Random, Any], None], ...] = (*_CHANGES, exchange, wrap, deepen, lengthen)
-
-
-def _yaml(random: Random, change: Callable[[Random, Any], None], content: bytes) -> bytes:
-    try:
-        tree = ruamel.YAML(typ="safe", pure=True).load(content.decode())
-    except Exception:  # Whatever a parser raises on what is damaged already.
-        raise UnsuitableError from None
-    change(random, tree)
-    stream = StringIO()
-    yaml = ruamel.YAML(typ="safe", pure=True)
-    yaml.default_flow_style = random.choice((None, None, True, False))
-    yaml.sort_base_mapping_type_on_output = False
-    # What is the same object twice would be written as an alias; those are mutations of the text.
-    yaml.representer.ignore_aliases = lambda *_: True
-    try:
-        yaml.dump(tree, stream)
-    except (RecursionError, YAMLError, ValueError):
-        raise UnsuitableError from None
-    return stream.getvalue().encode("utf-8", "surrogatepass")
-
-
-def _json(random: Random, change: Callable[[Random, Any], None], content: bytes) -> bytes:
-    try:
-        tree = json.loads(content)
-    except (ValueError, RecursionError):
-        raise UnsuitableError from None
-    change(random, tree)
-    try:
-        return json.dumps(tree, default=str).encode("utf-8", "surrogatepass")
-    except (ValueError, RecursionError, TypeError):
-        raise UnsuitableError from None
-
-
-def _named(form: Callable[..., bytes]) -> dict[str, Callable[[Random, bytes], bytes]]:
-    def bound(change: Callable[[Random, Any], None]) -> Callable[[Random, bytes], bytes]:
-        return lambda random, content: form(random, change, content)
-
-    return {f"tree.{change.__name__}": bound(change) for change in CHANGES}
-
-
-YAML = _named(_yaml)
-JSON = _named(_json)
