@@ -11,6 +11,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 from typing import Any
+from unicodedata import category
 
 import numpy as np
 
@@ -38,7 +39,7 @@ def numbers(values: Any, what: str, *, most: float, gaps: bool = False) -> Itera
 
 
 def name(text: str, what: str) -> Iterator[str]:
-    if not text or not text.isprintable():
+    if not text.strip() or any(category(letter) == "Cc" for letter in text):
         yield f"{what}: the name {text[:20]!r}"
 
 
@@ -60,11 +61,24 @@ def counted(pattern: bytes) -> Oracle:
     return oracle
 
 
+def decoded(content: bytes) -> str:
+    """The text of a file, by the mark at its start."""
+    # The mark of UTF-32 begins with that of UTF-16.
+    for mark, encoding in (
+        (codecs.BOM_UTF32_LE, "utf-32"),
+        (codecs.BOM_UTF32_BE, "utf-32"),
+        (codecs.BOM_UTF16_LE, "utf-16"),
+        (codecs.BOM_UTF16_BE, "utf-16"),
+    ):
+        if content.startswith(mark):
+            return content.decode(encoding, "replace")
+    return content.decode("utf-8-sig", "replace")
+
+
 def lines(points: Any, file: Damaged) -> Iterator[str]:
     """A text cloud has a point for each line that is not blank, a comment or a header."""
     yield from cloud(points, file)
-    wide = file.content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
-    text = file.content.decode("utf-16" if wide else "utf-8-sig", "replace")
+    text = decoded(file.content)
     rows = [line for line in text.splitlines() if line.strip() and line.strip()[0] not in "#/"]
     if not file.noted and not len(rows) - 2 <= len(points) <= len(rows):
         yield f"points: {len(points)} of {len(rows)} lines"

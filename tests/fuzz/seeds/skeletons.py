@@ -92,8 +92,8 @@ def nonsense(value: ImportedSkeleton, file: Damaged) -> Iterator[str]:
 
 def bvh_nonsense(value: ImportedSkeleton, file: Damaged) -> Iterator[str]:
     yield from nonsense(value, file)
-    words = file.content.split(b"MOTION")[0].split()
-    joints = words.count(b"JOINT") + words.count(b"ROOT")
+    words = oracles.decoded(file.content).replace("\0", "").split("MOTION")[0].split()
+    joints = words.count("JOINT") + words.count("ROOT")
     if not file.noted and len(value.description.segments) != joints:
         yield f"segments: {len(value.description.segments)} of {joints} joints"
 
