@@ -19,7 +19,7 @@ from regkit.body import Body
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from tests.fuzz.kind import Damaged, Oracle
 
-LARGEST = 1e9
+LARGEST = 1e12
 """No measurement is larger, in any unit of length."""
 FARTHEST = 1e6
 """No model is larger [m]."""
