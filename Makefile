@@ -4,7 +4,7 @@ PYTHON ?= python3
 ready := .venv/.ready
 bin := .venv/bin
 
-.PHONY: help demo test test-long lint loops docs pictures samples templates schemas lock benchmarks clean
+.PHONY: help demo test test-long fuzz lint loops docs pictures samples templates schemas lock benchmarks clean
 
 help: ## Show this help
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -22,6 +22,10 @@ test: $(ready) ## Run every check
 
 test-long: $(ready) ## Run what a release needs besides: fuzzing, soaks, long walks
 	@$(bin)/pytest -q --numprocesses auto --dist worksteal -m "long or hypothesis" --hypothesis-profile long
+	@$(MAKE) --no-print-directory fuzz
+
+fuzz: $(ready) loops ## Try 10,000 damaged YAML files and 10,000 other damaged inputs on every reader
+	@$(bin)/python -m tests.fuzz --yaml 10000 --inputs 10000 --jobs 2
 
 # Compiles the loops once, so that the test processes do not each compile them.
 loops: $(ready)

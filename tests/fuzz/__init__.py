@@ -1,0 +1,1 @@
+"""Damaged inputs and YAML for every reader: ``python -m tests.fuzz --help``."""
