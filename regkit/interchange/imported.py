@@ -88,53 +88,65 @@ class ImportedSkeleton:
         Raises:
             DataError: If the skeleton has no extent, or is not a valid template.
         """
-        extents = _extents(bones)
-        offsets = _offsets(bones)
-        min_radius = MIN_THICKNESS * float(extents.max())
-        segments = {}
-        for index, bone in enumerate(bones):
-            made = bone.capsules is None
-            capsules = _capsules(offsets[index], min_radius) if made else bone.capsules
-            segments[bone.name] = SegmentDescription(
-                parent=bones[bone.parent].name if bone.parent >= 0 else None,
-                offset=vector(bone.offset),
-                joint=bone.joint,
-                capsules=capsules or (),
-                markers={name: vector(point) for name, point in bone.markers.items()},
-            )
-        upright = extents[1] >= UPRIGHT * extents.max()
-        size = round(float(extents[1] if upright else extents.max()), 4)
-        if not size <= FARTHEST:
-            raise DataError(
-                f"the skeleton extends over {size:.3g} m; a length in the file is wrong, or the "
-                "scale",
-                place=str(path),
-            )
-        if size <= 0.0:
-            raise DataError(
-                "the skeleton has no extent: all joints are at the same position; at least one "
-                "bone must have a length",
-                place=str(path),
-            )
         try:
-            description = BodyDescription(
-                title=title,
-                sources=(f"Skeleton: imported from {path.name}",),
-                size=SizeDescription(
-                    name="height" if upright else "length",
-                    value=size,
-                    range=(spread[0] * size, spread[1] * size),
-                ),
-                segments=segments,
-            )
+            description = _description(bones, path, title, spread)
         except ValidationError as error:
             problem = error.errors(include_url=False)[0]
             where = ".".join(str(part) for part in problem["loc"])
             message = problem["msg"].removeprefix("Value error, ")
             raise DataError(f"{where}: {message}", place=str(path)) from None
+        segments = description.segments
         shaped = sum(bone.capsules is None and bool(segments[bone.name].capsules) for bone in bones)
         comments = {bone.name: bone.comment for bone in bones if bone.comment}
         return cls(description, comments, shaped)
+
+
+def _description(
+    bones: list[Bone], path: Path, title: str, spread: tuple[float, float]
+) -> BodyDescription:
+    """Returns the description of the bones.
+
+    Raises:
+        DataError: If the skeleton has no extent, or an absurd one.
+        ValidationError: If it is not a valid template.
+    """
+    extents = _extents(bones)
+    upright = extents[1] >= UPRIGHT * extents.max()
+    size = round(float(extents[1] if upright else extents.max()), 4)
+    if not size <= FARTHEST:
+        raise DataError(
+            f"the skeleton extends over {size:.3g} m; a length in the file is wrong, or the scale",
+            place=str(path),
+        )
+    if size <= 0.0:
+        raise DataError(
+            "the skeleton has no extent: all joints are at the same position; at least one bone "
+            "must have a length",
+            place=str(path),
+        )
+    offsets = _offsets(bones)
+    min_radius = MIN_THICKNESS * float(extents.max())
+    segments = {}
+    for index, bone in enumerate(bones):
+        made = bone.capsules is None
+        capsules = _capsules(offsets[index], min_radius) if made else bone.capsules
+        segments[bone.name] = SegmentDescription(
+            parent=bones[bone.parent].name if bone.parent >= 0 else None,
+            offset=vector(bone.offset),
+            joint=bone.joint,
+            capsules=capsules or (),
+            markers={name: vector(point) for name, point in bone.markers.items()},
+        )
+    return BodyDescription(
+        title=title,
+        sources=(f"Skeleton: imported from {path.name}",),
+        size=SizeDescription(
+            name="height" if upright else "length",
+            value=size,
+            range=(spread[0] * size, spread[1] * size),
+        ),
+        segments=segments,
+    )
 
 
 def check_count(count: int, path: Path) -> None:
