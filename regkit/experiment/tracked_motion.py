@@ -26,6 +26,7 @@ from regkit.skeleton import Pose
 from regkit.system.archives import read_arrays
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError, DataError, RegkitError
+from regkit.system.guard import reading
 from regkit.system.links import check_links
 from regkit.system.notes import note
 
@@ -124,10 +125,14 @@ def _arrays(folder: Path) -> dict[str, NDArray[Any]]:
     missing = [name for name in NEEDED if name not in arrays]
     if missing:
         raise DataError(f"lacks the arrays {', '.join(missing)}", place=str(file))
-    frames = len(arrays["root"])
-    if not all(len(arrays[name]) == frames and np.isfinite(arrays[name]).all() for name in MOVING):
-        raise DataError(f"damaged: not {frames} finite poses", place=str(file))
-    return arrays
+    with reading(file, "the poses of regkit run"):
+        numbers = {name: np.asarray(arrays[name], dtype=np.float64) for name in NEEDED}
+        frames = len(numbers["root"])
+        if numbers["size"].shape or not all(
+            len(numbers[name]) == frames and np.isfinite(numbers[name]).all() for name in MOVING
+        ):
+            raise DataError(f"damaged: not {frames} finite poses and a size")
+    return arrays | numbers
 
 
 def _fps(folder: Path, arrays: Mapping[str, NDArray[Any]]) -> float:
@@ -143,7 +148,8 @@ def _fps(folder: Path, arrays: Mapping[str, NDArray[Any]]) -> float:
             f"the results in {folder} do not contain the frames per second; give them",
             place="fps",
         )
-    return float(source["fps"])
+    with reading(record, "a record of regkit run"):
+        return float(source["fps"].item())
 
 
 def _present(results: Path, field: str, setup: Setup) -> Template | None:

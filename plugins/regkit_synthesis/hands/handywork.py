@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from regkit.system.errors import DataError
+from regkit.system.guard import reading
 from regkit_synthesis.hands.pose import PARENTS, WRIST, HandPose
 
 JOINTS = (WRIST, *PARENTS)
@@ -22,17 +23,18 @@ def read_handywork(path: Path) -> HandPose:
     Raises:
         DataError: If the file is missing or does not have the 25 joints of WebXR for both hands.
     """
-    try:
-        numbers = np.fromfile(path, dtype="<f4").astype(np.float64)
-    except FileNotFoundError:
-        raise DataError("the file is missing; it holds a hand pose", place=str(path)) from None
-    if len(numbers) != _NUMBERS or numbers[0] != len(JOINTS):
+    with reading(path, "a hand pose of handy-work"):
+        stored = np.fromfile(path, dtype="<f4")
+    finite = bool(np.isfinite(stored).all())
+    if len(stored) != _NUMBERS or not finite or stored[0] != len(JOINTS):
         raise DataError(
-            f"not a pose of handy-work; it must have {_NUMBERS} numbers of 4 bytes, of which the "
-            f"first is {len(JOINTS)}",
+            f"not a pose of handy-work; it must have {_NUMBERS} finite numbers of 4 bytes, of "
+            f"which the first is {len(JOINTS)}",
             place=str(path),
         )
+    numbers = stored.astype(np.float64)
     _, right = numbers[1 : 1 + 2 * len(JOINTS) * 16].reshape(2, len(JOINTS), 4, 4)
     # The matrices are column-major.
     matrices = right.transpose(0, 2, 1)
-    return HandPose.of(dict(zip(JOINTS, matrices, strict=True)))
+    with reading(path, "a hand pose of handy-work"):
+        return HandPose.of(dict(zip(JOINTS, matrices, strict=True)))

@@ -9,6 +9,7 @@ import numpy as np
 
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
+from regkit.system.guard import reading
 from regkit_synthesis.hands.pose import PARENTS, WRIST, HandPose
 
 _JOINT = re.compile(r"'?([a-z-]+)'?:\s*\{\s*offsetMatrix:\s*\[([^\]]*)\]")
@@ -20,10 +21,8 @@ def read_iwer(path: Path) -> HandPose:
     Raises:
         DataError: If the file is missing or does not have the 25 joints of WebXR.
     """
-    try:
+    with reading(path, "a hand pose of iwer"):
         text = path.read_text(encoding="utf-8")
-    except FileNotFoundError:
-        raise DataError("the file is missing; it holds a hand pose", place=str(path)) from None
     matrices = {name: _matrix(numbers, path) for name, numbers in _JOINT.findall(text)}
     missing = [joint for joint in (WRIST, *PARENTS) if joint not in matrices]
     if missing:
@@ -32,7 +31,8 @@ def read_iwer(path: Path) -> HandPose:
             place=str(path),
         )
     mirror = np.diag([-1.0, 1.0, 1.0, 1.0])
-    return HandPose.of({joint: mirror @ matrix @ mirror for joint, matrix in matrices.items()})
+    with reading(path, "a hand pose of iwer"):
+        return HandPose.of({joint: mirror @ matrix @ mirror for joint, matrix in matrices.items()})
 
 
 def _matrix(numbers: str, path: Path) -> Array:

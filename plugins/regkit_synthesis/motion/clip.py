@@ -11,6 +11,7 @@ import numpy as np
 from regkit.geometry.rotation import IDENTITY, from_vector, normalized, product
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
+from regkit.system.guard import reading
 from regkit_synthesis.figure.standing import STANDING
 from regkit_synthesis.motion.motion import Rig
 from regkit_synthesis.motion.sampled import SampledMotion
@@ -66,18 +67,12 @@ def read_clip(path: Path) -> SampledMotion:
     Raises:
         DataError: If the file is missing or is not a clip.
     """
-    try:
+    with reading(path, "a motion clip, JSON with Loop and Frames"):
         content = json.loads(path.read_text(encoding="utf-8"))
         rows = np.array(content["Frames"], dtype=np.float64)
         loops = str(content["Loop"]) == "wrap"
-    except FileNotFoundError:
-        raise DataError("the file is missing; it holds a motion clip", place=str(path)) from None
-    except (OSError, KeyError, ValueError, TypeError) as error:
-        raise DataError(
-            f"not a motion clip ({type(error).__name__}: {error}); it must be JSON "
-            "with Loop and Frames",
-            place=str(path),
-        ) from None
+        if not np.isfinite(rows).all():
+            raise DataError("Frames has numbers that are NaN or infinite")
     if rows.ndim != 2 or rows.shape[1] != _ROW or len(rows) < 2:
         raise DataError(
             f"Frames has the shape {rows.shape}; it must have 2 or more rows of {_ROW} numbers",

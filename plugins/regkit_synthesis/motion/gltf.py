@@ -10,7 +10,8 @@ from regkit.config.model import did_you_mean
 from regkit.interchange.bone_frames import nearest_rotations
 from regkit.interchange.gltf.clip import GltfClip
 from regkit.interchange.gltf.gltf import RiggedBody
-from regkit.system.errors import ConfigError, DataError, RegkitError
+from regkit.system.errors import ConfigError, DataError
+from regkit.system.guard import reading
 from regkit_synthesis.figure.figure import figure_axes
 from regkit_synthesis.figure.joint_map import parts_of
 from regkit_synthesis.motion.motion import Rig
@@ -37,14 +38,18 @@ def read_gltf(
         DataError: If the file is missing or invalid, or has no animation.
     """
     body = RiggedBody.read(path)
-    try:
-        clip = _clip(body.clips, animation)
-        mesh = body.mesh
-        places = dict(zip(mesh.labels, mesh.rest[:, :3, 3], strict=True))
-        parts = parts_of(mesh.labels, map_name, path)
-        rotation = figure_axes({joint: places[own] for joint, own in parts.items()})
-    except RegkitError as error:
-        raise error.at(str(path)) from None
+    with reading(path, "a glTF animation of a rigged body"):
+        return _sampled(body, animation, map_name, path)
+
+
+def _sampled(
+    body: RiggedBody, animation: str | None, map_name: str | None, path: Path
+) -> SampledMotion:
+    clip = _clip(body.clips, animation)
+    mesh = body.mesh
+    places = dict(zip(mesh.labels, mesh.rest[:, :3, 3], strict=True))
+    parts = parts_of(mesh.labels, map_name, path)
+    rotation = figure_axes({joint: places[own] for joint, own in parts.items()})
     begin, end = clip.times[0], clip.times[-1]
     count = max(2, int(np.ceil((end - begin) / _STEP)) + 1)
     times = np.unique(np.concatenate([clip.times, np.linspace(begin, end, count)]))
