@@ -50,6 +50,7 @@ autodoc_type_aliases = {
         "Frames",
         "Intrinsics",
         "Measured",
+        "OneFrame",
         "Reference",
     )
 }
@@ -70,6 +71,7 @@ nitpick_ignore_regex = [
     (
         r"py:class",
         r"TypeAliasForwardRef|ArrayLike|Beginning|Choice|Cloud|Deviation|Frames|Intrinsics|Measured"
+        r"|OneFrame"
         r"|Reference|Vector",
     ),
     (r"py:class", r"Figure|Field|0\.0|(dict|tuple)\[str"),

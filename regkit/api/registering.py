@@ -24,6 +24,9 @@ from regkit.system.progress import steps as progress_steps
 from regkit.system.renamed import renamed_arguments
 from regkit.tracking import Session, TrackedFrame, TrackRecorder, check_unit
 
+OneFrame = Measured | str | Path
+"""A depth image (H, W) [m], a cloud (N, 3) [m], a frame, or a file of one."""
+
 POINTS = 900
 """Approximate number of points per frame without a preprocessor."""
 
@@ -36,7 +39,7 @@ Beginning = Pose | PoseDescription | Mapping[str, Any]
 
 @renamed_arguments(observer="preprocessor")
 def register(
-    cloud: Measured | str | Path,
+    cloud: OneFrame,
     template: Choice[Template],
     method: Choice[Method] | None = None,
     *,
