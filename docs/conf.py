@@ -72,9 +72,9 @@ nitpick_ignore_regex = [
         r"py:class",
         r"TypeAliasForwardRef|ArrayLike|Beginning|Choice|Cloud|Deviation|Frames|Intrinsics|Measured"
         r"|OneFrame"
-        r"|Reference|Vector",
+        r"|Reference|Vector|Position|Rotation|FrameCount|Length|Count|regkit\.tracking\.verdict\.Annotated",
     ),
-    (r"py:class", r"Figure|Field|0\.0|(dict|tuple)\[str"),
+    (r"py:class", r"Figure|Field|FieldInfo|NoneType|Ge|Gt|Le|\d+\.\d|(dict|tuple)\[str"),
     # Tables of fields describe the content of YAML files.
     (r"py:class", r"(regkit\.(body|skeleton)\..*\.)?\w+Description"),
     # Not part of the public interface.

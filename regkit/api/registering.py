@@ -109,8 +109,8 @@ def track(
         The body with its poses and markers in all frames.
 
     Raises:
-        TrackingError: If a frame after the first cannot be read or registered; its ``tracked`` is
-            what was tracked before.
+        regkit.TrackingError: If a frame after the first cannot be read or registered; its
+            ``tracked`` is what was tracked before.
         RegkitError: If an argument is invalid, or the first frame cannot be registered.
     """
     recording = recording_of(frames, camera, fps)

@@ -9,12 +9,12 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from regkit.skeleton.joints import Vector
+from regkit.skeleton.joints import Position, Rotation, Vector
 
 _RESERVED = ("true", "false", "null")
 
-_VECTOR: Any = Vector
-"""The type of fields whose numbers may be negative."""
+_SIGNED: tuple[Any, ...] = (Vector, Position, Rotation)
+"""The types of fields whose numbers may be negative."""
 
 
 def key(name: str) -> str:
@@ -43,7 +43,7 @@ def number(value: float, decimals: int) -> str:
 def fields_row(model: BaseModel) -> str:
     """Returns a model in one line: four decimals for lengths, one for degrees, no defaults."""
     fields = [
-        f"{word(name)}: {_field(name, getattr(model, name), signed=field.annotation == _VECTOR)}"
+        f"{word(name)}: {_field(name, getattr(model, name), signed=field.annotation in _SIGNED)}"
         for name, field in type(model).model_fields.items()
         if getattr(model, name) != field.default
     ]

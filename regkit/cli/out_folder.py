@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from datetime import datetime
 from pathlib import Path
 
 from regkit.system.errors import ConfigError
@@ -33,6 +34,15 @@ def check_out(out: Path, *, whole: bool) -> None:
                 f"the folder is inside the results folder {above}; choose one outside of it",
                 place=f"--out {out}",
             )
+
+
+def new_folder(name: str) -> Path:
+    """Returns a new folder for the results of an experiment, ``results/NAME/DATE-TIME``.
+
+    If ``results/NAME`` is itself a results folder, the new one is beside it.
+    """
+    date, above = f"{datetime.now():%Y%m%d-%H%M%S}", Path("results") / name
+    return Path(f"{above}-{date}") if _holds(above, MARKS[0]) else above / date
 
 
 def _holds(folder: Path, files: tuple[str, ...]) -> bool:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from datetime import datetime
 from pathlib import Path
 from typing import Annotated
 
@@ -16,7 +15,7 @@ from regkit.cli.console import errors, output, print_warning
 from regkit.cli.exit_codes import DONE, INTERRUPTED
 from regkit.cli.interrupt import Interrupt
 from regkit.cli.options import PluginFiles, Strict, options, run_plugin_files
-from regkit.cli.out_folder import check_out
+from regkit.cli.out_folder import check_out, new_folder
 from regkit.cli.run_progress import RunProgress
 from regkit.cli.verdicts import run_exit_code
 from regkit.cli.workers import chosen_workers
@@ -82,7 +81,7 @@ def run(
     run_plugin_files(plugin)
     workers = chosen_workers(jobs, cluster)
     study = Study.read(experiment, settings or (), called="--set")
-    folder = out or Path("results") / study.name / f"{datetime.now():%Y%m%d-%H%M%S}"
+    folder = out or new_folder(study.name)
     check_out(folder, whole=True)
     stopping = "stopping" if workers.remote else "stopping after this frame"
     try:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel
 
 from regkit.config.document import Document
 from regkit.system.files import read_json
@@ -15,16 +15,12 @@ from regkit.system.guard import reading
 class _Config(BaseModel):
     """The parts of a configuration that the report reads; plug-ins need not be installed."""
 
-    model_config = ConfigDict(extra="allow")
-
     name: str
     methods: dict[str, dict[str, Any]]
 
 
 class _Environment(BaseModel):
     """The parts of ``environment.json`` that the report reads."""
-
-    model_config = ConfigDict(extra="allow")
 
     libraries: dict[str, str] = {}
 

@@ -12,7 +12,7 @@ from pydantic import Field, model_validator
 from regkit.config.model import Model
 from regkit.config.quantities import Length
 from regkit.observation import Frame
-from regkit.system.arrays import Array, Indices
+from regkit.system.arrays import Array, Indices, checked_points
 from regkit.system.errors import DataError, NoDataError
 
 MIN_DOWNSAMPLED = 4
@@ -46,9 +46,9 @@ class Crop(Model):
 
         Raises:
             NoDataError: If the frame is empty, or fewer than ``min_points`` points are left.
+            DataError: If a coordinate is not finite.
         """
-        # A point that is not finite is a missing measurement.
-        points = frame.points[np.isfinite(frame.points).all(axis=1)]
+        points = checked_points(frame.points, place=frame.place)
         if not len(points):
             raise NoDataError("the frame is empty: it has no valid point", place=frame.place)
         kept = self._kept(points)
@@ -58,7 +58,7 @@ class Crop(Model):
                 f"least {self.min_points} are needed (preprocessor.crop)",
                 place=frame.place,
             )
-        if len(kept) == len(frame.points):
+        if len(kept) == len(points):
             return frame
         depth = frame.depth
         if depth is not None and np.count_nonzero(depth > 0.0) == len(points):

@@ -103,7 +103,7 @@ def test_a_wrong_array_is_named(
 @pytest.mark.parametrize("key", KEYS)
 def test_a_missing_array_is_named(tmp_path: Path, arrays: Arrays, key: str) -> None:
     del arrays[key]
-    with pytest.raises(DataError, match=f"no {key}"):
+    with pytest.raises(DataError, match=f"no array '{key}'"):
         SkinnedMesh.read(_write(tmp_path, arrays))
 
 
@@ -117,7 +117,7 @@ def test_a_header_that_asks_for_terabytes_takes_no_memory(tmp_path: Path, arrays
     with zipfile.ZipFile(path, "w") as archive:
         for name, content in (held | {"rest_vertices.npy": stream.getvalue()}).items():
             archive.writestr(name, content)
-    with pytest.raises(DataError, match="rest_vertices has the shape"):
+    with pytest.raises(DataError, match="'rest_vertices' of shape"):
         SkinnedMesh.read(path)
 
 

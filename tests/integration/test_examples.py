@@ -30,8 +30,9 @@ def test_example_runs_on_two_frames(regkit, tmp_path, request, path):
     if path.stem in SOME:
         settings += ["--set", f"dataset.recordings={SOME[path.stem]}"]
     ended = regkit("run", path, "--out", tmp_path / "out", "--no-figures", *settings)
-    assert ended.code == 0
-    assert ended.err == ""
+    assert ended.code == 0, ended.err
+    # The paper's bare energies are doubtful on some, and that is told.
+    assert all(line.startswith("warning: ") for line in ended.err.splitlines())
     methods = json.loads((tmp_path / "out" / "metrics.json").read_text())["methods"]
     for figures in methods.values():
         assert figures["mean"]["frames"] == FRAMES

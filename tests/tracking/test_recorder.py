@@ -33,7 +33,7 @@ def pose(depth: float = 2.0) -> Pose:
 
 @dataclass(frozen=True)
 class Made(Recording):
-    """Frames of points on a body, each with an offset in depth, made when they are asked for."""
+    """Points on a body in frames made on request, each with an offset in depth; NaN is blank."""
 
     offsets: tuple[float, ...] = ()
 
@@ -41,7 +41,8 @@ class Made(Recording):
         axes = BODY.capsules.axis_points(0.05)
         on_surface = axes.place(BODY.place(pose()).transforms) + axes.radii[:, None] * [0, 0, -1]
         for offset in self.offsets:
-            yield Frame(on_surface + np.array([0.0, 0.0, offset]))
+            seen = on_surface if np.isfinite(offset) else on_surface[:0]
+            yield Frame(seen + np.array([0.0, 0.0, offset]))
 
     def truth(self) -> None:
         """None."""
@@ -139,7 +140,7 @@ def test_start_without_a_frame_is_told():
 
 
 def test_frame_without_data_is_bridged_and_told():
-    """A NaN is a missing measurement; what was tracked before and after it is kept."""
+    """What was tracked before and after it is kept."""
     session = Session(made(0.0, np.nan, 0.01), SIZED, PointsPreprocessor(), pose())
     recorder = recorded(session, Still())
     track = recorder.track()

@@ -27,7 +27,7 @@ class SphereMesh(ShapeModel):
 
     variant: Literal["capsules", "spheres"] = "capsules"
     """Whether the primitives are tapered capsules, or spheres along their axes."""
-    spacing: Annotated[float, Field(ge=0.01, le=100.0)] = 1.0
+    spacing: Annotated[float, Field(ge=1e-3, le=100.0)] = 1.0
     """Distance of neighbouring spheres, as a fraction of their radius; for ``spheres`` only."""
 
     def bind(self, body: Body) -> TaperedCapsules:

@@ -166,7 +166,15 @@ def _limits(element: Element, name: str, remarks: Remarks) -> tuple[float, float
             name,
             found.place,
         )
-    return None if low <= -ENDLESS and high >= ENDLESS else (max(low, -ENDLESS), min(high, ENDLESS))
+    if low <= -ENDLESS and high >= ENDLESS:
+        return None
+    if low < -ENDLESS or high > ENDLESS:
+        remarks.add(
+            f"limits beyond {np.degrees(ENDLESS) / 360.0:.0f} turns are cut to that",
+            f"'{name}': {low:g} to {high:g} rad",
+            found.place,
+        )
+    return max(low, -ENDLESS), min(high, ENDLESS)
 
 
 def _limit(element: Element, attribute: str) -> float:

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 
-from regkit.config.quantities import LARGEST_ANGLE
 from regkit.geometry.rigid import rigid
 from regkit.interchange.imported import (
     MIN_LENGTH,
@@ -31,7 +30,6 @@ from regkit.skeleton.joints import (
     Joint,
 )
 from regkit.system.arrays import Array
-from regkit.system.notes import note
 
 SPREAD = (1.0, 1.0)
 """Range of the size relative to the robot's own; a robot has a fixed size."""
@@ -97,13 +95,6 @@ def _joint(joint: UrdfJoint, rotation: Array, offsets: list[Array], robot: Urdf)
     if joint.kind == "spherical":
         return ball(next((one for one in offsets if np.linalg.norm(one) > MIN_LENGTH), None))
     limits = None if joint.limits is None else np.degrees(joint.limits)
-    if limits is not None and np.abs(limits).max() > LARGEST_ANGLE:
-        note(
-            f"joint '{joint.name}' has a limit of {np.abs(limits).max() / 360.0:.3g} turns; it "
-            f"gets {LARGEST_ANGLE / 360.0:g}",
-            place=joint.place,
-        )
-        limits = np.clip(limits, -LARGEST_ANGLE, LARGEST_ANGLE)
     return HingeJoint(
         type="hinge",
         axis=vector(rotation @ joint.axis),

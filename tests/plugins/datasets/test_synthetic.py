@@ -285,7 +285,7 @@ def test_take_without_a_motion_is_refused(tmp_path):
 @pytest.mark.parametrize(
     ("setting", "expected"),
     [
-        ("takes.walk.motion={kind: clip, path: nowhere.txt}", "nowhere.txt: the file is missing"),
+        ("takes.walk.motion={kind: clip, path: nowhere.txt}", "nowhere.txt: there is no such file"),
         (
             "takes.walk={motion: {name: run, way: 1}, view: {heading_deg: 90, distance: 0.5}}",
             "the image of frame 0 does not show the body",

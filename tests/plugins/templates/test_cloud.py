@@ -66,7 +66,7 @@ def test_start_is_found_in_any_orientation(template, lump, turn):
     [
         (None, "there is no such file"),
         ("1 2 3\n", "the cloud has 1 different points of 1; at least 10 are needed"),
-        ("words\nand more\n", "a.txt:2: not a row that begins with x y z: 'and more'"),
+        ("words\nand more\n", "a.txt:2: the file contains no points"),
     ],
 )
 def test_cloud_that_cannot_be_is_told(tmp_path, content, expected):

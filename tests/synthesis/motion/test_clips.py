@@ -169,7 +169,7 @@ def test_clip_refuses_a_wrong_file(tmp_path, text, message):
 
 
 def test_clip_names_a_missing_file(tmp_path):
-    with pytest.raises(DataError, match=r"none\.txt: the file is missing"):
+    with pytest.raises(DataError, match=r"none\.txt: there is no such file"):
         read_clip(tmp_path / "none.txt")
 
 
