@@ -32,16 +32,19 @@ class BodyFit:
         inlier_share: Fraction of the points that fit the surface, from 0 to 1.
         coverage: Fraction of the body that has data nearby, from 0 to 1; parts that are out of the
             picture or occluded have none.
+        relief: Standard deviation of the points along their thinnest direction, in radii of a
+            typical limb; that of a wall is near 0, that of a body seen from one side about 1.
     """
 
     distance: float
     inlier_share: float
     coverage: float
+    relief: float
 
     @classmethod
     def unknown(cls) -> BodyFit:
         """Returns the fit to no data, or of a body without a surface."""
-        return cls(float("nan"), float("nan"), float("nan"))
+        return cls(float("nan"), float("nan"), float("nan"), float("nan"))
 
     @classmethod
     def of(cls, body: Body, pose: Pose, points: Array) -> BodyFit:
@@ -52,18 +55,27 @@ class BodyFit:
             gaps = np.abs(capsules.surface_distance(points))
             bare = model_to_data(capsules.axis_points(SPACING * body.size), KDTree(points)).lengths
             near = _limb_radius(body.capsules)
+            relief = _least_deviation(points) / near
         elif body.surface is not None:
             placed = body.surface.place(transforms)
             gaps = np.asarray(KDTree(placed).query(points)[0])
             bare = np.asarray(KDTree(points).query(placed)[0])
             near = NEAR * body.size
+            relief = float("nan")  # A rigid object may be flat.
         else:
             return cls.unknown()
         return cls(
             distance=float(np.median(gaps)),
             inlier_share=float((gaps <= near).mean()),
             coverage=float((bare <= near).mean()),
+            relief=relief,
         )
+
+
+def _least_deviation(points: Array) -> float:
+    """Returns the standard deviation [m] of points (N, 3) along their thinnest direction."""
+    centred = points - points.mean(axis=0)
+    return float(np.sqrt(max(np.linalg.eigvalsh(centred.T @ centred / len(points))[0], 0.0)))
 
 
 def _limb_radius(capsules: Capsules) -> float:

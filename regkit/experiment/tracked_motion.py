@@ -73,7 +73,10 @@ def read_tracked_motion(folder: Path, fps: float | None = None) -> TrackedMotion
                     "exported with the run's bones and markers, without mesh and surface",
                     place=str(results),
                 )
-            return TrackedMotion(name, body, transforms, arrays["hinges"], given, skin)
+            verdicts = tuple(map(str, arrays["verdicts"])) if "verdicts" in arrays else None
+            return TrackedMotion(
+                name, body, transforms, arrays["hinges"], given, skin, verdicts=verdicts
+            )
     raise DataError(
         "no template of the run has these markers; run the experiment again", place=str(folder)
     )
@@ -132,6 +135,8 @@ def _arrays(folder: Path) -> dict[str, NDArray[Any]]:
             len(numbers[name]) == frames and np.isfinite(numbers[name]).all() for name in MOVING
         ):
             raise DataError(f"damaged: not {frames} finite poses and a size")
+        if "verdicts" in arrays and arrays["verdicts"].shape != (frames,):
+            raise DataError(f"damaged: not a verdict for each of {frames} frames")
     return arrays | numbers
 
 

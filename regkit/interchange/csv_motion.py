@@ -11,9 +11,9 @@ from regkit.system.files import write_text
 
 PLACE, TURN = ("x", "y", "z"), ("qx", "qy", "qz", "qw")
 
-COLUMNS = ("frame", "time", "kind", "name", *PLACE, *TURN, "angle_rad")
+COLUMNS = ("frame", "time", "kind", "name", *PLACE, *TURN, "angle_rad", "verdict")
 """Columns of the table: times in [s], positions in [m] in the camera frame (x right, y down, z
-forward), angles in [rad]."""
+forward), angles in [rad]; the verdict is that of the frame."""
 
 
 def write_csv(motion: TrackedMotion, path: Path) -> None:
@@ -27,17 +27,18 @@ def write_csv(motion: TrackedMotion, path: Path) -> None:
     """
     rows: list[tuple[object, ...]] = []
     skeleton, markers = motion.body.skeleton, motion.body.markers
-    frames = zip(motion.times, motion.transforms, motion.hinges, strict=True)
-    for frame, (time, transforms, hinges) in enumerate(frames):
+    verdicts = motion.verdicts or ("",) * len(motion.times)
+    frames = zip(motion.times, motion.transforms, motion.hinges, verdicts, strict=True)
+    for frame, (time, transforms, hinges, verdict) in enumerate(frames):
         when = (frame, f"{time:.6f}")
         quaternions = from_matrix(transforms[:, :3, :3])
         places = zip(skeleton.names, transforms[:, :3, 3], quaternions, strict=True)
         for name, place, quaternion in places:
-            rows.append((*when, "segment", name, *_words([*place, *quaternion]), ""))
+            rows.append((*when, "segment", name, *_words([*place, *quaternion]), "", verdict))
         for name, place in zip(markers.names, markers.place(transforms), strict=True):
-            rows.append((*when, "marker", name, *_words(list(place)), *[""] * 5))
+            rows.append((*when, "marker", name, *_words(list(place)), *[""] * 5, verdict))
         for name, angle in zip(skeleton.hinge_names, hinges, strict=True):
-            rows.append((*when, "hinge", name, *[""] * 7, *_words([angle])))
+            rows.append((*when, "hinge", name, *[""] * 7, *_words([angle]), verdict))
     write_text(path, csv_text(COLUMNS, rows))
 
 

@@ -25,6 +25,7 @@ class TrackedMotion:
         hinges: Angle of each hinge, (T, n_hinge) [rad].
         fps: Frames per second.
         skin: The body's mesh at its size, with bones named like segments; None if there is none.
+        verdicts: Whether the body was found in each frame, (T,); None if unknown.
     """
 
     name: str
@@ -33,6 +34,7 @@ class TrackedMotion:
     hinges: Array
     fps: float
     skin: SkinnedMesh | None
+    verdicts: tuple[str, ...] | None = None
 
     @property
     def times(self) -> Array:

@@ -70,6 +70,7 @@ class TrackRecorder:
             "surface_distances": fit.distance,
             "inlier_shares": fit.inlier_share,
             "coverages": fit.coverage,
+            "reliefs": fit.relief,
             "points": 0 if points is None else len(points),
             "energies": found.energy,
             "evaluations": found.evaluations,

@@ -29,6 +29,8 @@ class Track(Brief):
         inlier_shares: Fraction of a frame's points that lie on the body's surface, (T,); NaN
             without data. Unlike a method's own inlier probability, it compares methods.
         coverages: Fraction of the body that has data nearby, (T,); NaN without data.
+        reliefs: Deviation of the points along their thinnest direction, in radii of a typical limb,
+            (T,); NaN without data. Data without relief are a wall.
         points: Number of points, (T,); 0 for a frame without data, whose pose is the last one.
         energies: Energies in the method's own units, (T,).
         evaluations: Numbers of energy evaluations, (T,).
@@ -44,6 +46,7 @@ class Track(Brief):
     surface_distances: Array
     inlier_shares: Array
     coverages: Array
+    reliefs: Array
     points: Array
     energies: Array
     evaluations: Array
@@ -58,7 +61,7 @@ class Track(Brief):
     @cached_property
     def verdicts(self) -> tuple[Verdict, ...]:
         """Whether the body was found in each frame, (T,)."""
-        return frame_verdicts(self.points, self.inlier_shares, self.coverages)
+        return frame_verdicts(self.points, self.inlier_shares, self.coverages, self.reliefs)
 
     @property
     def seen(self) -> NDArray[np.bool_]:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from regkit.tracking.track import Track
-from regkit.tracking.verdict import Verdict
+from regkit.tracking.verdict import FLAT, Verdict
 
 MANY = 0.1
 """A track is doubtful if a larger fraction of its frames is doubtful or has no data."""
@@ -77,6 +77,10 @@ def _reason(track: Track, numbers: Sequence[int]) -> str:
                 if frames[one]
             )
         )
+    flat = np.flatnonzero(track.reliefs < FLAT)
+    if len(flat):
+        where = f"in frame {numbers[flat[0]]} " if len(track) > 1 else ""
+        parts.append(f"{where}the data are as flat as a wall")
     shares = np.minimum(track.inlier_shares, track.coverages)
     if np.isfinite(shares).any():
         worst = int(np.nanargmin(shares))

@@ -15,6 +15,11 @@ LOST_SHARE = 0.5
 """The body is lost in a frame if either share is smaller."""
 
 
+FLAT = 0.25
+"""Data with less relief are a wall and no body, whose relief is at least 0.77 in 14 recordings of
+two people with a depth camera."""
+
+
 class Verdict(StrEnum):
     """Whether the body was found."""
 
@@ -24,19 +29,22 @@ class Verdict(StrEnum):
     NO_DATA = "no data"
 
 
-def frame_verdicts(points: Array, inlier_shares: Array, coverages: Array) -> tuple[Verdict, ...]:
+def frame_verdicts(
+    points: Array, inlier_shares: Array, coverages: Array, reliefs: Array
+) -> tuple[Verdict, ...]:
     """Returns the verdict of each of T frames.
 
     The body is found where the data lie on its surface and where it has data: either alone accepts
-    a body of the wrong size, or in the wrong place. Unknown shares, those of a body without a
-    surface, raise no doubt.
+    a body of the wrong size, or in the wrong place. Flat data are no body. Unknown numbers, those
+    of a body without a surface, raise no doubt.
 
     Args:
         points: Number of points of each frame, (T,).
         inlier_shares: Fraction of the points that lie on the body's surface, (T,).
         coverages: Fraction of the body that has data nearby, (T,).
+        reliefs: Deviation of the points along their thinnest direction, in limb radii, (T,).
     """
-    lost = (inlier_shares < LOST_SHARE) | (coverages < LOST_SHARE)
+    lost = (inlier_shares < LOST_SHARE) | (coverages < LOST_SHARE) | (reliefs < FLAT)
     doubtful = (inlier_shares < SURE_INLIERS) | (coverages < SURE_COVERAGE)
     choices = [Verdict.NO_DATA, Verdict.LOST, Verdict.DOUBTFUL]
     chosen = np.select([points == 0, lost, doubtful], [0, 1, 2], 3)

@@ -6,7 +6,7 @@ import shutil
 
 import numpy as np
 import pytest
-from places import DATA
+from places import CASES, DATA
 
 from regkit.clouds import write_cloud
 
@@ -89,6 +89,15 @@ def test_body_that_is_not_there_counts_as_lost(regkit, out):
     assert ended.code == 3
     assert "error: lost" in ended.err
     assert json.loads((out / "result.json").read_text())["verdict"] == "lost"
+
+
+@pytest.mark.parametrize("name", ["walk_half_scale", "by_rows_flat"])
+def test_data_of_half_the_size_and_a_flat_wall_are_not_found(regkit, name):
+    ended = regkit("register", CASES / "11-intrinsics" / name, "--json", "--strict")
+    assert ended.code == 3, ended.err
+    assert json.loads(ended.out)["verdict"] != "found"
+    told = "spread over" if name == "walk_half_scale" else "flat"
+    assert told in ended.err
 
 
 def test_track_that_ends_at_a_damaged_frame_keeps_what_was_tracked(regkit, tmp_path, out):

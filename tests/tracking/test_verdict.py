@@ -29,6 +29,7 @@ def track_with(*verdicts: Verdict) -> Track:
         surface_distances=nothing,
         inlier_shares=shares,
         coverages=np.where(np.isnan(shares), np.nan, 1.0),
+        reliefs=np.where(np.isnan(shares), np.nan, 1.0),
         points=np.array([0.0 if one is N else 50.0 for one in verdicts]),
         energies=nothing,
         evaluations=nothing,
@@ -47,7 +48,7 @@ def test_frame_is_judged_by_the_worse_of_both_shares():
 
 def test_body_without_a_surface_raises_no_doubt():
     unknown = np.full(2, np.nan)
-    track = replace(track_with(F, F), inlier_shares=unknown, coverages=unknown)
+    track = replace(track_with(F, F), inlier_shares=unknown, coverages=unknown, reliefs=unknown)
     assert track.verdicts == (F, F)
 
 
@@ -76,6 +77,12 @@ def test_track_is_judged_by_its_frames(frames, verdict):
     assert bool(judged.reason) == (verdict is not F or N in frames)
 
 
+def test_wall_is_no_body():
+    track = replace(track_with(F, F), reliefs=np.array([1.0, 0.1]))
+    assert track.verdicts == (F, L)
+    assert "flat" in TrackVerdict.of(track).reason
+
+
 def test_reason_names_the_worst_frame_by_its_number():
     assert "in frame 7 " in TrackVerdict.of(track_with(F, L, F), range(5, 11, 2)).reason
 
@@ -93,6 +100,8 @@ def test_fit_falls_with_wrong_places_wrong_sizes_and_missing_parts(template):
     whole = BodyFit.of(body, pose, points)
     assert min(whole.inlier_share, whole.coverage) > 0.95
     assert whole.distance < 0.1 * body.size
+    assert whole.relief > 0.4
+    assert BodyFit.of(body, pose, points * [1.0, 1.0, 0.0] + [0.0, 0.0, 2.0]).relief < 1e-6
     shifted = BodyFit.of(body, pose, points + np.array([0.3 * body.size, 0.0, 0.0]))
     assert min(shifted.inlier_share, shifted.coverage) < 0.5
     halved = BodyFit.of(body, pose, points[points[:, 1] > np.median(points[:, 1])])
