@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,12 @@ ROUNDED = 0.03
 
 RIGID = 0.02
 """Largest deviation of a bone's axes from a rotation."""
+
+MAX_BONES = 10_000
+"""Number of bones that no skeleton has."""
+
+SHOWN = 5
+"""Number of wrong names that a message lists."""
 
 Arrays = dict[str, np.ndarray[Any, np.dtype[Any]]]
 
@@ -122,12 +129,15 @@ def checked_labels(arrays: Mapping[str, Any], labels: str, parents: str) -> tupl
     """Returns the names of bones, whose parents come first.
 
     Raises:
-        DataError: If names are not unique, or a parent does not come first.
+        DataError: If there are none or too many, names are not unique, or a parent does not come
+            first.
     """
     names = tuple(str(label) for label in np.atleast_1d(arrays[labels]).ravel())
-    twice = sorted({name for name in names if names.count(name) > 1})
-    if twice or not names:
-        raise DataError(f"{labels} must be unique names; repeated: {', '.join(twice) or 'none'}")
+    if not 0 < len(names) <= MAX_BONES:
+        raise DataError(f"{labels} has {len(names)} names; it needs one to {MAX_BONES}")
+    twice = sorted(name for name, count in Counter(names).items() if count > 1)
+    if twice:
+        raise DataError(f"{labels} must be unique names; repeated: {', '.join(twice[:SHOWN])}")
     above = np.atleast_1d(arrays[parents]).ravel()
     if len(above) != len(names):
         raise DataError(f"{labels} has {len(names)} names, and {parents} {len(above)} numbers")

@@ -15,6 +15,7 @@ from regkit.clouds.formats.text.lines import lines_of
 from regkit.system.arrays import Array, Indices
 from regkit.system.errors import DataError
 from regkit.system.notes import note
+from regkit.system.plain_numbers import real, whole
 
 _UNREAD = ("curv", "curv2", "surf")
 """Statements of curves and surfaces that are not polygons."""
@@ -70,7 +71,7 @@ def _statements(lines: list[str]) -> Iterator[tuple[int, list[str]]]:
 
 def _vertex(words: list[str], place: str) -> list[float]:
     try:
-        values = [float(word) for word in words[1:]]
+        values = [real(word) for word in words[1:]]
     except ValueError:
         values = []
     if len(values) not in (3, 4, 6, 7):
@@ -83,7 +84,7 @@ def _vertex(words: list[str], place: str) -> list[float]:
 
 def _face(words: list[str], vertices: int, place: str) -> list[int]:
     try:
-        numbers = [int(word.partition("/")[0]) for word in words[1:]]
+        numbers = [whole(word.partition("/")[0]) for word in words[1:]]
     except ValueError:
         raise DataError(f"not a face: '{' '.join(words)[:60]}'", place=place) from None
     face = [number - 1 if number > 0 else vertices + number for number in numbers]

@@ -14,6 +14,7 @@ import numpy as np
 from regkit.clouds.formats.lzf import MAX_EXPANSION, decompress
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
+from regkit.system.plain_numbers import real
 
 _KINDS = {"F": "f", "I": "i", "U": "u"}
 _SIZES = {"F": (4, 8), "I": (1, 2, 4, 8), "U": (1, 2, 4, 8)}
@@ -147,7 +148,7 @@ def _ascii(header: _Header, body: bytes, place: str) -> Array:
                 f"{len(words)} values; the fields need {width}", place=f"{place}:{number}"
             )
         try:
-            rows.append((float(words[x]), float(words[y]), float(words[z])))
+            rows.append((real(words[x]), real(words[y]), real(words[z])))
         except ValueError as error:
             raise DataError(str(error), place=f"{place}:{number}") from None
     if len(rows) != header.points:

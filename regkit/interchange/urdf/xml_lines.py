@@ -13,6 +13,7 @@ from regkit.interchange.urdf.xml_text import xml_text
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
 from regkit.system.notes import note
+from regkit.system.plain_numbers import real
 
 XACRO = "write the file out with `xacro FILE > robot.urdf`, and import that"
 """What to do with a file that is not processed yet."""
@@ -142,7 +143,7 @@ class Element:
                 + XACRO
             )
         try:
-            values = np.array([float(word) for word in words])
+            values = np.array([real(word) for word in words])
         except ValueError:
             values = np.full(1, np.nan)
         if len(values) > count > 1 and np.isfinite(values).all():
