@@ -13,6 +13,7 @@ from regkit.system.archives import read_arrays
 from regkit.system.arrays import Array, Indices
 from regkit.system.errors import DataError
 from regkit.system.notes import note
+from regkit.system.printable import is_name, shortened
 
 ROUNDED = 0.03
 """Weights whose sum is further from one are more than rounded to eight bits."""
@@ -132,9 +133,15 @@ def checked_labels(arrays: Mapping[str, Any], labels: str, parents: str) -> tupl
         DataError: If there are none or too many, names are not unique, or a parent does not come
             first.
     """
-    names = tuple(str(label) for label in np.atleast_1d(arrays[labels]).ravel())
+    stored = np.atleast_1d(arrays[labels]).ravel()
+    if stored.dtype.kind not in "US":
+        raise DataError(f"{labels} is of the type {stored.dtype}; it needs names")
+    names = tuple(stored.astype(np.str_).tolist())
     if not 0 < len(names) <= MAX_BONES:
         raise DataError(f"{labels} has {len(names)} names; it needs one to {MAX_BONES}")
+    odd = [name for name in names if not is_name(name)]
+    if odd:
+        raise DataError(f"{labels} has '{shortened(odd[0])}', which cannot be printed")
     twice = sorted(name for name, count in Counter(names).items() if count > 1)
     if twice:
         raise DataError(f"{labels} must be unique names; repeated: {', '.join(twice[:SHOWN])}")

@@ -14,7 +14,7 @@ from regkit.system.guard import reading
 from regkit.system.plain_numbers import real
 from regkit_synthesis.hands.pose import PARENTS, WRIST, HandPose
 
-_JOINT = re.compile(r"'?([a-z-]+)'?:\s*\{\s*offsetMatrix:\s*\[([^\]]*)\]")
+_JOINT = re.compile(r"(?<![a-z-])'?([a-z-]+)'?:\s*\{\s*offsetMatrix:\s*\[([^\]]*)\]")
 
 
 def read_iwer(path: Path) -> HandPose:

@@ -14,6 +14,7 @@ from regkit.system.arrays import Array
 from regkit.system.errors import DataError
 from regkit.system.notes import note
 from regkit.system.plain_numbers import real
+from regkit.system.printable import plain_name
 
 XACRO = "write the file out with `xacro FILE > robot.urdf`, and import that"
 """What to do with a file that is not processed yet."""
@@ -30,7 +31,7 @@ class Element:
 
     Attributes:
         tag: Name of the tag.
-        attributes: Attributes of the tag.
+        attributes: Attributes of the tag, without control characters.
         place: ``file:line``.
         children: Child elements.
     """
@@ -54,7 +55,8 @@ class Element:
         parser = expat.ParserCreate()
 
         def start(tag: str, attributes: dict[str, str]) -> None:
-            element = cls(tag, attributes, f"{path}:{parser.CurrentLineNumber}")
+            plain = {name: plain_name(value) for name, value in attributes.items()}
+            element = cls(tag, plain, f"{path}:{parser.CurrentLineNumber}")
             around[-1].children.append(element)
             around.append(element)
 

@@ -109,7 +109,7 @@ def _check_near(points: Array, place: str) -> None:
     farthest = float(np.abs(points).max(initial=0.0))
     if farthest > MAX_DISTANCE:
         raise DataError(
-            f"a coordinate of {farthest:g} m is beyond any measurement; dataset.record is wrong, or "
-            "the file is damaged",
+            f"a coordinate of {farthest:g} m is beyond any measurement; dataset.record is wrong, "
+            "or the file is damaged",
             place=place,
         )
