@@ -18,6 +18,7 @@ from regkit.search.rotations import by_rotations
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError, DataError
 from regkit.system.guard import reading
+from regkit.system.plain_numbers import real
 
 STARTS = ("nearest", "identity", "centroids", "rotations", "features")
 """Names of the initial alignments; any other name is a file."""
@@ -126,7 +127,7 @@ def _numbers(line: str, place: str) -> list[float]:
     bare = re.sub(r"(#|//).*", "", line).strip("[]; \t,")
     words = re.split(r"\s*[,;]\s*|\s+", bare) if bare else []
     try:
-        return [float(word.strip("[]")) for word in words]
+        return [real(word.strip("[]")) for word in words]
     except ValueError:
         raise DataError(f"not a row of numbers: '{line.strip()[:60]}'", place=place) from None
 

@@ -162,10 +162,7 @@ def frame_of(
             "pixels without a measurement by 0 or NaN",
             place=place,
         )
-    try:
-        return Frame(lens.back_projected(values), lens, values, place=place)
-    except DataError as error:
-        raise error.at(place) from None
+    return Frame(lens.back_projected(values, place=place), lens, values, place)
 
 
 def _tell_missing(count: int, place: str) -> None:

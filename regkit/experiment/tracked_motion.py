@@ -24,11 +24,12 @@ from regkit.interchange.motion import TrackedMotion
 from regkit.interfaces import Template
 from regkit.skeleton import Pose
 from regkit.system.archives import read_arrays
-from regkit.system.arrays import Array
+from regkit.system.arrays import Array, real_numbers
 from regkit.system.errors import ConfigError, DataError, RegkitError
 from regkit.system.guard import reading
 from regkit.system.links import check_links
 from regkit.system.notes import note
+from regkit.tracking import check_verdicts
 
 MOVING = ("root", "balls", "hinges", "markers")
 NEEDED = (*MOVING, "size")
@@ -129,14 +130,14 @@ def _arrays(folder: Path) -> dict[str, NDArray[Any]]:
     if missing:
         raise DataError(f"lacks the arrays {', '.join(missing)}", place=str(file))
     with reading(file, "the poses of regkit run"):
-        numbers = {name: np.asarray(arrays[name], dtype=np.float64) for name in NEEDED}
+        numbers = {name: real_numbers(arrays[name], name) for name in NEEDED}
         frames = len(numbers["root"])
         if numbers["size"].shape or not all(
             len(numbers[name]) == frames and np.isfinite(numbers[name]).all() for name in MOVING
         ):
             raise DataError(f"damaged: not {frames} finite poses and a size")
-        if "verdicts" in arrays and arrays["verdicts"].shape != (frames,):
-            raise DataError(f"damaged: not a verdict for each of {frames} frames")
+        if "verdicts" in arrays:
+            check_verdicts(arrays["verdicts"], frames)
     return arrays | numbers
 
 

@@ -22,6 +22,9 @@ FIELDS = ("width", "height", "intrinsic_matrix")
 MAX_SIZE = 1 << 15
 """Largest width or height of an image [px]."""
 
+MAX_DISTANCE = 1e4
+"""Distance from the camera that no measurement exceeds [m]."""
+
 MIN_FOCAL, MAX_FOCAL = 0.1, 1000.0
 """Range of focal lengths in units of the image's size; the least sees 157 degrees."""
 
@@ -71,22 +74,31 @@ class Camera:
                 "centre: check whether the matrix is by rows or by columns"
             )
 
-    def back_projected(self, depth: Array) -> Array:
+    def back_projected(self, depth: Array, *, place: str | None = None) -> Array:
         """Returns the points (N, 3) [m] of all pixels with depth > 0, in row-major order.
 
         Args:
             depth: Distance along the optical axis, (H, W) [m]; zero marks an invalid pixel.
+            place: Where the image comes from, for messages.
 
         Raises:
-            DataError: If the image size differs from the camera's.
+            DataError: If the image size differs from the camera's, or a depth is beyond
+                ``MAX_DISTANCE``.
         """
         if depth.shape != (self.height, self.width):
             raise DataError(
                 f"the depth image has {depth.shape[1]}x{depth.shape[0]} pixels, but the camera has "
-                f"{self.width}x{self.height}; use the intrinsics of this image"
+                f"{self.width}x{self.height}; use the intrinsics of this image",
+                place=place,
             )
         rows, columns = np.nonzero(depth > 0.0)
         z = depth[rows, columns]
+        if (farthest := float(z.max(initial=0.0))) > MAX_DISTANCE:
+            raise DataError(
+                f"a depth of {farthest:g} m is farther than any camera measures; check the depth's "
+                "unit",
+                place=place,
+            )
         return np.column_stack(
             [(columns - self.cx) * z / self.fx, (rows - self.cy) * z / self.fy, z]
         )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -12,12 +13,22 @@ from regkit.system.archives import read_arrays
 from regkit.system.arrays import Array, Indices
 from regkit.system.errors import DataError
 from regkit.system.notes import note
+from regkit.system.printable import is_name, shortened
 
 ROUNDED = 0.03
 """Weights whose sum is further from one are more than rounded to eight bits."""
 
 RIGID = 0.02
 """Largest deviation of a bone's axes from a rotation."""
+
+FARTHEST = 1e6
+"""Coordinate that no skin has, in metres or millimetres."""
+
+MAX_BONES = 10_000
+"""Number of bones that no skeleton has."""
+
+SHOWN = 5
+"""Number of wrong names that a message lists."""
 
 Arrays = dict[str, np.ndarray[Any, np.dtype[Any]]]
 
@@ -31,11 +42,17 @@ def mesh_arrays(path: Path, keys: Sequence[str]) -> Arrays:
     return read_arrays(path, keys, f"a skinned mesh, an .npz file with {', '.join(keys)}")
 
 
-def checked_shape(arrays: Arrays, key: str, *shape: int | None) -> Array:
-    """Returns an array of finite numbers of a shape; None stands for any length.
+def checked_shape(arrays: Arrays, key: str, *shape: int | None, most: float = np.inf) -> Array:
+    """Returns an array of finite numbers of a shape.
+
+    Args:
+        arrays: The arrays by name.
+        key: Name of the array.
+        shape: The shape; None stands for any length.
+        most: The largest absolute value.
 
     Raises:
-        DataError: If the shape differs, or a number is not finite.
+        DataError: If the shape differs, or a number is not finite or beyond ``most``.
     """
     array = arrays[key]
     fits = array.ndim == len(shape) and all(
@@ -51,6 +68,8 @@ def checked_shape(arrays: Arrays, key: str, *shape: int | None) -> Array:
     bad = ~np.isfinite(numbers).reshape(len(numbers), -1).all(axis=1)
     if bad.any():
         raise DataError(f"{key} has NaN or infinite numbers, first in row {int(np.argmax(bad))}")
+    if (largest := float(np.abs(numbers).max(initial=0.0))) > most:
+        raise DataError(f"{key} holds {largest:g}, which cannot be right; the most is {most:g}")
     return numbers
 
 
@@ -104,7 +123,7 @@ def checked_bones(arrays: Arrays, poses: str, count: int) -> Array:
     Raises:
         DataError: If one is not.
     """
-    rest = checked_shape(arrays, poses, count, 4, 4)
+    rest = checked_shape(arrays, poses, count, 4, 4, most=FARTHEST)
     turns = rest[:, :3, :3]
     off = np.abs(turns @ turns.swapaxes(1, 2) - np.eye(3)).max(axis=(1, 2), initial=0.0)
     wrong = (off > RIGID) | (np.linalg.det(turns) < 0.0)
@@ -122,12 +141,21 @@ def checked_labels(arrays: Mapping[str, Any], labels: str, parents: str) -> tupl
     """Returns the names of bones, whose parents come first.
 
     Raises:
-        DataError: If names are not unique, or a parent does not come first.
+        DataError: If there are none or too many, names are not unique, or a parent does not come
+            first.
     """
-    names = tuple(str(label) for label in np.atleast_1d(arrays[labels]).ravel())
-    twice = sorted({name for name in names if names.count(name) > 1})
-    if twice or not names:
-        raise DataError(f"{labels} must be unique names; repeated: {', '.join(twice) or 'none'}")
+    stored = np.atleast_1d(arrays[labels]).ravel()
+    if stored.dtype.kind not in "US":
+        raise DataError(f"{labels} is of the type {stored.dtype}; it needs names")
+    names = tuple(stored.astype(np.str_).tolist())
+    if not 0 < len(names) <= MAX_BONES:
+        raise DataError(f"{labels} has {len(names)} names; it needs one to {MAX_BONES}")
+    odd = [name for name in names if not is_name(name)]
+    if odd:
+        raise DataError(f"{labels} has '{shortened(odd[0])}', which cannot be printed")
+    twice = sorted(name for name, count in Counter(names).items() if count > 1)
+    if twice:
+        raise DataError(f"{labels} must be unique names; repeated: {', '.join(twice[:SHOWN])}")
     above = np.atleast_1d(arrays[parents]).ravel()
     if len(above) != len(names):
         raise DataError(f"{labels} has {len(names)} names, and {parents} {len(above)} numbers")

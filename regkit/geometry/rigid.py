@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from regkit.geometry.rotation import from_matrix, right_jacobian, to_vector, vector_to_matrix
-from regkit.system.arrays import Array
+from regkit.system.arrays import MAX_COORDINATE, Array
 from regkit.system.errors import DataError
 from regkit.system.notes import note
 
@@ -47,6 +47,12 @@ def checked_rigid(values: ArrayLike, *, place: str | None = None) -> Array:
     if matrix.shape != (4, 4) or not np.isfinite(matrix).all():
         raise DataError(
             f"a rigid motion must be 4x4 finite numbers; the shape is {matrix.shape}", place=place
+        )
+    largest = float(np.abs(matrix).max())
+    if largest > MAX_COORDINATE:
+        raise DataError(
+            f"the matrix is not a rigid motion: it holds {largest:g}, beyond any length",
+            place=place,
         )
     last = [0.0, 0.0, 0.0, 1.0]
     if not np.array_equal(matrix[3], last):

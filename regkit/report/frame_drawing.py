@@ -12,7 +12,7 @@ from regkit.body import Body
 from regkit.interfaces import Registrar
 from regkit.primitives import Gaussians, Primitives, TaperedCapsules, Volumes
 from regkit.skeleton import Placement
-from regkit.system.arrays import Array
+from regkit.system.arrays import Array, real_numbers
 from regkit.tracking import Snapshot
 
 MAX_POINTS = 1500
@@ -149,13 +149,14 @@ class FrameDrawing:
 
         Raises:
             KeyError: If an array is missing.
+            DataError: If an array holds no numbers.
             ValueError: If an array has a wrong shape.
         """
 
         def many(name: str, *shape: int) -> Array:
-            return np.asarray(named[name], dtype=float).reshape(-1, *shape)
+            return real_numbers(named[name], name).reshape(-1, *shape)
 
-        surfaces = np.asarray(named["surfaces"], dtype=float)
+        surfaces = real_numbers(named["surfaces"], "surfaces")
         return cls(
             frame=int(named["frame"]),
             why=str(named["why"]),

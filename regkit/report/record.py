@@ -13,20 +13,19 @@ from regkit.interfaces import Registrar
 from regkit.metrics import PCK_FRACTION, JointErrors, Losses
 from regkit.observation import Truth
 from regkit.report.frame_drawing import FrameDrawing
-from regkit.system.arrays import Array
-from regkit.tracking import Snapshot, Track, Verdict
+from regkit.system.arrays import Array, real_numbers
+from regkit.tracking import Snapshot, Track, Verdict, check_verdicts
 
 Arrays = dict[str, np.ndarray[Any, Any]]
 
 PER_FRAME = (
     "surface_distances",
     "inlier_shares",
-    "verdicts",
     "seconds",
     "preprocessing",
     "evaluations",
 )
-"""Arrays with a value for each frame."""
+"""Arrays with a number for each frame."""
 
 
 @dataclass(frozen=True)
@@ -139,17 +138,20 @@ class Record:
 
         Raises:
             KeyError: If an array is missing.
+            DataError: If an array holds no numbers, or verdicts no words of ``Verdict``.
             ValueError: If an array has another shape than the others.
         """
         frames = len(named["seconds"])
-        for name in PER_FRAME:
-            if named[name].shape != (frames,):
-                raise ValueError(f"'{name}' has the shape {named[name].shape} of {frames} frames")
+        check_verdicts(named["verdicts"], frames)
+        values = {name: real_numbers(named[name], name) for name in PER_FRAME}
+        for name, array in values.items():
+            if array.shape != (frames,):
+                raise ValueError(f"'{name}' has the shape {array.shape} of {frames} frames")
         errors = None
         if "joints" in named:
             joints = tuple(str(joint) for joint in named["joints"])
             errors = JointErrors(joints, *(
-                np.asarray(named[name], dtype=float).reshape(frames, len(joints))
+                real_numbers(named[name], name).reshape(frames, len(joints))
                 for name in ("raw", "adjusted")
             ))  # fmt: skip
         drawings: list[FrameDrawing] = []
@@ -164,13 +166,9 @@ class Record:
             fps=float(named["fps"]),
             size=float(named["size"]),
             errors=errors,
-            surface_distances=named["surface_distances"],
-            inlier_shares=named["inlier_shares"],
             verdicts=named["verdicts"],
-            seconds=named["seconds"],
-            preprocessing=named["preprocessing"],
-            evaluations=named["evaluations"],
             drawings=tuple(drawings),
+            **values,
         )
 
 

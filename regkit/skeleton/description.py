@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import numpy as np
-from pydantic import Field, ValidationError, model_validator
+from pydantic import AfterValidator, Field, ValidationError, model_validator
 
 from regkit.config.model import Model, did_you_mean, misplaced
 from regkit.config.quantities import Length
 from regkit.skeleton.joints import FreeJoint, HingeJoint, Joint, Position, Rotation
+from regkit.system.printable import is_name, shortened
 
 
 class CapsuleDescription(Model):
@@ -19,6 +22,16 @@ class CapsuleDescription(Model):
     """Centre of the second sphere [m]; equal to ``start`` it makes a single sphere."""
     radius: Length | tuple[Length, Length]
     """Radius of both spheres, or the radii of the first and the second [m]."""
+
+
+def _printable(name: str) -> str:
+    if not is_name(name):
+        raise ValueError(f"the name '{shortened(name)}' cannot be printed")
+    return name
+
+
+Name = Annotated[str, AfterValidator(_printable)]
+"""Name of a segment or a marker."""
 
 
 class SegmentDescription(Model):
@@ -34,14 +47,14 @@ class SegmentDescription(Model):
     """Joint to the parent, fixed by default; for the root, which must name it, to the world."""
     capsules: tuple[CapsuleDescription, ...] = ()
     """Capsules that approximate the segment's surface."""
-    markers: dict[str, Position] = Field(default_factory=dict)
+    markers: dict[Name, Position] = Field(default_factory=dict)
     """Named points in the segment's frame [m], such as joints or fingertips."""
 
 
 class SkeletonDescription(Model):
     """A tree of segments. All joint angles are zero in the rest pose."""
 
-    segments: dict[str, SegmentDescription] = Field(min_length=1)
+    segments: dict[Name, SegmentDescription] = Field(min_length=1)
     """The segments by name, in any order."""
 
     @model_validator(mode="after")

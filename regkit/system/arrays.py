@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -17,6 +19,21 @@ Indices = NDArray[np.intp]
 
 MAX_COORDINATE = 1e12
 """Largest coordinate that can be a measurement, in any unit from micrometres to metres."""
+
+
+def real_numbers(stored: NDArray[Any], what: str) -> Array:
+    """Returns a stored array as float64 in row-major order, as compiled loops need it.
+
+    Args:
+        stored: The array, of any type.
+        what: Its name, for messages.
+
+    Raises:
+        DataError: If it holds no real numbers, such as text or times.
+    """
+    if stored.dtype.kind not in "fiub":
+        raise DataError(f"{what} is of the type {stored.dtype}; it needs numbers")
+    return np.array(stored, dtype=np.float64, order="C")
 
 
 def read_only(values: ArrayLike) -> Array:

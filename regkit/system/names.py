@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import re
 
-from regkit.system.printable import printable
+from regkit.system.printable import plain_name
 
 LONGEST = 100
 """Maximum length of a name [bytes]; several of them make a path."""
@@ -22,8 +22,7 @@ _DEVICE = re.compile(r"(con|prn|aux|nul|com[0-9¹²³]|lpt[0-9¹²³])\s*(\..*)?
 
 def file_name(name: str) -> str:
     """Returns a name that is valid for a file or folder on every system; a valid one unchanged."""
-    safe = "".join("_" if printable(one) != one else one for one in name)
-    safe = _NOT_IN_NAMES.sub("_", safe)
+    safe = _NOT_IN_NAMES.sub("_", plain_name(name))
     if not safe or _BEGINS_WRONG.match(safe) or _DEVICE.fullmatch(safe):
         safe = f"_{safe}"
     if safe[-1] in " .":

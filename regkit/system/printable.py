@@ -23,6 +23,16 @@ def printable(text: str) -> str:
     return _UNSAFE.sub(lambda found: found.group().encode("unicode_escape").decode("ascii"), text)
 
 
+def plain_name(text: str) -> str:
+    """Returns a name with an underscore in place of each unsafe character and line feed."""
+    return _UNSAFE.sub("_", text).replace("\n", "_")
+
+
+def is_name(text: str) -> bool:
+    """Returns whether a name can be printed: it is not blank, and its characters are safe."""
+    return bool(text.strip()) and plain_name(text) == text
+
+
 def one_line(text: str) -> str:
     """Returns a text with its unsafe characters and its line feeds as escapes."""
     return printable(text).replace("\n", "\\n")

@@ -6,7 +6,7 @@ from regkit.tracking.recorder import Snapshot, TrackRecorder
 from regkit.tracking.session import Session
 from regkit.tracking.track import Track
 from regkit.tracking.track_verdict import TrackVerdict
-from regkit.tracking.verdict import Verdict
+from regkit.tracking.verdict import Verdict, check_verdicts
 
 __all__ = [
     "Session",
@@ -17,5 +17,6 @@ __all__ = [
     "TrackedFrame",
     "Verdict",
     "check_unit",
+    "check_verdicts",
     "tracked",
 ]

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from enum import StrEnum
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from regkit.system.arrays import Array
+from regkit.system.errors import DataError
 
 SURE_INLIERS, SURE_COVERAGE = 0.8, 0.8
 """A frame with smaller shares of inliers or of covered body is doubtful."""
@@ -49,3 +52,16 @@ def frame_verdicts(
     choices = [Verdict.NO_DATA, Verdict.LOST, Verdict.DOUBTFUL]
     chosen = np.select([points == 0, lost, doubtful], [0, 1, 2], 3)
     return tuple([*choices, Verdict.FOUND][choice] for choice in chosen)
+
+
+def check_verdicts(stored: NDArray[Any], frames: int) -> None:
+    """Checks the verdicts of frames in a file.
+
+    Raises:
+        DataError: If they are not one word of ``Verdict`` for each frame.
+    """
+    words = [str(verdict) for verdict in Verdict]
+    if stored.shape != (frames,):
+        raise DataError(f"verdicts has the shape {stored.shape}; there are {frames} frames")
+    if stored.dtype.kind != "U" or not np.isin(stored, words).all():
+        raise DataError(f"verdicts holds other words than {', '.join(words)}")

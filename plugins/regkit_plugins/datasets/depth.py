@@ -12,7 +12,6 @@ from regkit.geometry.camera import Camera
 from regkit.interfaces import Dataset, Recording
 from regkit.observation import Frame, Truth
 from regkit.observation.depth_image import read_depth
-from regkit.system.errors import DataError
 from regkit_plugins.datasets.formats.recording_folders import (
     RecordingDescription,
     existing,
@@ -71,12 +70,9 @@ class DepthRecording(Recording):
         camera = Camera.read(self.folder / "camera.json")
         for index in sorted(set(indices)):
             path = self.files[index]
+            place = str(path)
             depth = read_depth(path) / self.depth_scale
-            try:
-                points = camera.back_projected(depth)
-            except DataError as error:
-                raise error.at(str(path)) from None
-            yield index, Frame(points, camera, depth, place=str(path))
+            yield index, Frame(camera.back_projected(depth, place=place), camera, depth, place)
 
     def input_files(self) -> list[Path]:
         """Returns the frames' files, and those beside them that exist."""

@@ -139,7 +139,7 @@ class Pdt13Recording(Recording):
             if self.layout.mirrored:
                 depth = depth[:, ::-1]
             place = f"{self.depth_file}: frame {index}"
-            yield Frame(camera.back_projected(depth), camera, depth, place=place)
+            yield Frame(camera.back_projected(depth, place=place), camera, depth, place)
 
     def input_files(self) -> list[Path]:
         """Returns both files, the second one if it exists."""

@@ -95,10 +95,7 @@ class UtdRecording(Recording):
         for index, image in zip(range(self.length), images, strict=False):
             depth = image[:, ::-1] / 1000.0
             place = f"{self.depth_file}: frame {index}"
-            try:
-                yield Frame(CAMERA.back_projected(depth), CAMERA, depth, place=place)
-            except DataError as error:
-                raise error.at(place) from None
+            yield Frame(CAMERA.back_projected(depth, place=place), CAMERA, depth, place)
 
     def input_files(self) -> list[Path]:
         """Returns both files, the second one if it exists."""

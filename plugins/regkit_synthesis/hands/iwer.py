@@ -7,12 +7,14 @@ from pathlib import Path
 
 import numpy as np
 
+from regkit.geometry.rigid import checked_rigid
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
 from regkit.system.guard import reading
+from regkit.system.plain_numbers import real
 from regkit_synthesis.hands.pose import PARENTS, WRIST, HandPose
 
-_JOINT = re.compile(r"'?([a-z-]+)'?:\s*\{\s*offsetMatrix:\s*\[([^\]]*)\]")
+_JOINT = re.compile(r"(?<![a-z-])'?([a-z-]+)'?:\s*\{\s*offsetMatrix:\s*\[([^\]]*)\]")
 
 
 def read_iwer(path: Path) -> HandPose:
@@ -38,7 +40,8 @@ def read_iwer(path: Path) -> HandPose:
 def _matrix(numbers: str, path: Path) -> Array:
     """Returns the matrix (4, 4) of 16 column-major numbers."""
     try:
-        values = np.array([float(number) for number in numbers.split(",") if number.strip()])
-        return values.reshape(4, 4, order="F")
+        values = np.array([real(number) for number in numbers.split(",") if number.strip()])
+        matrix = values.reshape(4, 4, order="F")
     except ValueError as error:
         raise DataError(f"an offsetMatrix is not 16 numbers ({error})", place=str(path)) from None
+    return checked_rigid(matrix, place=str(path))

@@ -15,6 +15,7 @@ from regkit.clouds.formats.text.lines import lines_of
 from regkit.system.arrays import Array, Indices
 from regkit.system.errors import DataError
 from regkit.system.notes import note
+from regkit.system.plain_numbers import real, whole
 
 _UNREAD = ("curv", "curv2", "surf")
 """Statements of curves and surfaces that are not polygons."""
@@ -27,7 +28,7 @@ def read_obj(path: Path) -> tuple[Array, Indices]:
     above the face.
 
     Raises:
-        DataError: If a vertex or a face is invalid.
+        DataError: If a vertex or a face is invalid, or a line is no statement.
     """
     vertices: list[list[float]] = []
     faces: list[list[int]] = []
@@ -39,6 +40,11 @@ def read_obj(path: Path) -> tuple[Array, Indices]:
         elif words[0] in ("f", "fo"):
             faces.append(_face(words, len(vertices), f"{path}:{number}"))
             places.append(number)
+        elif not words[0].isidentifier():
+            raise DataError(
+                f"'{' '.join(words)[:60]}' is no statement; they begin with a word such as v or f",
+                place=f"{path}:{number}",
+            )
         else:
             unread += words[0] in _UNREAD
     for face, number in zip(faces, places, strict=True):
@@ -70,7 +76,7 @@ def _statements(lines: list[str]) -> Iterator[tuple[int, list[str]]]:
 
 def _vertex(words: list[str], place: str) -> list[float]:
     try:
-        values = [float(word) for word in words[1:]]
+        values = [real(word) for word in words[1:]]
     except ValueError:
         values = []
     if len(values) not in (3, 4, 6, 7):
@@ -83,7 +89,7 @@ def _vertex(words: list[str], place: str) -> list[float]:
 
 def _face(words: list[str], vertices: int, place: str) -> list[int]:
     try:
-        numbers = [int(word.partition("/")[0]) for word in words[1:]]
+        numbers = [whole(word.partition("/")[0]) for word in words[1:]]
     except ValueError:
         raise DataError(f"not a face: '{' '.join(words)[:60]}'", place=place) from None
     face = [number - 1 if number > 0 else vertices + number for number in numbers]

@@ -14,6 +14,7 @@ from regkit.clouds.formats.polygons import Polygons
 from regkit.clouds.formats.text.lines import lines_of
 from regkit.system.arrays import Array, Indices
 from regkit.system.errors import DataError
+from regkit.system.plain_numbers import real, whole
 
 # Some published files have no space between OFF and the counts.
 _FIRST = re.compile(r"(?P<kind>(?:ST)?C?N?4?n?)OFF\b|(?P<glued>OFF)(?=\d)")
@@ -61,7 +62,7 @@ def _vertex(number: int, line: str, path: Path) -> list[float]:
     words = line.split()
     try:
         if len(words) >= 3:
-            return [float(word) for word in words[:3]]
+            return [real(word) for word in words[:3]]
     except ValueError:
         pass
     raise DataError(f"not a vertex x y z: '{line[:60]}'", place=f"{path}:{number}")
@@ -70,8 +71,8 @@ def _vertex(number: int, line: str, path: Path) -> list[float]:
 def _face(number: int, line: str, vertices: int, path: Path) -> list[int]:
     words, place = line.split(), f"{path}:{number}"
     try:
-        count = int(words[0])
-        corners = [int(word) for word in words[1 : count + 1]]
+        count = whole(words[0])
+        corners = [whole(word) for word in words[1 : count + 1]]
     except ValueError:
         raise DataError(f"not a face 'n i j k ...': '{line[:60]}'", place=place) from None
     if count < 1 or len(corners) != count:

@@ -14,6 +14,7 @@ import numpy as np
 from regkit.clouds.formats.lzf import MAX_EXPANSION, decompress
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
+from regkit.system.plain_numbers import real
 
 _KINDS = {"F": "f", "I": "i", "U": "u"}
 _SIZES = {"F": (4, 8), "I": (1, 2, 4, 8), "U": (1, 2, 4, 8)}
@@ -147,7 +148,7 @@ def _ascii(header: _Header, body: bytes, place: str) -> Array:
                 f"{len(words)} values; the fields need {width}", place=f"{place}:{number}"
             )
         try:
-            rows.append((float(words[x]), float(words[y]), float(words[z])))
+            rows.append((real(words[x]), real(words[y]), real(words[z])))
         except ValueError as error:
             raise DataError(str(error), place=f"{place}:{number}") from None
     if len(rows) != header.points:
@@ -157,8 +158,10 @@ def _ascii(header: _Header, body: bytes, place: str) -> Array:
 
 def _binary(header: _Header, body: bytes, place: str) -> Array:
     size = header.dtype.itemsize
-    if not header.points * size <= len(body) < (header.points + 1) * size:
-        raise _wrong_count(header, len(body) // size, place)
+    rest = body[header.points * size :]
+    # Some writers end the file with a line feed, or fill it up.
+    if len(body) < header.points * size or len(rest) >= size or rest.strip(b"\0 \r\n"):
+        raise _wrong_count(header, len(body) / size, place)
     rows = np.frombuffer(body, header.dtype, header.points)
     return np.column_stack([rows[str(axis)][:, 0].astype(np.float64) for axis in header.axes])
 
@@ -192,8 +195,8 @@ def _compressed(header: _Header, body: bytes, place: str) -> Array:
     return np.column_stack(columns).astype(np.float64)
 
 
-def _wrong_count(header: _Header, held: int, place: str) -> DataError:
+def _wrong_count(header: _Header, held: float, place: str) -> DataError:
     return DataError(
-        f"announces {header.points} points, but holds {held}; the file is cut short or damaged",
+        f"announces {header.points} points, but holds {held:.9g}; the file is cut short or damaged",
         place=place,
     )

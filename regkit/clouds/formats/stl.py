@@ -12,6 +12,7 @@ import numpy as np
 from regkit.clouds.formats.text.lines import lines_of
 from regkit.system.arrays import Array, Indices
 from regkit.system.errors import DataError
+from regkit.system.plain_numbers import real
 
 _HEADER = 84
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
@@ -59,7 +60,7 @@ def _text(path: Path) -> Array:
             raise DataError(f"'{line.strip()[:60]}' where {wanted} must stand", place=place)
         if word == "vertex":
             try:
-                x, y, z = map(float, words[1:])
+                x, y, z = map(real, words[1:])
             except ValueError:
                 raise DataError(f"not a vertex x y z: '{line.strip()[:60]}'", place=place) from None
             corners.append([x, y, z])

@@ -10,6 +10,7 @@ import numpy as np
 from regkit.interchange.bvh.lines import Lines
 from regkit.interchange.remarks import Remarks
 from regkit.system.arrays import Array, read_only
+from regkit.system.printable import plain_name
 
 CHANNELS = (
     *("Xposition", "Yposition", "Zposition"),
@@ -81,7 +82,7 @@ def read_hierarchy(lines: Lines, scale: float, remarks: Remarks) -> tuple[BvhJoi
 
 def _unique(name: str, names: set[str], number: int, lines: Lines, remarks: Remarks) -> str:
     """Returns a joint's name, or another if it is empty or taken."""
-    given = name.strip()
+    given = plain_name(name.strip())
     name = given or f"joint_{number}"
     count = 1
     while name in names:

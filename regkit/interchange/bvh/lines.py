@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from regkit.system.errors import DataError
+from regkit.system.plain_numbers import real
 
 HUGE = 1e30
 """Larger numbers are no lengths or angles, and their products overflow."""
@@ -79,7 +80,7 @@ class Lines:
         if len(words) != count:
             raise self.wrong(f"{what} has {len(words)} numbers; it needs {count}")
         try:
-            values = list(map(float, words))
+            values = list(map(real, words))
         except ValueError:
             values = self._with_commas(words, what)
         if not np.isfinite(values).all():
@@ -92,7 +93,7 @@ class Lines:
     def _with_commas(self, words: list[str], what: str) -> list[float]:
         """Returns numbers with decimal commas."""
         try:
-            return [float(word.replace(",", ".")) for word in words]
+            return [real(word.replace(",", ".")) for word in words]
         except ValueError as error:
             raise self.wrong(f"{what} has a word that is not a number ({error})") from None
 

@@ -9,6 +9,7 @@ import numpy as np
 from regkit.geometry.rotation import to_matrix
 from regkit.interchange.gltf.file import GltfFile
 from regkit.system.arrays import Array
+from regkit.system.printable import plain_name
 
 HUGE = 1e30
 """Largest number in a transform."""
@@ -131,7 +132,8 @@ def _names(nodes: list[object]) -> tuple[str, ...]:
     names: list[str] = []
     taken: set[str] = set()
     for index, node in enumerate(nodes):
-        name = str(getattr(node, "name", None) or f"node_{index}")
+        name = plain_name(str(getattr(node, "name", None) or ""))
+        name = name if name.strip() else f"node_{index}"
         if name in taken:
             name = f"{name}_{index}"
         while name in taken:

@@ -13,6 +13,8 @@ from regkit.interchange.urdf.xml_text import xml_text
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
 from regkit.system.notes import note
+from regkit.system.plain_numbers import real
+from regkit.system.printable import plain_name
 
 XACRO = "write the file out with `xacro FILE > robot.urdf`, and import that"
 """What to do with a file that is not processed yet."""
@@ -29,7 +31,7 @@ class Element:
 
     Attributes:
         tag: Name of the tag.
-        attributes: Attributes of the tag.
+        attributes: Attributes of the tag, without control characters.
         place: ``file:line``.
         children: Child elements.
     """
@@ -53,7 +55,8 @@ class Element:
         parser = expat.ParserCreate()
 
         def start(tag: str, attributes: dict[str, str]) -> None:
-            element = cls(tag, attributes, f"{path}:{parser.CurrentLineNumber}")
+            plain = {name: plain_name(value) for name, value in attributes.items()}
+            element = cls(tag, plain, f"{path}:{parser.CurrentLineNumber}")
             around[-1].children.append(element)
             around.append(element)
 
@@ -142,7 +145,7 @@ class Element:
                 + XACRO
             )
         try:
-            values = np.array([float(word) for word in words])
+            values = np.array([real(word) for word in words])
         except ValueError:
             values = np.full(1, np.nan)
         if len(values) > count > 1 and np.isfinite(values).all():

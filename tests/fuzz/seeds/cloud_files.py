@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import io
 import struct
-import tempfile
 from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 
@@ -64,26 +62,29 @@ def pcd(data: str, form: str = "<f4", *, organised: bool = False) -> bytes:
     points = POINTS.copy()
     if organised:
         points[::7] = np.nan
-    width, height = (COUNT // 4, 4) if organised else (COUNT, 1)
-    head = (
+    content = (
+        rows("{} {} {}", points).encode() if data == "ascii" else points.astype(form).tobytes()
+    )
+    return pcd_head(data, size, (COUNT // 4, 4) if organised else (COUNT, 1)) + content
+
+
+def pcd_head(data: str, size: int, shape: tuple[int, int]) -> bytes:
+    width, height = shape
+    text = (
         f"# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE {size} {size} {size}\nTYPE F F F\n"
         f"COUNT 1 1 1\nWIDTH {width}\nHEIGHT {height}\nVIEWPOINT 0 0 0 1 0 0 0\n"
         f"POINTS {COUNT}\nDATA {data}\n"
     )
-    content = (
-        rows("{} {} {}", points).encode() if data == "ascii" else points.astype(form).tobytes()
-    )
-    return head.encode() + content
+    return text.encode()
 
 
 def pcd_compressed() -> bytes:
-    import open3d
-
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "cloud.pcd"
-        cloud = open3d.geometry.PointCloud(open3d.utility.Vector3dVector(POINTS))
-        open3d.io.write_point_cloud(str(path), cloud, compressed=True)
-        return path.read_bytes()
+    """LZF may also store bytes as they are, in pieces that a byte with their length precedes."""
+    plain = POINTS.T.astype("<f4").tobytes()
+    pieces = [plain[at : at + 32] for at in range(0, len(plain), 32)]
+    packed = b"".join(bytes([len(piece) - 1]) + piece for piece in pieces)
+    head = pcd_head("binary_compressed", 4, (COUNT, 1))
+    return head + struct.pack("<II", len(packed), len(plain)) + packed
 
 
 def ply(data: str, *, faces: bool = False) -> bytes:

@@ -18,6 +18,8 @@ from tests.fuzz.seeds.recordings import everything, nonsense
 
 RECORD = {"width": SMALL.width, "height": SMALL.height, "marker_slots": 2, "joint_slots": 1}
 
+INTRINSICS = {"focal_px": SMALL.fx, "centre_px": [SMALL.cx, SMALL.cy]}
+
 
 def write_mhad(root: Path) -> None:
     for folder, name, values in (
@@ -67,12 +69,19 @@ OTHERS = (
         0.7,
         record=RECORD,
     ),
-    _kind("pdt13", ("M2_D1_depth.mat", "M2_D1_joints.mat"), write_pdt13, 0.7),
+    _kind(
+        "pdt13",
+        ("M2_D1_depth.mat", "M2_D1_joints.mat"),
+        write_pdt13,
+        0.7,
+        intrinsics=INTRINSICS,
+    ),
     _kind(
         "pdt13-hdf5",
         ("M2_D1_depth.mat", "M2_D1_joints.mat"),
         lambda root: write_pdt13(root, hdf5=True),
         0.7,
+        intrinsics=INTRINSICS,
     ),
     _kind("itop", ("ITOP_side_test_labels.h5",), write_itop, 0.3),
     _kind(

@@ -19,6 +19,7 @@ from regkit.experiment import found, report
 from regkit.experiment.tracked_motion import read_tracked_motion
 from regkit.interchange.motion import TrackedMotion
 from regkit.interchange.motions import write_motion
+from regkit.tracking import Verdict
 from tests.fuzz import oracles
 from tests.fuzz.kind import Damaged, Files, Kind
 
@@ -124,8 +125,10 @@ def _sealed(folder: Path) -> Path:
 def _can_be_measured(measures: Any, file: Damaged) -> Iterator[str]:
     for recordings in measures.values():
         for measure in recordings.values():
-            known = [value for value in vars(measure).values() if value is not None]
+            known = [value for value in measure.numbers().values() if value is not None]
             yield from oracles.numbers(known, "measure", most=oracles.LARGEST)
+            if measure.verdict not in (*Verdict, None):
+                yield f"verdict: {measure.verdict}"
 
 
 def _can_be_tracked(motion: TrackedMotion, file: Damaged) -> Iterator[str]:

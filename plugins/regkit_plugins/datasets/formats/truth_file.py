@@ -8,11 +8,12 @@ from pathlib import Path
 import numpy as np
 
 from regkit.clouds.formats.text.lines import lines_of
+from regkit.geometry.camera import MAX_DISTANCE
 from regkit.observation import Truth
-from regkit.system.arrays import MAX_COORDINATE
 from regkit.system.errors import DataError
 from regkit.system.guard import reading
 from regkit.system.notes import note
+from regkit.system.plain_numbers import real, whole
 
 HEADER = ["frame", "joint", "x", "y", "z"]
 
@@ -73,11 +74,8 @@ def _row(cells: list[str], place: str) -> Row:
     text = ",".join(cells)
     try:
         frame, joint, x, y, z = cells
-        # Python allows 1_000, which no other program writes.
-        if "_" in frame + x + y + z or not joint.strip():
-            raise ValueError
-        number, at = int(frame), (float(x), float(y), float(z))
-        if number < 0:
+        number, at = whole(frame), (real(x), real(y), real(z))
+        if number < 0 or not joint.strip():
             raise ValueError
     except ValueError:
         raise DataError(f"not a row of frame,joint,x,y,z: {text[:100]}", place=place) from None
@@ -85,6 +83,6 @@ def _row(cells: list[str], place: str) -> Row:
         raise DataError(
             "a position is NaN or infinite; omit the row of an unseen joint", place=place
         )
-    if max(map(abs, at)) > MAX_COORDINATE:
-        raise DataError(f"a position is beyond any measurement: {text[:100]}", place=place)
+    if max(map(abs, at)) > MAX_DISTANCE:
+        raise DataError(f"a position is beyond any measurement [m]: {text[:100]}", place=place)
     return number, joint.strip(), at

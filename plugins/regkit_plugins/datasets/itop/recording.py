@@ -128,7 +128,7 @@ class ItopRecording(Recording):
                 if self.mirrored:
                     depth = depth[:, ::-1]
                 place = f"{self.files.images}: data[{index}]"
-                yield Frame(camera.back_projected(depth), camera, depth, place=place)
+                yield Frame(camera.back_projected(depth, place=place), camera, depth, place)
 
     def input_files(self) -> list[Path]:
         """Returns both files, which all recordings share."""

@@ -9,6 +9,7 @@ import numpy as np
 
 from regkit.clouds.formats.ply.header import Element, Header, Property
 from regkit.system.errors import DataError
+from regkit.system.plain_numbers import real, whole
 
 Column = np.ndarray[Any, Any] | list[np.ndarray[Any, Any]]
 """The values (N,) of a property; of a list (N, n), or N arrays if their lengths differ."""
@@ -66,12 +67,12 @@ class TextValues:
         at = 0
         for one in properties:
             if one.count is None:
-                columns[one.name].append(float(words[at]))
+                columns[one.name].append(real(words[at]))
                 at += 1
                 continue
-            end = at + 1 + int(words[at])
-            whole = one.kind[0] in "iu"
-            values = [int(word) if whole else float(word) for word in words[at + 1 : end]]
+            end = at + 1 + whole(words[at])
+            read = whole if one.kind[0] in "iu" else real
+            values = [read(word) for word in words[at + 1 : end]]
             columns[one.name].append(np.array(values))
             at = end
         if at != len(words):

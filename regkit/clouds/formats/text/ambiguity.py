@@ -20,6 +20,9 @@ _PAIRS = {
 }
 """Rows in which a delimiter may stand within numbers as well as between them."""
 
+WIDEST = 64
+"""Number of cells of a row without a header that no point has."""
+
 FEW = 10
 """Number of rows below which consecutive numbers in the first column may be chance."""
 
@@ -39,8 +42,8 @@ def check_unnamed(
         points: The first three columns, (N, 3).
 
     Raises:
-        DataError: If numbers may be cut in two, the first row numbers the columns, or the first
-            column numbers the rows.
+        DataError: If numbers may be cut in two, a row is too long, the first row numbers the
+            columns, or the first column numbers the rows.
     """
     number, first = rows[0]
     place = f"{path}:{number}"
@@ -53,6 +56,12 @@ def check_unnamed(
                 place=place,
             )
     cells = delimiter.cells(first)
+    if len(cells) > WIDEST:
+        raise DataError(
+            f"a row of {len(cells)} numbers and no header; a point has at most {WIDEST}: the line "
+            "ends are missing, or this is no cloud",
+            place=place,
+        )
     counted = [cell for cell in cells if cell]
     if counted == [str(n) for n in range(len(counted))] and (points[1:] % 1.0).any():
         raise DataError(

@@ -17,7 +17,7 @@ MISSING = frozenset({
 """Cells without sign that stand for a missing measurement, in small letters."""
 
 _REMARK = re.compile(r"(^|\s)#.*")
-_NUMBER = re.compile(r"[-+\u2212]?(\d+(\.\d*)?|\d*[.,]\d+)([eEdD][-+]?\d+)?")
+_NUMBER = re.compile(r"[-+\u2212]?(\d+(\.\d*)?|\d*[.,]\d+)([eEdD][-+]?\d+)?", re.ASCII)
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from regkit.clouds.formats.text.delimiter import is_missing, is_number
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
 
-_THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2},\d{3}")
+_THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2},\d{3}", re.ASCII)
 """A cell such as 1,234: with a decimal comma 1.234, with a thousands separator 1234."""
 
 
@@ -43,8 +43,10 @@ class Coordinates:
             row = (float(x), float(y), float(z))
         except ValueError:
             row = None
-        # NaN, infinity, and the underscores that Python allows in numbers need a second look.
-        if row is None or not abs(row[0] + row[1] + row[2]) < np.inf or "_" in x + y + z:
+        # NaN, infinity, and what only Python reads as a number need a second look.
+        text = x + y + z
+        odd = "_" in text or not text.isascii()
+        if row is None or odd or not abs(row[0] + row[1] + row[2]) < np.inf:
             row = self._second_look(cells, number)
         self._values.extend(row)
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from regkit.geometry.camera import MAX_DISTANCE
 from regkit.interfaces import Recording
 from regkit.observation import Frame, Truth
 from regkit.system.arrays import Array
@@ -48,6 +49,7 @@ class OrganizedRecording(Recording):
             place = self.file.place(index)
             points = self._points(records, index)
             seen = measured(points)
+            _check_near(points[seen], place)
             if background is not None:
                 seen &= background.before(points[..., 2])
             if self.with_camera and grid is None:
@@ -100,3 +102,14 @@ class OrganizedRecording(Recording):
             return np.where(measured(points), points[..., 2], 0.0)
 
         return StaticBackground.of(depth_of, len(records), self.foreground)
+
+
+def _check_near(points: Array, place: str) -> None:
+    """Raises DataError if a point (N, 3) [m] is too far to be a measurement."""
+    farthest = float(np.abs(points).max(initial=0.0))
+    if farthest > MAX_DISTANCE:
+        raise DataError(
+            f"a coordinate of {farthest:g} m is beyond any measurement; dataset.record is wrong, "
+            "or the file is damaged",
+            place=place,
+        )
