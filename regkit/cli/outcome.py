@@ -17,7 +17,8 @@ from regkit.cli.hinge_table import hinge_table
 from regkit.cli.verdicts import conclude
 from regkit.report.png import png
 from regkit.system.csv_table import csv_text
-from regkit.system.files import replacing, write_json, write_text
+from regkit.system.files import replacing, write_text
+from regkit.system.json_files import write_json
 from regkit.tracking import Verdict
 
 DPI = 110

@@ -18,8 +18,9 @@ from regkit.experiment.provenance import setup as setups
 from regkit.experiment.provenance.setup import Setup
 from regkit.experiment.results_format import check_format
 from regkit.system.errors import ConfigError
-from regkit.system.files import remove_unfinished, write_json, write_text
+from regkit.system.files import remove_unfinished, write_text
 from regkit.system.guard import reading
+from regkit.system.json_files import write_json
 from regkit.system.links import check_links
 
 

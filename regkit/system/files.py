@@ -1,8 +1,7 @@
-"""Atomic writing of files, and reading of JSON."""
+"""Atomic writing of files."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,7 +12,6 @@ import numpy as np
 
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
-from regkit.system.guard import reading
 
 
 @contextmanager
@@ -46,21 +44,6 @@ def write_text(path: Path, text: str) -> None:
     """Writes ``text`` as UTF-8, atomically."""
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
-
-
-def write_json(path: Path, data: Any) -> None:
-    """Writes ``data`` as indented JSON, atomically; NaN is not allowed and must be None."""
-    write_text(path, json.dumps(data, indent=2, allow_nan=False) + "\n")
-
-
-def read_json(path: Path) -> Any:
-    """Returns the content of a JSON file.
-
-    Raises:
-        DataError: If it is missing or damaged.
-    """
-    with reading(path, "a JSON file"):
-        return json.loads(path.read_text(encoding="utf-8"))
 
 
 def write_arrays(path: Path, arrays: Mapping[str, Array | np.ndarray[Any, Any]]) -> None:
