@@ -35,7 +35,7 @@ def read_uri(uri: str, folder: Path) -> bytes:
     for name in dict.fromkeys((unquote(uri), uri)):
         place = (base / name.replace("\\", "/")).resolve()
         if not place.is_relative_to(base):
-            raise DataError(f"the buffer {shown!r} leaves the file's folder; it must be within it")
+            raise DataError(f"the buffer {shown!r} is outside the file's folder; it must be within")
         if place.is_file():
             return place.read_bytes()
     raise DataError(f"the buffer {shown!r} is missing; it must be in the file's folder")
