@@ -1,7 +1,8 @@
-"""Atomic writing of files."""
+"""Atomic writing of files and folders."""
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -32,6 +33,33 @@ def replacing(path: Path) -> Iterator[Path]:
             temporary.unlink(missing_ok=True)
     except OSError as error:
         raise DataError(f"cannot be written: {error.strerror or error}", place=str(path)) from None
+
+
+@contextmanager
+def new_folder(folder: Path, otherwise: str) -> Iterator[Path]:
+    """Context manager: yields a temporary folder that becomes ``folder`` on success.
+
+    Args:
+        folder: The folder.
+        otherwise: What to do if it exists already, besides removing it.
+
+    Raises:
+        DataError: If the folder exists, or cannot be written.
+    """
+    if folder.exists():
+        raise DataError(f"the folder exists already; remove it, or {otherwise}", place=str(folder))
+    temporary = folder.with_name(f".{folder.name}.tmp")
+    try:
+        shutil.rmtree(temporary, ignore_errors=True)  # What a killed process left.
+        temporary.mkdir(parents=True)
+        yield temporary
+        temporary.rename(folder)
+    except OSError as error:
+        raise DataError(
+            f"cannot be written: {error.strerror or error}", place=str(folder)
+        ) from None
+    finally:
+        shutil.rmtree(temporary, ignore_errors=True)
 
 
 def remove_unfinished(folder: Path, name: str = "*") -> None:
