@@ -10,7 +10,8 @@ import typer
 from regkit.cli.console import output
 from regkit.cli.options import options
 from regkit.cli.template_file import check_replaceable, write_template
-from regkit.interchange.imported import THICKNESS, ImportedSkeleton
+from regkit.interchange.bones import THICKNESS
+from regkit.interchange.imported import ImportedSkeleton
 from regkit.interchange.skeletons import read_skeleton
 from regkit.skeleton.joints import BallJoint
 from regkit.system.errors import ConfigError

@@ -9,8 +9,9 @@ from scipy.spatial.transform import Rotation
 
 from regkit.body import Body
 from regkit.interchange.axes import body_axes
+from regkit.interchange.bones import THICKNESS
 from regkit.interchange.bvh.bvh import Bvh
-from regkit.interchange.imported import THICKNESS, ImportedSkeleton
+from regkit.interchange.imported import ImportedSkeleton
 from regkit.interchange.skeletons import read_skeleton
 from regkit.interchange.urdf.urdf import Urdf
 from regkit.skeleton import Pose
