@@ -12,9 +12,9 @@ from rich.table import Table
 from regkit.cli.completion import plugin_names
 from regkit.cli.console import output
 from regkit.cli.options import PluginFiles, run_plugin_files
+from regkit.config.first_sentence import opening_sentence
 from regkit.config.installed import OWN, Installed
 from regkit.config.model import did_you_mean
-from regkit.config.opening import opening_sentence
 from regkit.config.plugin import Plugin
 from regkit.config.preset import preset_file, presets_of
 from regkit.interfaces import SLOTS, Solver

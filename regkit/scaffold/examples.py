@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from regkit.config.document import Document
+from regkit.config.first_sentence import first_sentence, opening_sentence
 from regkit.config.model import did_you_mean
-from regkit.config.opening import first_sentence, opening_sentence
 from regkit.config.parts import parts_of
 from regkit.config.schema_line import MARK
 from regkit.system.errors import ConfigError
