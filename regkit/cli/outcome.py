@@ -49,7 +49,7 @@ def show(tracking: Tracking, out: Path | None, *, as_json: bool) -> None:
         output.print(_table(tracking, figures))
     if out is not None:
         _write(tracking, figures, out)
-        errors.print(f"written: {out}", highlight=False, soft_wrap=True)
+        errors.print(f"written: {out}")
 
 
 def _figures(tracking: Tracking) -> dict[str, Any]:
