@@ -18,6 +18,7 @@ from regkit.search.rotations import by_rotations
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError, DataError
 from regkit.system.guard import reading
+from regkit.system.printable import shortened
 
 STARTS = ("nearest", "identity", "centroids", "rotations", "features")
 """Names of the initial alignments; any other name is a file."""
@@ -128,7 +129,7 @@ def _numbers(line: str, place: str) -> list[float]:
     try:
         return [float(word.strip("[]")) for word in words]
     except ValueError:
-        raise DataError(f"not a row of numbers: '{line.strip()[:60]}'", place=place) from None
+        raise DataError(f"not a row of numbers: '{shortened(line.strip())}'", place=place) from None
 
 
 def _centroids(source: Array, target: Array) -> Array:

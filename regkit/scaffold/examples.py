@@ -15,7 +15,7 @@ from regkit.config.model import did_you_mean
 from regkit.config.parts import parts_of
 from regkit.config.schema_line import MARK
 from regkit.system.errors import ConfigError
-from regkit.system.files import new_folder
+from regkit.system.files import creating_folder
 from regkit.system.shipped import examples_folder
 
 
@@ -84,7 +84,7 @@ class Example:
             DataError: If the folder exists, or cannot be written.
         """
         folder = out / self.name
-        with new_folder(folder, "choose another one with --out") as temporary:
+        with creating_folder(folder, "choose another one with --out") as temporary:
             for path in self.data:
                 source, target = self.file.parent / path, temporary / path
                 target.parent.mkdir(parents=True, exist_ok=True)

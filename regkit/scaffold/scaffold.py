@@ -26,7 +26,7 @@ from regkit.interfaces import (
     Tracker,
 )
 from regkit.system.errors import ConfigError
-from regkit.system.files import new_folder
+from regkit.system.files import creating_folder
 from regkit.system.shipped import examples_folder
 
 FOLDER = Path(__file__).parent
@@ -107,7 +107,7 @@ class Scaffold:
             DataError: If the folder exists, or cannot be written.
         """
         folder = out / self.distribution
-        with new_folder(folder, "choose another name") as temporary:
+        with creating_folder(folder, "choose another name") as temporary:
             for file, text in self._files():
                 path = temporary / file
                 path.parent.mkdir(parents=True, exist_ok=True)

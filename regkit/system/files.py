@@ -36,7 +36,7 @@ def replacing(path: Path) -> Iterator[Path]:
 
 
 @contextmanager
-def new_folder(folder: Path, otherwise: str) -> Iterator[Path]:
+def creating_folder(folder: Path, otherwise: str) -> Iterator[Path]:
     """Context manager: yields a temporary folder that becomes ``folder`` on success.
 
     Args:

@@ -9,6 +9,7 @@ from typing import Any, NoReturn
 from regkit.system.errors import DataError
 from regkit.system.files import write_text
 from regkit.system.guard import reading
+from regkit.system.printable import shortened
 
 
 def read_json(path: Path) -> dict[str, Any]:
@@ -41,7 +42,7 @@ def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     if len(found) < len(pairs):
         names = [name for name, _ in pairs]
         twice = next(name for name in names if names.count(name) > 1)
-        raise DataError(f"the field '{twice[:60]}' is given twice")
+        raise DataError(f"the field '{shortened(twice)}' is given twice")
     return found
 
 
@@ -51,4 +52,4 @@ def _finite(text: str) -> float:
 
 
 def _not_finite(text: str) -> NoReturn:
-    raise DataError(f"{text[:60]} is not a finite number")
+    raise DataError(f"{shortened(text)} is not a finite number")
