@@ -19,6 +19,7 @@ from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError, DataError
 from regkit.system.guard import reading
 from regkit.system.plain_numbers import real
+from regkit.system.printable import shortened
 
 STARTS = ("nearest", "identity", "centroids", "rotations", "features")
 """Names of the initial alignments; any other name is a file."""
@@ -129,7 +130,7 @@ def _numbers(line: str, place: str) -> list[float]:
     try:
         return [real(word.strip("[]")) for word in words]
     except ValueError:
-        raise DataError(f"not a row of numbers: '{line.strip()[:60]}'", place=place) from None
+        raise DataError(f"not a row of numbers: '{shortened(line.strip())}'", place=place) from None
 
 
 def _centroids(source: Array, target: Array) -> Array:

@@ -3,7 +3,7 @@
 from regkit.api.aligning import CloudAlignment, align
 from regkit.api.choices import load_template
 from regkit.api.frame_files import load_frame
-from regkit.api.frames import load_recording
+from regkit.api.recordings import load_recording
 from regkit.api.registering import register, track
 from regkit.api.registration import Registration
 from regkit.api.tracking import Tracking, TrackingError

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
-from regkit.api.frames import frame_of, load_recording
+from regkit.api.frame import frame_of
+from regkit.api.recordings import load_recording
 from regkit.clouds import read_cloud
 from regkit.geometry.camera import Camera
 from regkit.observation import Frame

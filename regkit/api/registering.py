@@ -7,8 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from regkit.api.choices import Choice, load_template, name_of
+from regkit.api.frame import Intrinsics, Measured, frame_of
 from regkit.api.frame_files import load_frame
-from regkit.api.frames import Frames, GivenFrames, Intrinsics, Measured, frame_of, recording_of
+from regkit.api.recordings import Frames, GivenFrames, recording_of
 from regkit.api.registration import Registration
 from regkit.api.tracking import Tracking, TrackingError
 from regkit.clouds import spacing, voxel_for

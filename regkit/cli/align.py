@@ -115,7 +115,7 @@ def align(
             typer.echo("T_target_source\n" + "\n".join(rows))
     if out is not None and verdict is not Verdict.LOST:
         write_cloud(out, transformed(found.transform, points))
-        errors.print(f"written: {out}", highlight=False, soft_wrap=True)
+        errors.print(f"written: {out}")
     conclude(verdict, reason, strict=strict)
 
 

@@ -85,7 +85,7 @@ def calibrate(
     skin = subject.proportions.skin(found.template.description())
     write_template(out, subject.description, skin, opening)
     _print_summary(subject, found.template.description().size.value)
-    output.print(f"written: {out}", highlight=False, soft_wrap=True)
+    output.print(f"written: {out}")
     reason = "" if subject.verdict is Verdict.FOUND else DOUBT
     conclude(subject.verdict, reason, strict=strict)
 
@@ -96,9 +96,6 @@ def _print_summary(subject: Subject, template_size: float) -> None:
     scale = size.value / template_size
     output.print(
         f"{size.name} {size.value:.4g} m; relative to the template at this {size.name}:",
-        highlight=False,
-        markup=False,
-        soft_wrap=True,
     )
     table = Table("segments")
     for column in ("length", "girth"):
@@ -111,8 +108,6 @@ def _print_summary(subject: Subject, template_size: float) -> None:
     output.print(table)
     output.print(
         f"half of the data lies within {1000.0 * subject.distance:.1f} mm of the surface",
-        highlight=False,
-        soft_wrap=True,
     )
     if subject.strange > STRANGE:
         errors.print(
@@ -120,6 +115,4 @@ def _print_summary(subject: Subject, template_size: float) -> None:
             "the frames show other objects, the body was not found: give its size, or use another "
             "recording",
             style="yellow",
-            highlight=False,
-            soft_wrap=True,
         )

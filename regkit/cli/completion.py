@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import os
 import sys
 from collections.abc import Callable, Sequence
@@ -10,7 +11,6 @@ from importlib.machinery import ModuleSpec
 from types import ModuleType
 from typing import Any
 
-from regkit.config.installed import installed
 from regkit.system.shipped import examples_folder
 
 VARIABLE = "_REGKIT_COMPLETE"
@@ -37,6 +37,9 @@ def plugin_names(*options: str) -> Callable[[str], list[str]]:
     """Returns the completion of plug-ins and presets of some options, or of all groups."""
 
     def names(incomplete: str) -> list[str]:
+        # Entry points take long to import, and only a completion lists them.
+        from regkit.config.installed import installed
+
         groups = [group for option in options or GROUPS for group in GROUPS[option]]
         found = {name for group in groups for name in installed(group)}
         return sorted(name for name in found if name.startswith(incomplete))
@@ -56,6 +59,7 @@ def stand_in() -> None:
     The signature of a command is in its module, with what the command uses: for ``run`` a second
     of imports. With placeholders a completion takes a fifth of it.
     """
+    importlib.import_module("regkit.config.installed")  # A completion needs it as it is.
     sys.meta_path.insert(0, _Placeholders())
 
 

@@ -22,9 +22,9 @@ class _SafeConsole(Console):
     """
 
     def print(self, *objects: Any, **options: Any) -> None:
-        """Prints lines and tables."""
+        """Prints tables, and texts in lines of any length."""
         if any(isinstance(one, str) for one in objects):
-            options.setdefault("markup", False)
+            options = {"markup": False, "highlight": False, "soft_wrap": True} | options
         super().print(*objects, **options)
 
     def render(
@@ -42,21 +42,19 @@ errors = _SafeConsole(stderr=True, emoji=False)
 def print_error(error: RegkitError) -> None:
     """Prints an error with the prefix "error" on each of its lines."""
     for line in str(error).splitlines():
-        errors.print(f"error: {line}", style="red", markup=False, highlight=False, soft_wrap=True)
+        errors.print(f"error: {line}", style="red")
 
 
 def tell_compiling() -> None:
     """Explains on a terminal why the first run on a machine starts late."""
     if errors.is_terminal:
-        errors.print("compiling numerical loops (once on this machine) ...", highlight=False)
+        errors.print("compiling numerical loops (once on this machine) ...")
 
 
 def print_warning(text: str) -> None:
     """Prints a warning with the prefix "warning" on each of its lines."""
     for line in text.splitlines():
-        errors.print(
-            f"warning: {line}", style="yellow", markup=False, highlight=False, soft_wrap=True
-        )
+        errors.print(f"warning: {line}", style="yellow")
 
 
 def show_warnings() -> None:

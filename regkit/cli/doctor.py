@@ -53,9 +53,6 @@ def _print_extras() -> None:
         if one.version is None:
             output.print(
                 f"to install {one.name}: {one.command}",
-                markup=False,
-                highlight=False,
-                soft_wrap=True,
             )
 
 

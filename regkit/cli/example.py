@@ -35,10 +35,10 @@ def example(
         for one in examples():
             table.add_row(one.name, escape(one.summary))
         output.print(table)
-        output.print("copy one with: regkit example NAME", markup=False, highlight=False)
+        output.print("copy one with: regkit example NAME")
         return
     chosen = Example.named(name)
     folder = chosen.copy(out)
     lines = [f"written: {folder}; next:", f"  cd {shlex.quote(str(folder))}", f"  {chosen.command}"]
     for line in lines:
-        output.print(line, markup=False, highlight=False, soft_wrap=True)
+        output.print(line)

@@ -60,7 +60,4 @@ def export(
     output.print(
         f"written: {to} (frames: {len(motion.transforms)}, {motion.fps:g} per second; "
         f"segments: {len(motion.body.skeleton.names)})",
-        highlight=False,
-        markup=False,
-        soft_wrap=True,
     )

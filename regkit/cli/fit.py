@@ -103,8 +103,8 @@ def fit(
     named = _named(fitted.description, mesh.name)
     write_template(out, named, fitted.skin, OPENING.format(mesh=mesh.name, file=out.name))
     _print_summary(fitted)
-    output.print(f"written: {out}", highlight=False, soft_wrap=True)
-    output.print(f"template: {{kind: file, path: {out}}}", highlight=False, soft_wrap=True)
+    output.print(f"written: {out}")
+    output.print(f"template: {{kind: file, path: {out}}}")
 
 
 def _named(description: BodyDescription, mesh: str) -> BodyDescription:
@@ -131,7 +131,4 @@ def _print_summary(fitted: FittedTemplate) -> None:
     output.print(
         f"{description.size.name} {description.size.value:.4g} m; "
         f"{len(fitted.skin.vertices)} vertices",
-        highlight=False,
-        markup=False,
-        soft_wrap=True,
     )

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import csv
-from io import StringIO
-
 from regkit.api import Tracking
+from regkit.system.csv_table import csv_text
 
 
 def hinge_table(tracking: Tracking) -> str:
     """Returns CSV with a row for each frame and a column ``NAME_rad`` for each hinge."""
-    text = StringIO()
-    writer = csv.writer(text, lineterminator="\n")
     names = tracking.body.skeleton.hinge_names
-    writer.writerow(("frame", *(f"{name}_rad" for name in names)))
-    for frame, angles in zip(tracking.indices, tracking.track.hinges, strict=True):
-        writer.writerow((frame, *(f"{angle:.6f}" for angle in angles)))
-    return text.getvalue()
+    return csv_text(
+        ("frame", *(f"{name}_rad" for name in names)),
+        (
+            (frame, *(f"{angle:.6f}" for angle in angles))
+            for frame, angles in zip(tracking.indices, tracking.track.hinges, strict=True)
+        ),
+    )

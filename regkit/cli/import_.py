@@ -10,7 +10,8 @@ import typer
 from regkit.cli.console import output
 from regkit.cli.options import options
 from regkit.cli.template_file import check_replaceable, write_template
-from regkit.interchange.imported import THICKNESS, ImportedSkeleton
+from regkit.interchange.bones import THICKNESS
+from regkit.interchange.imported import ImportedSkeleton
 from regkit.interchange.skeletons import read_skeleton
 from regkit.skeleton.joints import BallJoint
 from regkit.system.errors import ConfigError
@@ -102,8 +103,8 @@ def import_(
         opening += "\n" + UNLIMITED
     write_template(out, imported.description, None, opening, imported.comments)
     _print_summary(imported)
-    output.print(f"written: {out}", highlight=False, soft_wrap=True)
-    output.print(f"template: {{kind: file, path: {out}}}", highlight=False, soft_wrap=True)
+    output.print(f"written: {out}")
+    output.print(f"template: {{kind: file, path: {out}}}")
 
 
 def _print_summary(imported: ImportedSkeleton) -> None:
@@ -120,23 +121,14 @@ def _print_summary(imported: ImportedSkeleton) -> None:
     output.print(
         f"segments: {len(kinds)} ({joints}); capsules: {capsules}; "
         f"{description.size.name}: {description.size.value:.4g} m",
-        highlight=False,
-        markup=False,
-        soft_wrap=True,
     )
     if description.size.value > LARGE:
         output.print(
             "this is large; if the file is not in metres, give its unit, such as --scale 0.01 for "
             "centimetres",
-            highlight=False,
-            markup=False,
-            soft_wrap=True,
         )
     if imported.shaped:
         output.print(
             f"segments without a shape, now with capsules along their bones: {imported.shaped}; "
             "check their radii",
-            highlight=False,
-            markup=False,
-            soft_wrap=True,
         )

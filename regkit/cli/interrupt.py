@@ -78,13 +78,13 @@ class Interrupt:
         self._timer.daemon = True
         self._timer.start()
         more = "; press Ctrl-C again to end at once" if self._checked else ""
-        errors.print(self._answer + more, highlight=False)
+        errors.print(self._answer + more)
         if not self._checked:
             _leave()
 
     def _end(self) -> None:
         if self.last_words is not None:
-            errors.print(self.last_words, highlight=False, soft_wrap=True)
+            errors.print(self.last_words)
         sys.stdout.flush()
         os._exit(INTERRUPTED)
 

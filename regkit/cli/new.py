@@ -51,4 +51,4 @@ def new(
         "  regkit run example.yaml",
     ]
     for line in lines:
-        output.print(line, markup=False, highlight=False, soft_wrap=True)
+        output.print(line)

@@ -17,7 +17,8 @@ from regkit.cli.hinge_table import hinge_table
 from regkit.cli.verdicts import conclude
 from regkit.report.png import png
 from regkit.system.csv_table import csv_text
-from regkit.system.files import replacing, write_json, write_text
+from regkit.system.files import replacing, write_text
+from regkit.system.json_files import write_json
 from regkit.tracking import Verdict
 
 DPI = 110
@@ -48,7 +49,7 @@ def show(tracking: Tracking, out: Path | None, *, as_json: bool) -> None:
         output.print(_table(tracking, figures))
     if out is not None:
         _write(tracking, figures, out)
-        errors.print(f"written: {out}", highlight=False, soft_wrap=True)
+        errors.print(f"written: {out}")
 
 
 def _figures(tracking: Tracking) -> dict[str, Any]:

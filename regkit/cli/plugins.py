@@ -12,9 +12,9 @@ from rich.table import Table
 from regkit.cli.completion import plugin_names
 from regkit.cli.console import output
 from regkit.cli.options import PluginFiles, run_plugin_files
+from regkit.config.first_sentence import opening_sentence
 from regkit.config.installed import OWN, Installed
 from regkit.config.model import did_you_mean
-from regkit.config.opening import opening_sentence
 from regkit.config.plugin import Plugin
 from regkit.config.preset import preset_file, presets_of
 from regkit.interfaces import SLOTS, Solver
@@ -64,7 +64,7 @@ def _print_list(title: str, summaries: dict[str, str]) -> None:
     table.add_column(no_wrap=True, min_width=WIDTH)
     for name, summary in summaries.items():
         table.add_row(f"  {escape(name)}", escape(summary))
-    output.print(title, style="bold", highlight=False)
+    output.print(title, style="bold")
     output.print(table)
     output.print()
 
@@ -90,9 +90,9 @@ def _print_fields(kind: str) -> None:
     presets = [slot for slot in SLOTS if kind in presets_of(slot.group)]
     for slot in presets:
         file = preset_file(slot.group, kind)
-        output.print(f"# {file}", markup=False, highlight=False, soft_wrap=True)
+        output.print(f"# {file}")
         text = file.read_text(encoding="utf-8")
-        output.print(text, markup=False, highlight=False, soft_wrap=True)
+        output.print(text)
     if not named and not presets:
         kinds = [name for slot in SLOTS for name in (*slot.available(), *presets_of(slot.group))]
         raise PluginError(f"no plug-in '{kind}' in any group" + did_you_mean(kind, kinds))
@@ -107,7 +107,7 @@ def _print_fields(kind: str) -> None:
                 name, escape(default), escape(" ".join((field.description or "").split()))
             )
         output.print(table)
-        output.print(inspect.cleandoc(found.__doc__ or ""), markup=False, highlight=False)
+        output.print(inspect.cleandoc(found.__doc__ or ""), soft_wrap=False)
 
 
 def _summary(slot: type[Plugin], kind: str) -> str:

@@ -31,7 +31,7 @@ def report(
     pairs = [_pair(text, list(measures)) for text in compare or ()]
     with working("writing the report"):
         page = write_report(folder, measures, failures, pairs)
-    output.print(f"report: {page}", highlight=False, soft_wrap=True)
+    output.print(f"report: {page}")
 
 
 def _pair(text: str, methods: list[str]) -> tuple[str, str]:

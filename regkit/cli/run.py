@@ -95,12 +95,12 @@ def run(
                 study, folder, progress, only=only or (), workers=workers, figures=figures
             )
     except KeyboardInterrupt:
-        errors.print(INTERRUPTION.format(folder=folder), highlight=False, soft_wrap=True)
+        errors.print(INTERRUPTION.format(folder=folder))
         raise typer.Exit(INTERRUPTED) from None
     if any(outcome.measures.values()):
         output.print(_table(outcome.measures))
-    output.print(f"results: {folder}", highlight=False, soft_wrap=True)
-    output.print(f"report: {folder / 'report.html'}", highlight=False, soft_wrap=True)
+    output.print(f"results: {folder}")
+    output.print(f"report: {folder / 'report.html'}")
     _tell_doubts(outcome.measures)
     code = run_exit_code(outcome, strict=strict)
     if code != DONE:

@@ -62,8 +62,7 @@ class RunProgress:
         """Removes a task, and prints its error if it failed."""
         if error is not None:
             errors.print(
-                f"{label} failed: {error}", style="red", markup=False, highlight=False,
-                soft_wrap=True,
+                f"{label} failed: {error}", style="red",
             )  # fmt: skip
         self._remove(label)
         if self._whole is not None:

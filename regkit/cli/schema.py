@@ -51,13 +51,10 @@ def schema(
     for name, text in texts.items():
         file = folder / f"{name}.json"
         write_text(file, text)
-        output.print(f"written: {file}", highlight=False, soft_wrap=True)
+        output.print(f"written: {file}")
     line = f"{MARK}{(folder / 'experiment.json').as_posix()}"
     output.print(
         f"for editors, begin an experiment with this line (path relative to its folder): {line}",
-        markup=False,
-        highlight=False,
-        soft_wrap=True,
     )
 
 
@@ -75,7 +72,7 @@ def _check(folder: Path, texts: dict[str, str]) -> None:
     stale = [files[name] for name, text in found.items() if text not in (texts[name], own[name])]
     for file in stale:
         state = "out of date" if file.exists() else "missing"
-        errors.print(f"{file} is {state}; run: regkit schema {folder}", soft_wrap=True)
+        errors.print(f"{file} is {state}; run: regkit schema {folder}")
     if stale:
         raise typer.Exit(1)
 
@@ -97,9 +94,7 @@ def _report_left_out() -> None:
                 )
             else:
                 continue
-            errors.print(
-                f"left out: {reason}", style="red", markup=False, highlight=False, soft_wrap=True
-            )
+            errors.print(f"left out: {reason}", style="red")
 
 
 def _texts() -> dict[str, str]:

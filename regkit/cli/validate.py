@@ -28,7 +28,7 @@ def validate(
     failed = False
     for file in files:
         try:
-            output.print(f"{file}: a valid {_checked(file)}", highlight=False, soft_wrap=True)
+            output.print(f"{file}: a valid {_checked(file)}")
         except RegkitError as error:
             failed = True
             print_error(error)
@@ -58,9 +58,6 @@ def _checked(file: Path) -> str:
             errors.print(
                 f"warning: {place} is not checked: {reason}",
                 style="yellow",
-                markup=False,
-                highlight=False,
-                soft_wrap=True,
             )
         return "template"
     document.validated(SkeletonDescription)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, get_args
 
 from pydantic import BaseModel
 
 from regkit.config.model import READ
+from regkit.config.parts import parts_of
 
 
 def input_paths(model: BaseModel, beside: type[BaseModel]) -> Iterator[Path]:
@@ -31,7 +32,7 @@ def paths_in(value: Any, beside: type[BaseModel]) -> Iterator[Path]:
     """Yields all paths in a value, also in models within it but for those of type ``beside``."""
     if isinstance(value, Path):
         yield value
-    for part in _parts(value):
+    for part in parts_of(value).values():
         if not isinstance(part, beside):
             yield from paths_in(part, beside)
 
@@ -42,16 +43,8 @@ def _models(value: Any, beside: type[BaseModel]) -> Iterator[BaseModel]:
     if isinstance(value, BaseModel):
         yield value
     else:
-        for part in _parts(value):
+        for part in parts_of(value).values():
             yield from _models(part, beside)
-
-
-def _parts(value: Any) -> list[Any]:
-    if isinstance(value, BaseModel):
-        return [getattr(value, name) for name in type(value).model_fields]
-    if isinstance(value, Mapping):
-        return list(value.values())
-    return list(value) if isinstance(value, list | tuple | set | frozenset) else []
 
 
 def _names_inputs(annotation: Any) -> bool:

@@ -8,11 +8,11 @@ until it is named, so a broken third-party plug-in can only harm those who name 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any, ClassVar, Self, TypeVar, cast
 
-from pydantic import BaseModel, Field, GetCoreSchemaHandler, GetJsonSchemaHandler, TypeAdapter
+from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler, TypeAdapter
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, core_schema
 
@@ -23,6 +23,7 @@ from regkit.config.former import check_former
 from regkit.config.input_files import input_paths
 from regkit.config.installed import Installed, installed
 from regkit.config.model import Model, did_you_mean
+from regkit.config.parts import placed_parts
 from regkit.config.preset import YAML, presets_of
 from regkit.config.registry import add, registered
 from regkit.config.slot import plugin_of
@@ -170,15 +171,8 @@ def plugins_in(value: Any, place: str = "") -> Iterator[tuple[str, Plugin]]:
     """Yields the plug-ins in a configuration with the paths of their fields, also nested ones."""
     if isinstance(value, Plugin):
         yield place, value
-    parts: Mapping[Any, Any] = {}
-    if isinstance(value, BaseModel):
-        parts = {name: getattr(value, name) for name in type(value).model_fields}
-    elif isinstance(value, Mapping):
-        parts = value
-    elif isinstance(value, list | tuple):
-        parts = dict(enumerate(value))
-    for name, part in parts.items():
-        yield from plugins_in(part, f"{place}.{name}" if place else str(name))
+    for inner, part in placed_parts(value, place):
+        yield from plugins_in(part, inner)
 
 
 def slot_default(slot: type[Plugin], purpose: str = "", **fields: Any) -> Any:

@@ -7,8 +7,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from ruamel.yaml import YAML
-from ruamel.yaml.error import MarkedYAMLError, YAMLError
 from ruamel.yaml.events import (
     AliasEvent,
     DocumentStartEvent,
@@ -19,9 +17,8 @@ from ruamel.yaml.events import (
     SequenceStartEvent,
 )
 
+from regkit.config.yaml_events import Events
 from regkit.config.yaml_scalars import scalar
-from regkit.system.errors import ConfigError
-from regkit.system.guard import foreign
 from regkit.system.printable import shortened
 
 DEEPEST = 50
@@ -78,46 +75,28 @@ class _Builder:
     """The events of a text and the anchors that were defined so far."""
 
     def __init__(self, text: str, place: str | None) -> None:
-        self._place = place
-        self._line = 1
-        self._events: Iterator[Any] = iter(YAML(typ="safe", pure=True).parse(text))
+        self._events = Events(text, place)
         # An anchor without a node is that of a value which is still being read.
         self._anchors: dict[str, Node | None] = {}
 
     def root(self) -> Node | None:
-        self._next()
-        started = self._next()
+        self._events.next()
+        started = self._events.next()
         if not isinstance(started, DocumentStartEvent):
             return None
         if started.version is not None and tuple(started.version) != (1, 2):
             version = ".".join(map(str, started.version))
-            raise self._error(f"the file asks for YAML {version}; only YAML 1.2 is read")
-        root = self._node(self._next(), 1)
-        self._next()
-        if isinstance(self._next(), DocumentStartEvent):
-            raise self._error("a second document begins here (---); one file holds one document")
+            raise self._events.error(f"the file asks for YAML {version}; only YAML 1.2 is read")
+        root = self._node(self._events.next(), 1)
+        self._events.next()
+        if isinstance(self._events.next(), DocumentStartEvent):
+            raise self._events.error(
+                "a second document begins here (---); one file holds one document"
+            )
         return root
 
-    def _next(self) -> Any:
-        """Returns the next event.
-
-        Raises:
-            ConfigError: If the text is not YAML here.
-        """
-        try:
-            event = next(self._events)
-        except MarkedYAMLError as error:
-            mark = error.problem_mark or error.context_mark
-            self._line = mark.line + 1 if mark else self._line
-            raise self._error(f"not valid YAML: {foreign(ValueError(error.problem))}") from None
-        except (YAMLError, Exception) as error:
-            raise self._error(f"not valid YAML: {foreign(error)}") from None
-        if event.start_mark is not None:
-            self._line = event.start_mark.line + 1
-        return event
-
     def _node(self, event: Any, depth: int) -> Node:
-        line = self._line
+        line = self._events.line
         if isinstance(event, AliasEvent):
             return self._aliased(event.anchor)
         self._check_tag(event)
@@ -126,7 +105,9 @@ class _Builder:
         if isinstance(event, ScalarEvent):
             node = Node(line, self._scalar(event))
         elif depth > DEEPEST:
-            raise self._error(f"more than {DEEPEST} mappings and lists are within each other")
+            raise self._events.error(
+                f"more than {DEEPEST} mappings and lists are within each other"
+            )
         elif isinstance(event, SequenceStartEvent):
             items = list(self._items(depth))
             node = self._collection(line, items, items)
@@ -139,54 +120,56 @@ class _Builder:
 
     def _aliased(self, name: str) -> Node:
         if name not in self._anchors:
-            raise self._error(f"nothing before this line is called '&{shortened(name)}'")
+            raise self._events.error(f"nothing before this line is called '&{shortened(name)}'")
         node = self._anchors[name]
         if node is None:
-            raise self._error(f"the value '&{shortened(name)}' contains itself")
+            raise self._events.error(f"the value '&{shortened(name)}' contains itself")
         return node
 
     def _collection(self, line: int, content: Any, parts: list[Node]) -> Node:
         size = 1 + sum(part.size for part in parts)
         depth = 1 + max((part.depth for part in parts), default=0)
         if size > MOST:
-            raise self._error(
+            raise self._events.error(
                 f"the text has more than {MOST} values, those repeated by aliases (*name) included"
             )
         if depth > DEEPEST:
-            raise self._error(f"the aliases (*name) nest more than {DEEPEST} mappings and lists")
+            raise self._events.error(
+                f"the aliases (*name) nest more than {DEEPEST} mappings and lists"
+            )
         return Node(line, content, size, depth)
 
     def _items(self, depth: int) -> Iterator[Node]:
-        while not isinstance(event := self._next(), SequenceEndEvent):
+        while not isinstance(event := self._events.next(), SequenceEndEvent):
             yield self._node(event, depth + 1)
 
     def _pairs(self, depth: int) -> dict[Key, Node]:
         pairs: dict[str, tuple[Key, Node]] = {}
         merged: dict[str, tuple[Key, Node]] = {}
-        while not isinstance(event := self._next(), MappingEndEvent):
+        while not isinstance(event := self._events.next(), MappingEndEvent):
             key, plain = self._key(event)
             if plain and key.text == "<<":
-                merged = self._merged(self._node(self._next(), depth + 1)) | merged
+                merged = self._merged(self._node(self._events.next(), depth + 1)) | merged
                 continue
             if key.text in pairs:
-                raise self._error(
+                raise self._events.error(
                     f"duplicate key '{shortened(key.text)}'; it is in line "
                     f"{pairs[key.text][0].line} already"
                 )
-            pairs[key.text] = key, self._node(self._next(), depth + 1)
+            pairs[key.text] = key, self._node(self._events.next(), depth + 1)
         return dict((merged | pairs).values())
 
     def _key(self, event: Any) -> tuple[Key, bool]:
         """Returns a key, and whether it is a plain scalar."""
-        line = self._line
+        line = self._events.line
         if isinstance(event, AliasEvent):
-            raise self._error("an alias (*name) cannot be a key; write the name of a field")
+            raise self._events.error("an alias (*name) cannot be a key; write the name of a field")
         self._check_tag(event)
         if not isinstance(event, ScalarEvent):
             kind = "mapping" if isinstance(event, MappingStartEvent) else "list"
-            raise self._error(f"a {kind} cannot be a key; write the name of a field")
+            raise self._events.error(f"a {kind} cannot be a key; write the name of a field")
         if not event.value:
-            raise self._error("a key is empty; write the name of a field before the colon")
+            raise self._events.error("a key is empty; write the name of a field before the colon")
         if event.anchor is not None:
             self._anchors[event.anchor] = Node(line, event.value)
         return Key(event.value, line), not event.style
@@ -196,7 +179,9 @@ class _Builder:
         pairs: dict[str, tuple[Key, Node]] = {}
         for one in node.content if isinstance(node.content, list) else [node]:
             if not isinstance(one.content, dict):
-                raise self._error("'<<' merges mappings; give the alias of one, or a list of them")
+                raise self._events.error(
+                    "'<<' merges mappings; give the alias of one, or a list of them"
+                )
             pairs = {key.text: (key, value) for key, value in one.content.items()} | pairs
         return pairs
 
@@ -204,13 +189,13 @@ class _Builder:
         if event.tag is not None:
             tag = str(event.tag)
             shown = f"!!{tag.removeprefix(_CORE)}" if tag.startswith(_CORE) else tag
-            raise self._error(
+            raise self._events.error(
                 f"the tag '{shortened(shown)}' is not read here; write the value without it"
             )
 
     def _scalar(self, event: Any) -> Any:
         if _SURROGATE.search(event.value):
-            raise self._error(
+            raise self._events.error(
                 f"'{shortened(event.value)}' has half of a pair of UTF-16, which is no character"
             )
         if event.style:
@@ -218,7 +203,4 @@ class _Builder:
         try:
             return scalar(event.value)
         except ValueError as error:
-            raise self._error(f"{shortened(event.value)} {error}") from None
-
-    def _error(self, message: str) -> ConfigError:
-        return ConfigError(message, place=self._place and f"{self._place}:{self._line}")
+            raise self._events.error(f"{shortened(event.value)} {error}") from None

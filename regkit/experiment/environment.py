@@ -14,7 +14,7 @@ from typing import Any
 from regkit import __version__
 from regkit.experiment.results_format import FORMAT
 from regkit.system.errors import RegkitError
-from regkit.system.files import read_json
+from regkit.system.json_files import read_json
 
 LIBRARIES = (
     "numpy",

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from pydantic import BaseModel
-
+from regkit.config.parts import placed_parts
 from regkit.config.yaml import yaml_data, yaml_text
 from regkit.experiment.differences import differences, different
 from regkit.experiment.environment import environment
@@ -18,8 +17,9 @@ from regkit.experiment.provenance import setup as setups
 from regkit.experiment.provenance.setup import Setup
 from regkit.experiment.results_format import check_format
 from regkit.system.errors import ConfigError
-from regkit.system.files import remove_unfinished, write_json, write_text
+from regkit.system.files import remove_unfinished, write_text
 from regkit.system.guard import reading
+from regkit.system.json_files import write_json
 from regkit.system.links import check_links
 
 
@@ -119,14 +119,7 @@ def another_configuration(told: str, folder: Path) -> ConfigError:
 
 def _paths(value: Any, place: str = "") -> Iterator[str]:
     """Yields the fields of a configuration that hold paths."""
-    parts: dict[Any, Any] = {}
     if isinstance(value, Path):
         yield place
-    elif isinstance(value, BaseModel):
-        parts = {name: getattr(value, name) for name in type(value).model_fields}
-    elif isinstance(value, dict):
-        parts = value
-    elif isinstance(value, list | tuple):
-        parts = dict(enumerate(value))
-    for name, part in parts.items():
-        yield from _paths(part, f"{place}.{name}" if place else str(name))
+    for inner, part in placed_parts(value, place):
+        yield from _paths(part, inner)

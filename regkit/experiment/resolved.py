@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from pydantic import BaseModel
 from pydantic_core import PydanticSerializationError, to_jsonable_python
 
+from regkit.config.parts import placed_parts
 from regkit.experiment.experiment import Experiment
 from regkit.system.errors import ConfigError
 
@@ -28,18 +28,9 @@ def resolved(experiment: Experiment) -> dict[str, Any]:
 
 def _unwritable(value: Any, place: str = "") -> str:
     """Returns the path to the innermost value that cannot be written."""
-    parts: dict[Any, Any]
-    if isinstance(value, BaseModel):
-        parts = {name: getattr(value, name) for name in type(value).model_fields}
-    elif isinstance(value, dict):
-        parts = value
-    elif isinstance(value, list | tuple):
-        parts = dict(enumerate(value))
-    else:
-        return place
-    for name, part in parts.items():
+    for inner, part in placed_parts(value, place):
         try:
             to_jsonable_python(part)
         except PydanticSerializationError:
-            return _unwritable(part, f"{place}.{name}" if place else str(name))
+            return _unwritable(part, inner)
     return place

@@ -15,8 +15,9 @@ from regkit.metrics import Measure, checked_measure
 from regkit.report import Record, draw_overlay, method_styles
 from regkit.system.archives import read_arrays
 from regkit.system.errors import PluginError, RegkitError
-from regkit.system.files import read_json, write_arrays, write_json, write_text
+from regkit.system.files import write_arrays, write_text
 from regkit.system.guard import reading
+from regkit.system.json_files import read_json, write_json
 from regkit.tracking import Track
 
 

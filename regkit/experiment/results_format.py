@@ -6,7 +6,7 @@ from pathlib import Path
 
 from regkit import __version__
 from regkit.system.errors import DataError, RegkitError
-from regkit.system.files import read_json
+from regkit.system.json_files import read_json
 
 FORMAT = 3
 """Incremented when a file, field or metric in results folders is renamed or redefined.

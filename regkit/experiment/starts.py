@@ -14,8 +14,8 @@ from regkit.skeleton import Pose
 from regkit.start import Start
 from regkit.system.digests import data_digest
 from regkit.system.errors import DataError, RegkitError
-from regkit.system.files import write_json
 from regkit.system.guard import reading
+from regkit.system.json_files import write_json
 from regkit.system.notes import note
 from regkit.tracking import Session
 

@@ -8,8 +8,8 @@ from typing import Any
 from pydantic import BaseModel
 
 from regkit.config.document import Document
-from regkit.system.files import read_json
 from regkit.system.guard import reading
+from regkit.system.json_files import read_json
 
 
 class _Config(BaseModel):
@@ -44,6 +44,6 @@ def read_environment(folder: Path) -> dict[str, Any]:
     """
     file = folder / "environment.json"
     with reading(file, "an environment of regkit run"):
-        data: dict[str, Any] = read_json(file)
+        data = read_json(file)
         _Environment.model_validate(data)
         return data

@@ -14,7 +14,7 @@ from regkit.experiment.provenance.setup import Setup
 from regkit.experiment.results import Results
 from regkit.experiment.starts import kept_start, start_file
 from regkit.interfaces import Registrar
-from regkit.metrics import Measure, check_unit, joint_errors, measured, tell_unmatched
+from regkit.metrics import Measure, check_reference_unit, joint_errors, measured, tell_unmatched
 from regkit.observation import Truth
 from regkit.report import Record
 from regkit.system.errors import RegkitError
@@ -91,7 +91,7 @@ class Task:
             joints, place = self.experiment.dataset.joints, f"{self.recording}: reference joints"
             tell_unmatched(start.body, truth, joints, place=place)
             try:
-                check_unit(start.body, truth, joints)
+                check_reference_unit(start.body, truth, joints)
             except RegkitError as error:
                 raise error.at(place) from None
 

@@ -4,9 +4,9 @@
 - ``rigid``: rigid motions as 4x4 matrices.
 - ``bilinear``: quaternion products as matrix products with constant tables.
 - ``principal_axes``: principal axes of points.
-- ``camera``: pinhole cameras.
+- ``camera``, ``intrinsics``: pinhole cameras, and their matrix.
 - ``capsules``: tapered capsules and their signed distance.
-- ``skinned_mesh``: triangle meshes with linear blend skinning.
+- ``skinned_mesh``, ``mesh_file``: triangle meshes with linear blend skinning, and their files.
 - ``surface``: skinned surfaces in segment frames, with or without triangles.
 
 The package exports classes; import functions from ``rotation`` and ``rigid``.

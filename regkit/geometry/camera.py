@@ -15,6 +15,7 @@ from regkit.system.errors import DataError
 from regkit.system.guard import reading
 from regkit.system.json_files import read_json
 from regkit.system.notes import note
+from regkit.system.printable import shortened
 
 FIELDS = ("width", "height", "intrinsic_matrix")
 """Fields of a camera's file."""
@@ -143,8 +144,8 @@ class Camera:
         unread = [name for name in content if name not in FIELDS]
         if unread:
             note(
-                f"passed over: {', '.join(unread)[:200]}; a camera here has no distortion, and the "
-                "scale of its images is given elsewhere",
+                f"passed over: {shortened(', '.join(unread), 200)}; a camera here has no "
+                "distortion, and the scale of its images is given elsewhere",
                 place=path,
             )
         return camera

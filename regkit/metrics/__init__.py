@@ -3,7 +3,7 @@
 from regkit.metrics.checked import checked_measure
 from regkit.metrics.joints import JointErrors, joint_errors
 from regkit.metrics.losses import Losses
-from regkit.metrics.matching import check_unit, matched, tell_unmatched
+from regkit.metrics.matching import check_reference_unit, matched, tell_unmatched
 from regkit.metrics.measure import METRICS, PCK_FRACTION, TEN_CM, Measure, mean_of, measured
 from regkit.metrics.pairs import Pair, compared
 from regkit.metrics.statistics import Summary, summary
@@ -19,7 +19,7 @@ __all__ = [
     "Pair",
     "Summary",
     "auc",
-    "check_unit",
+    "check_reference_unit",
     "checked_measure",
     "compared",
     "fraction_within",

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from regkit.body import Body
-from regkit.metrics.matching import check_unit, matched
+from regkit.metrics.matching import check_reference_unit, matched
 from regkit.observation import Truth
 from regkit.system.arrays import Array
 from regkit.tracking import Track
@@ -45,7 +45,7 @@ def joint_errors(track: Track, body: Body, truth: Truth, joints: Mapping[str, st
         DataError: If the reference is in another unit than the body.
     """
     columns, markers = matched(body, truth, joints)
-    check_unit(body, truth, joints)
+    check_reference_unit(body, truth, joints)
     frames = min(len(track.markers), len(truth.positions))
     error = truth.positions[:frames, columns] - track.markers[:frames, markers]
     placements = [body.place(track.pose(index)) for index in range(frames)]

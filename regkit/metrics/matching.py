@@ -84,7 +84,7 @@ def tell_unmatched(body: Body, truth: Truth, joints: Mapping[str, str], *, place
         )
 
 
-def check_unit(body: Body, truth: Truth, joints: Mapping[str, str]) -> None:
+def check_reference_unit(body: Body, truth: Truth, joints: Mapping[str, str]) -> None:
     """Refuses reference joints in another unit than the body.
 
     Args:

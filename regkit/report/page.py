@@ -21,7 +21,8 @@ from regkit.report.plot import DARK, LIGHT, Plot
 from regkit.report.run import Run
 from regkit.report.summary import metrics, write_tables
 from regkit.report.tables import main_table, pair_table, recording_table
-from regkit.system.files import write_json, write_text
+from regkit.system.files import write_text
+from regkit.system.json_files import write_json
 from regkit.tracking.verdict import LOST_SHARE, SURE_COVERAGE, SURE_INLIERS
 
 if TYPE_CHECKING:

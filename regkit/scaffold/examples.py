@@ -10,10 +10,12 @@ from pathlib import Path
 from typing import Any
 
 from regkit.config.document import Document
+from regkit.config.first_sentence import first_sentence, opening_sentence
 from regkit.config.model import did_you_mean
-from regkit.config.opening import first_sentence, opening_sentence
+from regkit.config.parts import parts_of
 from regkit.config.schema_line import MARK
-from regkit.system.errors import ConfigError, DataError
+from regkit.system.errors import ConfigError
+from regkit.system.files import creating_folder
 from regkit.system.shipped import examples_folder
 
 
@@ -81,14 +83,8 @@ class Example:
         Raises:
             DataError: If the folder exists, or cannot be written.
         """
-        folder, temporary = out / self.name, out / f".{self.name}.tmp"
-        if folder.exists():
-            raise DataError(
-                "the folder exists already; remove it, or choose another one with --out",
-                place=str(folder),
-            )
-        try:
-            temporary.mkdir(parents=True)
+        folder = out / self.name
+        with creating_folder(folder, "choose another one with --out") as temporary:
             for path in self.data:
                 source, target = self.file.parent / path, temporary / path
                 target.parent.mkdir(parents=True, exist_ok=True)
@@ -100,13 +96,6 @@ class Example:
             lines = self.file.read_text(encoding="utf-8").splitlines(keepends=True)
             text = "".join(line for line in lines if not line.startswith(MARK))
             (temporary / self.file.name).write_text(text, encoding="utf-8")
-            temporary.rename(folder)
-        except OSError as error:
-            raise DataError(
-                f"cannot be written: {error.strerror or error}", place=str(folder)
-            ) from None
-        finally:
-            shutil.rmtree(temporary, ignore_errors=True)
         return folder
 
 
@@ -122,11 +111,7 @@ def examples() -> list[Example]:
 
 def _texts(data: Any) -> Iterator[str]:
     """Yields all texts in a YAML document."""
-    if isinstance(data, dict):
-        for value in data.values():
-            yield from _texts(value)
-    elif isinstance(data, list):
-        for value in data:
-            yield from _texts(value)
-    elif isinstance(data, str):
+    if isinstance(data, str):
         yield data
+    for part in parts_of(data).values():
+        yield from _texts(part)

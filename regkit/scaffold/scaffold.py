@@ -25,7 +25,8 @@ from regkit.interfaces import (
     Term,
     Tracker,
 )
-from regkit.system.errors import ConfigError, DataError
+from regkit.system.errors import ConfigError
+from regkit.system.files import creating_folder
 from regkit.system.shipped import examples_folder
 
 FOLDER = Path(__file__).parent
@@ -106,24 +107,12 @@ class Scaffold:
             DataError: If the folder exists, or cannot be written.
         """
         folder = out / self.distribution
-        if folder.exists():
-            raise DataError(
-                "the folder exists already; remove it, or choose another name", place=str(folder)
-            )
-        temporary = out / f".{self.distribution}.tmp"
-        try:
+        with creating_folder(folder, "choose another name") as temporary:
             for file, text in self._files():
                 path = temporary / file
                 path.parent.mkdir(parents=True, exist_ok=True)
                 path.write_text(text, encoding="utf-8")
             self._copy_data(temporary)
-            temporary.rename(folder)
-        except OSError as error:
-            raise DataError(
-                f"cannot be written: {error.strerror or error}", place=str(folder)
-            ) from None
-        finally:
-            shutil.rmtree(temporary, ignore_errors=True)
         return folder
 
     def _files(self) -> Iterator[tuple[Path, str]]:

@@ -12,6 +12,7 @@ import numpy as np
 
 from regkit.system.errors import DataError
 from regkit.system.guard import reading
+from regkit.system.printable import shortened
 
 FREE_BYTES = 1 << 26
 """Size of an array that is unpacked whatever the size of its file."""
@@ -58,7 +59,7 @@ def _member(archive: zipfile.ZipFile, name: str, path: Path, what: str) -> np.nd
     if names.count(name) != 1:
         found = "several arrays" if name in names else "no array"
         raise DataError(
-            f"not {what}: there is {found} '{name}' (there are: {', '.join(names)[:200]})"
+            f"not {what}: there is {found} '{name}' (there are: {shortened(', '.join(names), 200)})"
         )
     info = archive.infolist()[names.index(name)]
     if info.file_size > max(FREE_BYTES, MAX_EXPANSION * path.stat().st_size):

@@ -1,8 +1,8 @@
-"""Atomic writing of files, and reading of JSON."""
+"""Atomic writing of files and folders."""
 
 from __future__ import annotations
 
-import json
+import shutil
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,7 +13,6 @@ import numpy as np
 
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
-from regkit.system.guard import reading
 
 
 @contextmanager
@@ -36,6 +35,33 @@ def replacing(path: Path) -> Iterator[Path]:
         raise DataError(f"cannot be written: {error.strerror or error}", place=str(path)) from None
 
 
+@contextmanager
+def creating_folder(folder: Path, otherwise: str) -> Iterator[Path]:
+    """Context manager: yields a temporary folder that becomes ``folder`` on success.
+
+    Args:
+        folder: The folder.
+        otherwise: What to do if it exists already, besides removing it.
+
+    Raises:
+        DataError: If the folder exists, or cannot be written.
+    """
+    if folder.exists():
+        raise DataError(f"the folder exists already; remove it, or {otherwise}", place=str(folder))
+    temporary = folder.with_name(f".{folder.name}.tmp")
+    try:
+        shutil.rmtree(temporary, ignore_errors=True)  # What a killed process left.
+        temporary.mkdir(parents=True)
+        yield temporary
+        temporary.rename(folder)
+    except OSError as error:
+        raise DataError(
+            f"cannot be written: {error.strerror or error}", place=str(folder)
+        ) from None
+    finally:
+        shutil.rmtree(temporary, ignore_errors=True)
+
+
 def remove_unfinished(folder: Path, name: str = "*") -> None:
     """Removes temporary files that ``replacing`` left behind when its process was killed."""
     for path in folder.glob(f".{name}.*.tmp*"):
@@ -46,21 +72,6 @@ def write_text(path: Path, text: str) -> None:
     """Writes ``text`` as UTF-8, atomically."""
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
-
-
-def write_json(path: Path, data: Any) -> None:
-    """Writes ``data`` as indented JSON, atomically; NaN is not allowed and must be None."""
-    write_text(path, json.dumps(data, indent=2, allow_nan=False) + "\n")
-
-
-def read_json(path: Path) -> Any:
-    """Returns the content of a JSON file.
-
-    Raises:
-        DataError: If it is missing or damaged.
-    """
-    with reading(path, "a JSON file"):
-        return json.loads(path.read_text(encoding="utf-8"))
 
 
 def write_arrays(path: Path, arrays: Mapping[str, Array | np.ndarray[Any, Any]]) -> None:

@@ -1,4 +1,4 @@
-"""Reading of JSON files strictly."""
+"""JSON files, read strictly and written atomically."""
 
 from __future__ import annotations
 
@@ -7,29 +7,34 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from regkit.system.errors import DataError
+from regkit.system.files import write_text
+from regkit.system.guard import reading
+from regkit.system.printable import shortened
 
 
 def read_json(path: Path) -> dict[str, Any]:
     """Returns the object in a JSON file.
 
     Raises:
-        DataError: If it is not JSON, holds no object, names a field twice, or has a number that is
-            not finite.
+        DataError: If it is missing, is not JSON, holds no object, names a field twice, or has a
+            number that is not finite.
     """
-    try:
-        content = json.loads(
-            path.read_text(encoding="utf-8-sig"),
-            object_pairs_hook=_once,
-            parse_constant=_not_finite,
-            parse_float=_finite,
-        )
-    except json.JSONDecodeError as error:
-        raise DataError(f"not JSON: {error.msg}", place=f"{path}:{error.lineno}") from None
-    if not isinstance(content, dict):
-        raise DataError(
-            f"must be a JSON object {{...}}; it is a {type(content).__name__}", place=str(path)
-        )
-    return content
+    with reading(path, "a JSON file"):
+        text = path.read_text(encoding="utf-8-sig")
+        try:
+            content = json.loads(
+                text, object_pairs_hook=_once, parse_constant=_not_finite, parse_float=_finite
+            )
+        except json.JSONDecodeError as error:
+            raise DataError(f"not JSON: {error.msg}", place=f"{path}:{error.lineno}") from None
+        if not isinstance(content, dict):
+            raise DataError(f"must be a JSON object {{...}}; it is a {type(content).__name__}")
+        return content
+
+
+def write_json(path: Path, data: Any) -> None:
+    """Writes ``data`` as indented JSON, atomically; NaN is not allowed and must be None."""
+    write_text(path, json.dumps(data, indent=2, allow_nan=False) + "\n")
 
 
 def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
@@ -37,7 +42,7 @@ def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     if len(found) < len(pairs):
         names = [name for name, _ in pairs]
         twice = next(name for name in names if names.count(name) > 1)
-        raise DataError(f"the field '{twice[:60]}' is given twice")
+        raise DataError(f"the field '{shortened(twice)}' is given twice")
     return found
 
 
@@ -47,4 +52,4 @@ def _finite(text: str) -> float:
 
 
 def _not_finite(text: str) -> NoReturn:
-    raise DataError(f"{text[:60]} is not a finite number")
+    raise DataError(f"{shortened(text)} is not a finite number")

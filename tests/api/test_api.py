@@ -9,7 +9,7 @@ from places import DATA
 from rich.console import Console
 
 import regkit
-from regkit.api.frames import frame_of
+from regkit.api.frame import frame_of
 from regkit.interfaces import Method
 from regkit.skeleton import Pose
 from regkit.system.errors import ConfigError, DataError, RegkitError

@@ -37,7 +37,7 @@ def test_cloud_that_is_written_is_read_again(tmp_path, random, suffix):
         ("a.doc", "1 2 3", "a.doc: files that end with '.doc' cannot be read; convert it to one"),
         ("a.ply", "words", "a.ply: not a PLY file"),
         ("a.stl", "words", "a.stl: announces 0 triangles"),
-        ("a.glb", "words", "a.glb: not a .glb file"),
+        ("a.glb", "words", "a.glb: not a glTF 2.0 file"),
     ],
 )
 def test_file_that_is_wrong_is_told(tmp_path, name, text, expected):

@@ -207,7 +207,7 @@ def test_damaged_mesh_is_refused_with_its_place(name):
         ("a.gltf", gltf(scenes__0__nodes=[7]), "node 7"),
         ("a.gltf", gltf(buffers__0__uri="../../etc/passwd"), "outside"),
         ("a.gltf", gltf(buffers__0__uri="no.bin"), "no.bin"),
-        ("a.gltf", gltf(accessors__0__sparse={}), "sparse"),
+        ("a.gltf", gltf(accessors__0__sparse={}), "accessor 0"),
         ("a.gltf", gltf(asset__version="1.0"), "2.0"),
         ("a.gltf", gltf(extensionsRequired=["KHR_draco_mesh_compression"]), "draco"),
         ("a.gltf", "[" * 5000, "gltf"),

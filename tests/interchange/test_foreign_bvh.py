@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 from places import CASES
 
+from regkit.interchange.bones import MOST
 from regkit.interchange.bvh.bvh import Bvh
 from regkit.interchange.bvh.motion import _words
-from regkit.interchange.imported import MOST, ImportedSkeleton
+from regkit.interchange.imported import ImportedSkeleton
 from regkit.interchange.skeletons import read_skeleton
 from regkit.system.errors import DataError, RegkitError
 from regkit.system.notes import RegkitWarning

@@ -9,8 +9,9 @@ from scipy.spatial.transform import Rotation
 
 from regkit.body import Body
 from regkit.interchange.axes import body_axes
+from regkit.interchange.bones import THICKNESS
 from regkit.interchange.bvh.bvh import Bvh
-from regkit.interchange.imported import THICKNESS, ImportedSkeleton
+from regkit.interchange.imported import ImportedSkeleton
 from regkit.interchange.skeletons import read_skeleton
 from regkit.interchange.urdf.urdf import Urdf
 from regkit.skeleton import Pose
@@ -346,7 +347,8 @@ def test_other_formats_and_axes_are_refused(robot: Path) -> None:
         (
             "a.bvh",
             "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n"
-            "JOINT l\x80eg\n{\nOFFSET 0 1 0\nCHANNELS 1 Xrotation\nEnd Site\n{\nOFFSET 0 1 0\n}\n}\n}\n",
+            "JOINT l\x80eg\n{\nOFFSET 0 1 0\nCHANNELS 1 Xrotation\n"
+            "End Site\n{\nOFFSET 0 1 0\n}\n}\n}\n",
         ),
         (
             "a.urdf",

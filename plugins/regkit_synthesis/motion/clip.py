@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,6 +11,7 @@ from regkit.geometry.rotation import IDENTITY, from_vector, normalized, product
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
 from regkit.system.guard import reading
+from regkit.system.json_files import read_json
 from regkit_synthesis.figure.standing import STANDING
 from regkit_synthesis.motion.motion import Rig
 from regkit_synthesis.motion.sampled import SampledMotion
@@ -68,7 +68,7 @@ def read_clip(path: Path) -> SampledMotion:
         DataError: If the file is missing or is not a clip.
     """
     with reading(path, "a motion clip, JSON with Loop and Frames"):
-        content = json.loads(path.read_text(encoding="utf-8"))
+        content = read_json(path)
         rows = np.array(content["Frames"], dtype=np.float64)
         loops = str(content["Loop"]) == "wrap"
         if not np.isfinite(rows).all():

@@ -16,6 +16,7 @@ from regkit.system.arrays import Array, Indices
 from regkit.system.errors import DataError
 from regkit.system.notes import note
 from regkit.system.plain_numbers import real, whole
+from regkit.system.printable import shortened
 
 _UNREAD = ("curv", "curv2", "surf")
 """Statements of curves and surfaces that are not polygons."""
@@ -81,7 +82,7 @@ def _vertex(words: list[str], place: str) -> list[float]:
         values = []
     if len(values) not in (3, 4, 6, 7):
         raise DataError(
-            f"not a vertex 'v x y z', with a weight or a colour: '{' '.join(words)[:60]}'",
+            f"not a vertex 'v x y z', with a weight or a colour: '{shortened(' '.join(words))}'",
             place=place,
         )
     return values[:3]
@@ -91,12 +92,12 @@ def _face(words: list[str], vertices: int, place: str) -> list[int]:
     try:
         numbers = [whole(word.partition("/")[0]) for word in words[1:]]
     except ValueError:
-        raise DataError(f"not a face: '{' '.join(words)[:60]}'", place=place) from None
+        raise DataError(f"not a face: '{shortened(' '.join(words))}'", place=place) from None
     face = [number - 1 if number > 0 else vertices + number for number in numbers]
     if not face or 0 in numbers or min(face) < 0:
         raise DataError(
-            f"the face has no valid vertices: '{' '.join(words)[:60]}'; they are numbered from 1, "
-            f"or from -1 backwards, and {vertices} stand above",
+            f"the face has no valid vertices: '{shortened(' '.join(words))}'; they are "
+            f"numbered from 1, or from -1 backwards, and {vertices} stand above",
             place=place,
         )
     return face

@@ -15,6 +15,7 @@ from regkit.clouds.formats.text.lines import lines_of
 from regkit.system.arrays import Array, Indices
 from regkit.system.errors import DataError
 from regkit.system.plain_numbers import real, whole
+from regkit.system.printable import shortened
 
 # Some published files have no space between OFF and the counts.
 _FIRST = re.compile(r"(?P<kind>(?:ST)?C?N?4?n?)OFF\b|(?P<glued>OFF)(?=\d)")
@@ -30,7 +31,7 @@ def read_off(path: Path) -> tuple[Array, Indices]:
     rows = [(number, line.strip()) for number, line in rows if line.strip()]
     match = _FIRST.match(rows[0][1]) if rows else None
     if match is None or "4" in (match["kind"] or "") or "n" in (match["kind"] or ""):
-        shown = rows[0][1][:60] if rows else ""
+        shown = shortened(rows[0][1]) if rows else ""
         raise DataError(
             f"the first line must be OFF, COFF, NOFF or CNOFF; it is '{shown}'", place=str(path)
         )
@@ -42,7 +43,7 @@ def read_off(path: Path) -> tuple[Array, Indices]:
     counts = line.split()
     if len(counts) not in (2, 3) or not all(count.isdecimal() for count in counts):
         raise DataError(
-            f"'{line[:60]}' must be the numbers of vertices, faces and edges",
+            f"'{shortened(line)}' must be the numbers of vertices, faces and edges",
             place=f"{path}:{number}",
         )
     vertices, faces = int(counts[0]), int(counts[1])
@@ -65,7 +66,7 @@ def _vertex(number: int, line: str, path: Path) -> list[float]:
             return [real(word) for word in words[:3]]
     except ValueError:
         pass
-    raise DataError(f"not a vertex x y z: '{line[:60]}'", place=f"{path}:{number}")
+    raise DataError(f"not a vertex x y z: '{shortened(line)}'", place=f"{path}:{number}")
 
 
 def _face(number: int, line: str, vertices: int, path: Path) -> list[int]:
@@ -74,9 +75,9 @@ def _face(number: int, line: str, vertices: int, path: Path) -> list[int]:
         count = whole(words[0])
         corners = [whole(word) for word in words[1 : count + 1]]
     except ValueError:
-        raise DataError(f"not a face 'n i j k ...': '{line[:60]}'", place=place) from None
+        raise DataError(f"not a face 'n i j k ...': '{shortened(line)}'", place=place) from None
     if count < 1 or len(corners) != count:
-        raise DataError(f"the face announces {count} corners: '{line[:60]}'", place=place)
+        raise DataError(f"the face announces {count} corners: '{shortened(line)}'", place=place)
     for corner in corners:
         if not 0 <= corner < vertices:
             raise DataError(

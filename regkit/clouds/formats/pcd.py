@@ -15,6 +15,7 @@ from regkit.clouds.formats.lzf import MAX_EXPANSION, decompress
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
 from regkit.system.plain_numbers import real
+from regkit.system.printable import shortened
 
 _KINDS = {"F": "f", "I": "i", "U": "u"}
 _SIZES = {"F": (4, 8), "I": (1, 2, 4, 8), "U": (1, 2, 4, 8)}
@@ -83,7 +84,8 @@ def _header(content: bytes, place: str) -> tuple[_Header, int]:
     for axis in "xyz":
         if names.count(axis) != 1:
             raise DataError(
-                f"the fields must be x, y and z among others; they are {' '.join(names)[:200]}",
+                f"the fields must be x, y and z among others; they are "
+                f"{shortened(' '.join(names), 200)}",
                 place=place,
             )
     kinds, sizes = entries.get("TYPE", []), entries.get("SIZE", [])
@@ -103,7 +105,8 @@ def _header(content: bytes, place: str) -> tuple[_Header, int]:
     data = " ".join(entries["DATA"]).lower()
     if data not in ("ascii", "binary", "binary_compressed"):
         raise DataError(
-            f"DATA is '{data[:60]}'; it must be ascii, binary or binary_compressed", place=place
+            f"DATA is '{shortened(data)}'; it must be ascii, binary or binary_compressed",
+            place=place,
         )
     return _Header(tuple(names), fields, points, data, lines), start
 
@@ -126,7 +129,7 @@ def _count(entries: dict[str, list[str]], place: str) -> int:
         if text.isdecimal():
             numbers[key] = int(text)
         elif key in entries:
-            raise DataError(f"{key} is '{text[:60]}', not a number", place=place)
+            raise DataError(f"{key} is '{shortened(text)}', not a number", place=place)
     area = numbers.get("WIDTH", 0) * numbers.get("HEIGHT", 1)
     points = numbers.get("POINTS", area)
     if "WIDTH" in numbers and area != points:

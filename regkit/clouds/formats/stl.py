@@ -13,6 +13,7 @@ from regkit.clouds.formats.text.lines import lines_of
 from regkit.system.arrays import Array, Indices
 from regkit.system.errors import DataError
 from regkit.system.plain_numbers import real
+from regkit.system.printable import shortened
 
 _HEADER = 84
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
@@ -57,12 +58,14 @@ def _text(path: Path) -> Array:
             continue
         if not inside or word != _FACET[step]:
             wanted = _FACET[step] if inside else "solid"
-            raise DataError(f"'{line.strip()[:60]}' where {wanted} must stand", place=place)
+            raise DataError(f"'{shortened(line.strip())}' where {wanted} must stand", place=place)
         if word == "vertex":
             try:
                 x, y, z = map(real, words[1:])
             except ValueError:
-                raise DataError(f"not a vertex x y z: '{line.strip()[:60]}'", place=place) from None
+                raise DataError(
+                    f"not a vertex x y z: '{shortened(line.strip())}'", place=place
+                ) from None
             corners.append([x, y, z])
         step = (step + 1) % len(_FACET)
     if inside or step:

@@ -10,8 +10,8 @@ from pydantic import TypeAdapter
 
 from regkit.system.digests import file_digest
 from regkit.system.errors import DataError
-from regkit.system.files import write_json
 from regkit.system.guard import reading
+from regkit.system.json_files import write_json
 
 FILE = "checksums.json"
 OVERLAY = "overlay.png"

@@ -19,8 +19,8 @@ from regkit.experiment.provenance.listing import files_by_name
 from regkit.interfaces import Template
 from regkit.system.digests import Stamp, file_digest
 from regkit.system.errors import ConfigError, DataError
-from regkit.system.files import write_json
 from regkit.system.guard import reading
+from regkit.system.json_files import write_json
 
 FILE = "setup.json"
 

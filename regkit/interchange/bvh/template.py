@@ -6,17 +6,11 @@ from pathlib import Path
 
 import numpy as np
 
+from regkit.interchange.bones import MIN_LENGTH, Bone, ball, check_count, vector
 from regkit.interchange.bvh.bvh import Bvh
 from regkit.interchange.bvh.hierarchy import BvhJoint, children_of
 from regkit.interchange.bvh.root import STILL, BvhRoot, movement
-from regkit.interchange.imported import (
-    MIN_LENGTH,
-    Bone,
-    ImportedSkeleton,
-    ball,
-    check_count,
-    vector,
-)
+from regkit.interchange.imported import ImportedSkeleton
 from regkit.interchange.remarks import Remarks
 from regkit.skeleton.joints import (
     FixedJoint,

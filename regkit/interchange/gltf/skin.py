@@ -8,14 +8,12 @@ from typing import Any
 
 import numpy as np
 
+from regkit.clouds.formats.gltf import LINES, POINTS, triangles
 from regkit.geometry.rigid import transformed
 from regkit.interchange.gltf.bind import BindPose
 from regkit.interchange.gltf.file import GltfFile
 from regkit.system.arrays import Array, Indices
 from regkit.system.notes import note
-
-TRIANGLES, STRIP, FAN = 4, 5, 6
-"""The modes of primitives with triangles, section 3.7.2.1."""
 
 ROUNDED = 0.03
 """Weights whose sum is further from one are more than rounded to eight bits."""
@@ -68,7 +66,7 @@ def skinned_vertices(file: GltfFile, pose: BindPose) -> SkinnedVertices:
         mesh = file.item(file.content.meshes, node.mesh, "mesh")
         members = np.array(pose.members[node.skin], dtype=np.intp)
         for primitive in mesh.primitives:
-            if primitive.mode in (0, 1, 2, 3):
+            if primitive.mode in (POINTS, *LINES):
                 left_out["points or lines"] += 1
                 continue
             if primitive.targets:
@@ -124,39 +122,13 @@ def _part(file: GltfFile, primitive: Any, joints: int) -> SkinnedVertices:
             f"{sums[first, 0]:.4g}; they are divided by their sums",
             place=file.path,
         )
-    corners = np.arange(len(positions))
-    if primitive.indices is not None:
-        corners = file.integers(primitive.indices)[:, 0]
-    if len(corners) and int(corners.max()) >= len(positions):
-        raise file.wrong(
-            f"a triangle has the vertex {int(corners.max())}; the mesh has {len(positions)}"
-        )
-    faces = _triangles(file, corners, primitive.mode)
+    faces = triangles(file, primitive.indices, primitive.mode, len(positions))
     # Bones are sorted by weight; columns without any weight are dropped.
     order = np.argsort(-weights, axis=1, kind="stable")
     weights = np.take_along_axis(weights / sums, order, axis=1)
     bones = np.where(weights > 0.0, np.take_along_axis(bones, order, axis=1), 0)
     used = max(1, int((weights > 0.0).sum(axis=1).max()))
     return SkinnedVertices(positions, bones[:, :used], weights[:, :used], faces)
-
-
-def _triangles(file: GltfFile, corners: Indices, mode: int | None) -> Indices:
-    """Returns the triangles (F, 3) of a primitive, section 3.7.2.1."""
-    if mode == STRIP:
-        faces = np.stack([corners[:-2], corners[1:-1], corners[2:]], axis=1)
-        # Every second triangle of a strip turns the other way.
-        faces[1::2] = faces[1::2, [1, 0, 2]]
-        return faces
-    if mode == FAN:
-        first = np.full(max(0, len(corners) - 2), corners[0] if len(corners) else 0)
-        return np.stack([first, corners[1:-1], corners[2:]], axis=1)
-    if mode not in (None, TRIANGLES):
-        raise file.wrong(f"a skinned mesh has the mode {mode}, which the format does not know")
-    if len(corners) % 3:
-        raise file.wrong(
-            f"a mesh has {len(corners)} triangle corners; they must be a multiple of 3"
-        )
-    return corners.reshape(-1, 3)
 
 
 def _widened(rows: Any, columns: int) -> Any:

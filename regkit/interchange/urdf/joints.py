@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from regkit.config.model import did_you_mean
 from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.interchange.remarks import Remarks
@@ -199,59 +197,3 @@ def _mimic(element: Element, name: str, remarks: Remarks) -> Mimic | None:
         )
         return None
     return mimic
-
-
-def resolved(joints: Mapping[str, UrdfJoint], remarks: Remarks) -> dict[str, UrdfJoint]:
-    """Returns the joints with chains of couplings resolved to independent leaders.
-
-    A joint that follows none of the hinges turns by itself, with a remark.
-
-    Args:
-        joints: Joints by the name of their child link.
-        remarks: Takes what is passed over.
-
-    Raises:
-        DataError: If a joint follows itself.
-    """
-    child_of = {joint.name: child for child, joint in joints.items()}
-    by_name = {name: joints[child] for name, child in child_of.items()}
-    own = {child: _with_leader(joint, by_name, remarks) for child, joint in joints.items()}
-    led = {}
-    for child, joint in joints.items():
-        mimic, seen = own[child].mimic, [joint.name]
-        while mimic is not None and (above := own[child_of[mimic.joint]].mimic) is not None:
-            if mimic.joint in seen:
-                raise DataError(
-                    f"joint '{joint.name}' follows itself ({' -> '.join([*seen, mimic.joint])})",
-                    place=joint.place,
-                )
-            seen.append(mimic.joint)
-            # a = r b + o and b = s c + p give a = r s c + (r p + o).
-            offset = mimic.ratio * above.offset + mimic.offset
-            mimic = Mimic(above.joint, mimic.ratio * above.ratio, offset)
-        if mimic is not None and abs(mimic.ratio) < MIN_RATIO:
-            remarks.add(
-                "hinges turn by themselves, because what they follow hardly turns them",
-                f"{joint.name}: {mimic.ratio:g}",
-                joint.place,
-            )
-            mimic = None
-        led[child] = replace(joint, mimic=mimic)
-    return led
-
-
-def _with_leader(joint: UrdfJoint, joints: Mapping[str, UrdfJoint], remarks: Remarks) -> UrdfJoint:
-    """Returns a joint, without its coupling if the leader is not a hinge."""
-    if joint.mimic is None:
-        return joint
-    leader = joints.get(joint.mimic.joint)
-    if leader is not None and leader.kind in HINGES:
-        return joint
-    kind = "no joint" if leader is None else leader.kind
-    hint = did_you_mean(joint.mimic.joint, list(joints)) if leader is None else ""
-    remarks.add(
-        "hinges turn by themselves, because what they follow is not a hinge",
-        f"{joint.name} follows '{joint.mimic.joint}', which is {kind}{hint}",
-        joint.place,
-    )
-    return replace(joint, mimic=None)

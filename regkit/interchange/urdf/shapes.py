@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from regkit.interchange.imported import vector
+from regkit.interchange.bones import vector
 from regkit.interchange.remarks import Remarks
 from regkit.interchange.urdf.joints import origin
 from regkit.interchange.urdf.mesh_capsule import mesh_capsule, read_triangles

@@ -9,14 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from regkit.geometry.rigid import rigid
-from regkit.interchange.imported import (
-    MIN_LENGTH,
-    Bone,
-    ImportedSkeleton,
-    ball,
-    check_count,
-    vector,
-)
+from regkit.interchange.bones import MIN_LENGTH, Bone, ball, check_count, vector
+from regkit.interchange.imported import ImportedSkeleton
 from regkit.interchange.remarks import Remarks
 from regkit.interchange.urdf.joints import Mimic, UrdfJoint
 from regkit.interchange.urdf.mesh_files import MeshFiles

@@ -12,7 +12,8 @@ from pathlib import Path
 
 from regkit.config.model import did_you_mean
 from regkit.interchange.remarks import Remarks
-from regkit.interchange.urdf.joints import UrdfJoint, read_joint, resolved
+from regkit.interchange.urdf.joints import UrdfJoint, read_joint
+from regkit.interchange.urdf.leaders import with_leaders
 from regkit.interchange.urdf.tree import links_in_order, without_worlds
 from regkit.interchange.urdf.xml_lines import XACRO, Element
 from regkit.system.arrays import Array
@@ -81,7 +82,7 @@ class Urdf:
         joints = {name: joints[name] for name in order[1:]}
         named = robot.attributes.get("name", "").strip() or path.stem
         ordered = {name: links[name] for name in order}
-        found = cls(named, ordered, resolved(joints, remarks), axes)
+        found = cls(named, ordered, with_leaders(joints, remarks), axes)
         remarks.tell()
         return found
 

@@ -14,6 +14,7 @@ from regkit.system.errors import DataError
 from regkit.system.guard import reading
 from regkit.system.notes import note
 from regkit.system.plain_numbers import real, whole
+from regkit.system.printable import shortened
 
 HEADER = ["frame", "joint", "x", "y", "z"]
 
@@ -58,7 +59,8 @@ def _rows(path: Path) -> dict[tuple[int, str], tuple[float, float, float]]:
             names = cells or []
             if not rows and names != HEADER and reader.line_num <= 1:
                 raise DataError(
-                    f"the header must be {','.join(HEADER)}; it is {','.join(names)[:100]}",
+                    f"the header must be {','.join(HEADER)}; it is "
+                    f"{shortened(','.join(names), 100)}",
                     place=f"{path}:1",
                 )
             if cells is None:
@@ -78,11 +80,15 @@ def _row(cells: list[str], place: str) -> Row:
         if number < 0 or not joint.strip():
             raise ValueError
     except ValueError:
-        raise DataError(f"not a row of frame,joint,x,y,z: {text[:100]}", place=place) from None
+        raise DataError(
+            f"not a row of frame,joint,x,y,z: {shortened(text, 100)}", place=place
+        ) from None
     if not np.isfinite(at).all():
         raise DataError(
             "a position is NaN or infinite; omit the row of an unseen joint", place=place
         )
     if max(map(abs, at)) > MAX_DISTANCE:
-        raise DataError(f"a position is beyond any measurement [m]: {text[:100]}", place=place)
+        raise DataError(
+            f"a position is beyond any measurement [m]: {shortened(text, 100)}", place=place
+        )
     return number, joint.strip(), at

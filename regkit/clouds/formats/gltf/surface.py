@@ -11,14 +11,13 @@ from typing import Any
 
 import numpy as np
 
-from regkit.clouds.formats.gltf.content import GltfContent
+from regkit.clouds.formats.gltf.data import GltfData
+from regkit.clouds.formats.gltf.triangles import LINES, POINTS, triangles
 from regkit.geometry.rigid import transformed
 from regkit.geometry.rotation import to_matrix
 from regkit.system.arrays import Array, Indices
 from regkit.system.errors import DataError
 from regkit.system.notes import note
-
-_POINTS, _TRIANGLES, _STRIP, _FAN = 0, 4, 5, 6
 
 
 @dataclass
@@ -44,15 +43,10 @@ def read_gltf(path: Path) -> tuple[Array, Indices]:
     Raises:
         DataError: If the file is damaged, compressed, or refers to data that it does not hold.
     """
-    file = GltfContent.of(path)
-    required = [str(one) for one in file.content.get("extensionsRequired", [])]
-    if any("compression" in one or "quantization" in one for one in required):
-        raise DataError(
-            f"is compressed ({', '.join(required)}); export it without", place=str(path)
-        )
-    nodes = file.content.get("nodes", [])
+    file = GltfData.load(path)
+    nodes = file.model.get("nodes", [])
     surface, visited = _Surface(), set[int]()
-    stack = [(root, np.eye(4)) for root in _roots(file.content, len(nodes))]
+    stack = [(root, np.eye(4)) for root in _roots(file.model, len(nodes))]
     while stack:
         at, parent = stack.pop()
         if not 0 <= at < len(nodes) or at in visited:
@@ -71,11 +65,11 @@ def read_gltf(path: Path) -> tuple[Array, Indices]:
     return vertices, np.concatenate([np.empty((0, 3), dtype=np.intp), *surface.triangles])
 
 
-def _roots(content: dict[str, Any], nodes: int) -> list[int]:
-    scenes = content.get("scenes")
+def _roots(model: dict[str, Any], nodes: int) -> list[int]:
+    scenes = model.get("scenes")
     if scenes:
-        return [int(node) for node in scenes[content.get("scene", 0)].get("nodes", [])]
-    children = {int(c) for node in content.get("nodes", []) for c in node.get("children", [])}
+        return [int(node) for node in scenes[model.get("scene", 0)].get("nodes", [])]
+    children = {int(c) for node in model.get("nodes", []) for c in node.get("children", [])}
     return [node for node in range(nodes) if node not in children]
 
 
@@ -90,31 +84,17 @@ def _local(node: dict[str, Any]) -> Array:
     return transform
 
 
-def _place(file: GltfContent, mesh: int, world: Array, surface: _Surface) -> None:
-    for primitive in file.content["meshes"][mesh]["primitives"]:
-        mode = int(primitive.get("mode", _TRIANGLES))
-        if mode not in (_POINTS, _TRIANGLES, _STRIP, _FAN):
+def _place(file: GltfData, mesh: int, world: Array, surface: _Surface) -> None:
+    for primitive in file.item(file.model.get("meshes"), mesh, "mesh")["primitives"]:
+        mode = primitive.get("mode")
+        if mode in LINES:
             note(f"lines of mesh {mesh} are passed over", place=file.path)
             continue
-        vertices = file.array(int(primitive["attributes"]["POSITION"]), "VEC3").astype(np.float64)
-        if "indices" in primitive:
-            order = file.array(int(primitive["indices"]), "SCALAR")[:, 0].astype(np.intp)
-        else:
-            order = np.arange(len(vertices))
-        if len(order) and order.max() >= len(vertices):
-            raise DataError(
-                f"mesh {mesh} has the vertex {order.max()}; there are {len(vertices)}, from 0",
-                place=str(file.path),
-            )
+        vertices = file.floats(primitive["attributes"]["POSITION"])
+        if vertices.shape[1] != 3:
+            raise file.wrong(f"positions have {vertices.shape[1]} coordinates; they need 3")
+        if mode != POINTS:
+            faces = triangles(file, primitive.get("indices"), mode, len(vertices))
+            surface.triangles.append(faces + surface.count)
         surface.vertices.append(transformed(world, vertices))
-        surface.triangles.append(_corners(order, mode) + surface.count)
         surface.count += len(vertices)
-
-
-def _corners(order: Indices, mode: int) -> Indices:
-    if mode == _POINTS:
-        return np.empty((0, 3), dtype=np.intp)
-    if mode == _TRIANGLES:
-        return order.reshape(-1, 3)
-    first = order[:-2] if mode == _STRIP else np.full(max(0, len(order) - 2), order[0])
-    return np.column_stack([first, order[1:-1], order[2:]])

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from regkit.system.errors import DataError
+from regkit.system.printable import shortened
 
 TYPES = {
     "char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4",
@@ -101,4 +102,6 @@ def read_header(content: bytes, place: str) -> Header:
             case ["end_header"] if order is not None:
                 return Header(order, elements, start, number)
             case _:
-                raise DataError(f"not a line of a header: '{line[:60]}'", place=f"{place}:{number}")
+                raise DataError(
+                    f"not a line of a header: '{shortened(line)}'", place=f"{place}:{number}"
+                )

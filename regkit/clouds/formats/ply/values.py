@@ -10,6 +10,7 @@ import numpy as np
 from regkit.clouds.formats.ply.header import Element, Header, Property
 from regkit.system.errors import DataError
 from regkit.system.plain_numbers import real, whole
+from regkit.system.printable import shortened
 
 Column = np.ndarray[Any, Any] | list[np.ndarray[Any, Any]]
 """The values (N,) of a property; of a list (N, n), or N arrays if their lengths differ."""
@@ -51,7 +52,7 @@ class TextValues:
                 self._row(element.properties, words, columns)
             except (ValueError, OverflowError, IndexError):
                 raise DataError(
-                    f"not a row of element {element.name}: '{' '.join(words)[:60]}'",
+                    f"not a row of element {element.name}: '{shortened(' '.join(words))}'",
                     place=f"{self.place}:{number}",
                 ) from None
         self.at += element.rows

@@ -10,6 +10,7 @@ import numpy as np
 from regkit.clouds.formats.text.delimiter import Delimiter
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
+from regkit.system.printable import shortened
 
 _PAIRS = {
     ",": (
@@ -65,8 +66,8 @@ def check_unnamed(
     counted = [cell for cell in cells if cell]
     if counted == [str(n) for n in range(len(counted))] and (points[1:] % 1.0).any():
         raise DataError(
-            f"'{first[:60]}' looks like numbers of the columns, not like a point; name the columns "
-            "x, y and z",
+            f"'{shortened(first)}' looks like numbers of the columns, not like a point; name the "
+            "columns x, y and z",
             place=place,
         )
     counts = points[:, 0]

@@ -9,6 +9,7 @@ from regkit.clouds.formats.text.columns import Columns, are_units, columns_named
 from regkit.clouds.formats.text.delimiter import Delimiter
 from regkit.system.errors import DataError
 from regkit.system.notes import note
+from regkit.system.printable import shortened
 
 _LABEL = re.compile(r"^\w+:\s+")
 """A word before the names in a comment, such as ``columns:``."""
@@ -64,7 +65,8 @@ def named_columns(
         number, line = above[-1]
         shown = ", ".join(delimiter.cells(line))
         raise DataError(
-            f"the header names no x, y and z; it names: {shown[:200]}", place=f"{path}:{number}"
+            f"the header names no x, y and z; it names: {shortened(shown, 200)}",
+            place=f"{path}:{number}",
         )
     return None
 

@@ -10,6 +10,7 @@ import numpy as np
 from regkit.clouds.formats.text.delimiter import is_missing, is_number
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
+from regkit.system.printable import shortened
 
 _THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2},\d{3}", re.ASCII)
 """A cell such as 1,234: with a decimal comma 1.234, with a thousands separator 1234."""
@@ -61,7 +62,7 @@ class Coordinates:
             return np.nan
         place = f"{self._path}:{number}"
         if not is_number(cell):
-            raise DataError(f"{axis} is {cell[:60]!r}, which is not a number", place=place)
+            raise DataError(f"{axis} is '{shortened(cell)}', which is not a number", place=place)
         if "," in cell:
             self._comma = self._comma or number
             if _THOUSANDS.fullmatch(cell):
@@ -72,7 +73,7 @@ class Coordinates:
         plain = cell.replace(",", ".").replace("\u2212", "-").upper().replace("D", "E")
         value = float(plain)
         if np.isinf(value):
-            raise DataError(f"{axis} is {cell[:60]!r}, beyond any number", place=place)
+            raise DataError(f"{axis} is '{shortened(cell)}', beyond any number", place=place)
         return value
 
     def points(self) -> Array:

@@ -15,6 +15,7 @@ from regkit.clouds.formats.text.numpy_rows import plain_rows
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
 from regkit.system.notes import note
+from regkit.system.printable import shortened
 
 ORDERED = (".xyz", ".xyzn", ".xyzrgb", ".pts", ".asc")
 """Formats without a header, whose columns begin with x y z by definition."""
@@ -53,7 +54,8 @@ def read_text(path: Path) -> Array:
         # The first line may be the header.
         number, line = content.rows[:2][-1] if texts else (1, "")
         raise DataError(
-            f"the file contains no points: no line holds three numbers, such as '{line[:60]}'",
+            "the file contains no points: no line holds three numbers, such as "
+            f"'{shortened(line)}'",
             place=f"{path}:{number}",
         )
     delimiter, first = found
@@ -94,7 +96,7 @@ def _points(
         if len(cells) != width:
             raise DataError(
                 f"{len(cells)} cells, separated by {delimiter}, where line {rows[0][0]} has "
-                f"{width}: '{line[:60]}'",
+                f"{width}: '{shortened(line)}'",
                 place=f"{path}:{number}",
             )
         coordinates.add((cells[x], cells[y], cells[z]), number)

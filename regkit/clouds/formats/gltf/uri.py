@@ -11,6 +11,7 @@ from pathlib import Path
 from urllib.parse import unquote, unquote_to_bytes
 
 from regkit.system.errors import DataError
+from regkit.system.printable import shortened
 
 _SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:")
 
@@ -27,18 +28,18 @@ def read_uri(uri: str, folder: Path) -> bytes:
     """
     if uri[:5].lower() == "data:":
         return _embedded(uri[5:])
-    shown = uri if len(uri) <= 60 else f"{uri[:60]}..."
+    shown = shortened(uri)
     if _SCHEME.match(uri):
-        raise DataError(f"the buffer {shown!r} is elsewhere; it must be in the file's folder")
+        raise DataError(f"the buffer '{shown}' is elsewhere; it must be in the file's folder")
     base = folder.resolve()
     # The name itself may hold percent signs.
     for name in dict.fromkeys((unquote(uri), uri)):
         place = (base / name.replace("\\", "/")).resolve()
         if not place.is_relative_to(base):
-            raise DataError(f"the buffer {shown!r} leaves the file's folder; it must be within it")
+            raise DataError(f"the buffer '{shown}' is outside the file's folder; it must be within")
         if place.is_file():
             return place.read_bytes()
-    raise DataError(f"the buffer {shown!r} is missing; it must be in the file's folder")
+    raise DataError(f"the buffer '{shown}' is missing; it must be in the file's folder")
 
 
 def _embedded(text: str) -> bytes:

@@ -62,7 +62,10 @@ def _chunks(content: bytes, path: Path) -> tuple[bytes, bytes | None]:
         chunks.setdefault(kind, content[start : start + size])
         start += size
     if _JSON not in chunks:
-        raise DataError("not a glTF 2.0 file: it has no chunk of JSON")
+        raise DataError(
+            f"not a glTF 2.0 file: it has no chunk of JSON; it announces {length} bytes and has "
+            f"{len(content)}"
+        )
     return chunks[_JSON], chunks.get(_BINARY)
 
 
