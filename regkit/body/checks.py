@@ -12,8 +12,8 @@ from regkit.skeleton import PoseDescription, Skeleton
 from regkit.skeleton.description import SegmentDescription
 from regkit.system.errors import ConfigError
 
-LONGEST = 100.0
-"""Maximum length of a part of a body, in sizes of the body."""
+LONGEST = 20.0
+"""Maximum length of a part of a body, in sizes of the body; centimetres are beyond it."""
 
 BEYOND_DEG = 1.0
 """Angle by which a stance may exceed a limit, as both are rounded [deg]."""

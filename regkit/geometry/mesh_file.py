@@ -21,6 +21,9 @@ ROUNDED = 0.03
 RIGID = 0.02
 """Largest deviation of a bone's axes from a rotation."""
 
+FARTHEST = 1e6
+"""Coordinate that no skin has, in metres or millimetres."""
+
 MAX_BONES = 10_000
 """Number of bones that no skeleton has."""
 
@@ -39,11 +42,17 @@ def mesh_arrays(path: Path, keys: Sequence[str]) -> Arrays:
     return read_arrays(path, keys, f"a skinned mesh, an .npz file with {', '.join(keys)}")
 
 
-def checked_shape(arrays: Arrays, key: str, *shape: int | None) -> Array:
-    """Returns an array of finite numbers of a shape; None stands for any length.
+def checked_shape(arrays: Arrays, key: str, *shape: int | None, most: float = np.inf) -> Array:
+    """Returns an array of finite numbers of a shape.
+
+    Args:
+        arrays: The arrays by name.
+        key: Name of the array.
+        shape: The shape; None stands for any length.
+        most: The largest absolute value.
 
     Raises:
-        DataError: If the shape differs, or a number is not finite.
+        DataError: If the shape differs, or a number is not finite or beyond ``most``.
     """
     array = arrays[key]
     fits = array.ndim == len(shape) and all(
@@ -59,6 +68,8 @@ def checked_shape(arrays: Arrays, key: str, *shape: int | None) -> Array:
     bad = ~np.isfinite(numbers).reshape(len(numbers), -1).all(axis=1)
     if bad.any():
         raise DataError(f"{key} has NaN or infinite numbers, first in row {int(np.argmax(bad))}")
+    if (largest := float(np.abs(numbers).max(initial=0.0))) > most:
+        raise DataError(f"{key} holds {largest:g}, which cannot be right; the most is {most:g}")
     return numbers
 
 
@@ -112,7 +123,7 @@ def checked_bones(arrays: Arrays, poses: str, count: int) -> Array:
     Raises:
         DataError: If one is not.
     """
-    rest = checked_shape(arrays, poses, count, 4, 4)
+    rest = checked_shape(arrays, poses, count, 4, 4, most=FARTHEST)
     turns = rest[:, :3, :3]
     off = np.abs(turns @ turns.swapaxes(1, 2) - np.eye(3)).max(axis=(1, 2), initial=0.0)
     wrong = (off > RIGID) | (np.linalg.det(turns) < 0.0)

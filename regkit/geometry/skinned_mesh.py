@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from regkit.geometry.mesh_file import (
+    FARTHEST,
     Arrays,
     checked_bones,
     checked_indices,
@@ -85,7 +86,7 @@ class SkinnedMesh(Brief):
             DataError: If one of them is wrong.
         """
         labels = checked_labels(arrays, "labels", "parents")
-        vertices = checked_shape(arrays, "rest_vertices", None, 3)
+        vertices = checked_shape(arrays, "rest_vertices", None, 3, most=FARTHEST)
         weights = checked_weights(arrays, "skin_weights", path)
         carriers = arrays["skin_indices"]
         if carriers.shape != weights.shape or len(weights) != len(vertices):
@@ -142,7 +143,7 @@ class SkinnedMesh(Brief):
         with reading(path, "the shape of a skinned mesh"):
             return replace(
                 self,
-                vertices=read_only(checked_shape(arrays, "rest_vertices", None, 3)),
+                vertices=read_only(checked_shape(arrays, "rest_vertices", None, 3, most=FARTHEST)),
                 rest=read_only(checked_bones(arrays, "rest_bone_poses", len(self.labels))),
             )
 

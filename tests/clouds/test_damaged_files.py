@@ -128,3 +128,24 @@ def test_damaged_file_gives_points_or_an_error(tmp_path):
 def test_many_damaged_files_give_points_or_errors(tmp_path):
     with warnings.catch_warnings(action="ignore", category=RegkitWarning):
         fuzzed(tmp_path, 1000)
+
+
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        # The line ends are lost, or none that a text file has.
+        ("one_row.xyz", " ".join(["0.5 0.25 1.5"] * 40)),
+        ("one_row.txt", "\v".join(["0.5 0.25 1.5"] * 40)),
+        ("digits.txt", "0.5 0.25 1.5\n0.5 0.25 \u0663\n"),
+        ("statement.obj", "v 0 0 0\nv 1 0 0\n1 2 3\nv 0 1 0\nf 1 2 3\n"),
+        ("version.ply", "ply\nformat ascii 7\nelement vertex 1\nproperty float x\n"
+         "property float y\nproperty float z\nend_header\n1 2 3\n"),
+        ("rest.pcd", "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\n"
+         "POINTS 1\nDATA binary\n" + "AAAA" * 3 + "B"),
+    ],
+)  # fmt: skip
+def test_text_that_is_nearly_a_cloud_is_refused(tmp_path, name, content):
+    path = tmp_path / name
+    path.write_text(content, encoding="utf-8")
+    with pytest.raises(RegkitError, match=name):
+        read_cloud(path)

@@ -132,3 +132,21 @@ def test_a_file_that_is_no_archive_is_refused(tmp_path: Path, content: bytes) ->
 def test_the_case_of_weights_is_refused() -> None:
     with pytest.raises(DataError, match="skin_weights has NaN"):
         SkinnedMesh.read(CASES / "21-meshes" / "nan_weights.npz")
+
+
+@pytest.mark.parametrize(
+    ("key", "damage"),
+    [
+        ("labels", lambda labels: np.arange(len(labels))),
+        ("labels", lambda labels: np.array(["lower", "up\x1bper"])),
+        ("labels", lambda labels: np.array([f"bone {n}" for n in range(100_000)])),
+        ("labels", lambda labels: np.array(["lower"] * 100_000)),
+        ("rest_vertices", lambda vertices: 1e20 * vertices),
+    ],
+)
+def test_names_and_lengths_that_no_skin_has_are_refused(
+    tmp_path: Path, arrays: Arrays, key: str, damage: Any
+) -> None:
+    arrays[key] = damage(arrays[key])
+    with pytest.raises(DataError, match=key):
+        SkinnedMesh.read(_write(tmp_path, arrays))

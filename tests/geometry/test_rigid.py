@@ -95,3 +95,8 @@ def test_file_that_holds_no_rigid_motion_is_refused(tmp_path, text, word):
     with pytest.raises(DataError) as caught:
         read_transform(str(path))
     assert word in str(caught.value)
+
+
+def test_a_translation_beyond_any_length_is_refused():
+    with pytest.raises(DataError, match="9e"):
+        checked_rigid(rigid(np.eye(3), np.array([9e17, 0.0, 0.0])))

@@ -338,3 +338,27 @@ def test_other_formats_and_axes_are_refused(robot: Path) -> None:
     robot.write_text("<sdf/>")
     with pytest.raises(DataError, match=r"arm\.urdf:1: <sdf> where <robot>"):
         read_skeleton(robot)
+
+
+@pytest.mark.parametrize(
+    ("file", "text"),
+    [
+        (
+            "a.bvh",
+            "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n"
+            "JOINT l\x80eg\n{\nOFFSET 0 1 0\nCHANNELS 1 Xrotation\n"
+            "End Site\n{\nOFFSET 0 1 0\n}\n}\n}\n",
+        ),
+        (
+            "a.urdf",
+            '<robot name="r"><link name="a"/><link name="l&#x80;eg"/>'
+            '<joint name="j" type="continuous">'
+            '<origin xyz="0 0 1"/><parent link="a"/><child link="l&#x80;eg"/></joint></robot>',
+        ),
+    ],
+)
+@pytest.mark.filterwarnings("ignore::regkit.system.notes.RegkitWarning")
+def test_a_name_with_control_characters_becomes_one_that_can_be_printed(tmp_path, file, text):
+    path = tmp_path / file
+    path.write_text(text, encoding="utf-8")
+    assert list(read_skeleton(path).description.segments) == ["a", "l_eg"]

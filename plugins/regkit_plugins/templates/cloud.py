@@ -11,6 +11,7 @@ from pydantic import Field
 
 from regkit.alignment import cloud_body, cloud_description
 from regkit.body import Body, BodyDescription
+from regkit.body.checks import LONGEST
 from regkit.clouds import read_cloud, voxel_downsampled
 from regkit.clouds.checks import check_shape
 from regkit.config.model import InputPath
@@ -18,6 +19,7 @@ from regkit.config.quantities import Voxel
 from regkit.interfaces.template import Template
 from regkit.skeleton.joints import Position
 from regkit.system.arrays import Array
+from regkit.system.errors import DataError
 
 
 class CloudTemplate(Template):
@@ -62,8 +64,16 @@ class CloudTemplate(Template):
         return points if self.voxel is None else voxel_downsampled(points, self.voxel)
 
     def _markers(self, points: Array) -> dict[str, Array]:
-        centre = points.mean(axis=0)
-        return {name: np.array(at) - centre for name, at in self.markers.items()}
+        """Returns the markers relative to the centroid; one far from the points is refused."""
+        centre, extent = points.mean(axis=0), float(np.linalg.norm(np.ptp(points, axis=0)))
+        markers = {name: np.array(at) - centre for name, at in self.markers.items()}
+        for name, at in markers.items():
+            if (far := float(np.linalg.norm(at))) > LONGEST * extent:
+                raise DataError(
+                    f"the marker '{name}' is {far:.3g} m from an object of {extent:.3g} m",
+                    place=str(self.path),
+                )
+        return markers
 
 
 @lru_cache(maxsize=8)

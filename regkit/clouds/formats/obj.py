@@ -28,7 +28,7 @@ def read_obj(path: Path) -> tuple[Array, Indices]:
     above the face.
 
     Raises:
-        DataError: If a vertex or a face is invalid.
+        DataError: If a vertex or a face is invalid, or a line is no statement.
     """
     vertices: list[list[float]] = []
     faces: list[list[int]] = []
@@ -40,6 +40,11 @@ def read_obj(path: Path) -> tuple[Array, Indices]:
         elif words[0] in ("f", "fo"):
             faces.append(_face(words, len(vertices), f"{path}:{number}"))
             places.append(number)
+        elif not words[0].isidentifier():
+            raise DataError(
+                f"'{' '.join(words)[:60]}' is no statement; they begin with a word such as v or f",
+                place=f"{path}:{number}",
+            )
         else:
             unread += words[0] in _UNREAD
     for face, number in zip(faces, places, strict=True):

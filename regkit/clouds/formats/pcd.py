@@ -158,8 +158,10 @@ def _ascii(header: _Header, body: bytes, place: str) -> Array:
 
 def _binary(header: _Header, body: bytes, place: str) -> Array:
     size = header.dtype.itemsize
-    if not header.points * size <= len(body) < (header.points + 1) * size:
-        raise _wrong_count(header, len(body) // size, place)
+    rest = body[header.points * size :]
+    # Some writers end the file with a line feed, or fill it up.
+    if len(body) < header.points * size or len(rest) >= size or rest.strip(b"\0 \r\n"):
+        raise _wrong_count(header, len(body) / size, place)
     rows = np.frombuffer(body, header.dtype, header.points)
     return np.column_stack([rows[str(axis)][:, 0].astype(np.float64) for axis in header.axes])
 
@@ -193,8 +195,8 @@ def _compressed(header: _Header, body: bytes, place: str) -> Array:
     return np.column_stack(columns).astype(np.float64)
 
 
-def _wrong_count(header: _Header, held: int, place: str) -> DataError:
+def _wrong_count(header: _Header, held: float, place: str) -> DataError:
     return DataError(
-        f"announces {header.points} points, but holds {held}; the file is cut short or damaged",
+        f"announces {header.points} points, but holds {held:.9g}; the file is cut short or damaged",
         place=place,
     )

@@ -87,7 +87,7 @@ def read_header(content: bytes, place: str) -> Header:
                 )
             case ["ply"] | ["comment" | "obj_info", *_] | []:
                 continue
-            case ["format", kind, _] if kind in ORDERS:
+            case ["format", kind, "1.0"] if kind in ORDERS:
                 order = ORDERS[kind]
             case ["element", name, count] if count.isdecimal() and len(count) < 19:
                 elements.append(Element(name.lower(), int(count)))
