@@ -156,9 +156,9 @@ def checked_labels(arrays: Mapping[str, Any], labels: str, parents: str) -> tupl
     twice = sorted(name for name, count in Counter(names).items() if count > 1)
     if twice:
         raise DataError(f"{labels} must be unique names; repeated: {', '.join(twice[:SHOWN])}")
-    above = np.atleast_1d(arrays[parents]).ravel()
-    if len(above) != len(names):
-        raise DataError(f"{labels} has {len(names)} names, and {parents} {len(above)} numbers")
+    above = np.atleast_1d(arrays[parents])
+    if above.shape != (len(names),):
+        raise DataError(f"{labels} has {len(names)} names, and {parents} the shape {above.shape}")
     for bone, parent in enumerate(above.tolist()):
         if not (parent == -1 if bone == 0 else 0 <= parent < bone):
             raise DataError(

@@ -86,9 +86,10 @@ def lines(points: Any, file: Damaged) -> Iterator[str]:
     written = set()
     for token in (*tokens, *re.split(r"[\s;,\"]+", text), *(t.replace(",", ".") for t in tokens)):
         # Python's own reading of a number accepts more: 1_000, and the digits of other scripts.
-        if re.fullmatch(r"[-+]?[0-9.]+([eE][-+]?[0-9]+)?", token):
+        # Fortran writes 1.5D+02.
+        if re.fullmatch(r"[-+]?[0-9.]+([eEdD][-+]?[0-9]+)?", token):
             try:
-                written.add(float(token))
+                written.add(float(token.upper().replace("D", "E")))
             except ValueError:
                 continue
     if strange := set(points.ravel().tolist()) - written:

@@ -142,6 +142,7 @@ def test_the_case_of_weights_is_refused() -> None:
         ("labels", lambda labels: np.array([f"bone {n}" for n in range(100_000)])),
         ("labels", lambda labels: np.array(["lower"] * 100_000)),
         ("rest_vertices", lambda vertices: 1e20 * vertices),
+        ("parents", lambda parents: parents[:, None]),
     ],
 )
 def test_names_and_lengths_that_no_skin_has_are_refused(
