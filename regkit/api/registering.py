@@ -76,7 +76,7 @@ def register(
             raise ConfigError("a file is seen by the camera.json beside it", place="camera")
         cloud = load_frame(cloud)
     frame = frame_of(cloud, camera, place="cloud")
-    recording = GivenFrames(name="cloud", fps=1.0, length=1, given=(frame,))
+    recording = GivenFrames(name=frame.place or "cloud", fps=1.0, length=1, given=(frame,))
     return _tracked(recording, template, method, preprocessor, None, start, "regkit.register")[0]
 
 

@@ -133,6 +133,8 @@ def _verdict(found: Alignment, min_fitness: float) -> tuple[Verdict, str]:
             f"{found.hidden} of the source slides its surface along itself: that part of the "
             "transform is not determined by the data"
         )
+    if not found.converged:
+        return Verdict.DOUBTFUL, f"the method did not converge: {found.message}"
     return Verdict.FOUND, ""
 
 

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from regkit.cli.console import output
+from regkit.cli.console import output, print_warning
 from regkit.cli.options import options
 from regkit.cli.template_file import check_replaceable, write_template
 from regkit.interchange.bones import THICKNESS
@@ -123,9 +123,9 @@ def _print_summary(imported: ImportedSkeleton) -> None:
         f"{description.size.name}: {description.size.value:.4g} m",
     )
     if description.size.value > LARGE:
-        output.print(
-            "this is large; if the file is not in metres, give its unit, such as --scale 0.01 for "
-            "centimetres",
+        print_warning(
+            f"a {description.size.name} of {description.size.value:.4g} m is large; if the file is "
+            "not in metres, give its unit, such as --scale 0.01 for centimetres"
         )
     if imported.shaped:
         output.print(

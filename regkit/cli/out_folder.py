@@ -1,4 +1,4 @@
-"""The folder of ``--out``: no file, and no part of the results of another run."""
+"""The folder of ``--out``: no file, no recording, and no part of the results of another run."""
 
 from __future__ import annotations
 
@@ -12,17 +12,21 @@ MARKS = (("config.yaml", "environment.json"), ("result.json", "poses.npz"))
 
 
 def check_out(out: Path, *, whole: bool) -> None:
-    """Refuses a file, or a folder inside another results folder, before any work is done.
+    """Refuses a file, a recording, or a folder inside another results folder, before any work.
 
     Args:
         out: The folder.
         whole: Whether the folder may be a run's own results folder, to be continued.
 
     Raises:
-        ConfigError: If the path is a file, or inside another results folder.
+        ConfigError: If the path is a file, a recording's folder, or inside another results folder.
     """
     if out.exists() and not out.is_dir():
         raise ConfigError("this is a file; name a folder", place=f"--out {out}")
+    if (out / "sequence.yaml").is_file():
+        raise ConfigError(
+            "this is the folder of a recording; choose another one", place=f"--out {out}"
+        )
     place = out.resolve()
     if not whole and _holds(place, MARKS[0]):
         raise ConfigError(

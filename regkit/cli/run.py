@@ -24,6 +24,8 @@ from regkit.experiment import run as run_experiment
 from regkit.metrics import Measure
 from regkit.report.labels import wrapped
 from regkit.report.tables import TERMINAL, rows
+from regkit.scaffold import examples
+from regkit.system.errors import DataError
 
 SHOWN = 8
 """Maximum number of doubtful tracks that are printed."""
@@ -79,6 +81,7 @@ def run(
     Lists under `sweep:` in the YAML file expand into one experiment per combination.
     """
     run_plugin_files(plugin)
+    _check_example(experiment)
     workers = chosen_workers(jobs, cluster)
     study = Study.read(experiment, settings or (), called="--set")
     folder = out or new_folder(study.name)
@@ -105,6 +108,17 @@ def run(
     code = run_exit_code(outcome, strict=strict)
     if code != DONE:
         raise typer.Exit(code)
+
+
+def _check_example(experiment: Path) -> None:
+    """Raises DataError if an example is named that has not been copied yet."""
+    name = experiment.stem
+    if not experiment.exists() and name in [one.name for one in examples()]:
+        raise DataError(
+            f"there is no such file; `regkit example {name}` copies the example, and names the "
+            "command that runs it",
+            place=str(experiment),
+        )
 
 
 def _tell_doubts(measures: Mapping[str, Mapping[str, Measure]]) -> None:

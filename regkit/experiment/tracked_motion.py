@@ -118,6 +118,12 @@ def _arrays(folder: Path) -> dict[str, NDArray[Any]]:
         )
     check_format(results)
     track = Manifest.read(folder)
+    if track is None and (folder / "result.json").is_file():
+        raise ConfigError(
+            "this was written by `regkit track`; only the tracks of `regkit run` can be exported: "
+            "give RESULTS/METHOD/RECORDING",
+            place=str(folder),
+        )
     if track is None:
         raise ConfigError(
             f"the track is not finished ({manifest.FILE} is missing); continue the run",

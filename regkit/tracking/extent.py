@@ -33,7 +33,8 @@ def check_unit(points: Array, template: Template, *, place: str) -> None:
     extent = extent_of(points)
     if extent > LARGEST * sizes[-1]:
         raise DataError(
-            f"{_compared(extent, template)}: give metres (depth_scale), not millimetres",
+            f"{_compared(extent, template)}: give metres; "
+            "millimetres are divided by 1000 (depth_scale)",
             place=place,
         )
     if extent < SMALLEST * sizes[0]:
@@ -69,10 +70,10 @@ def check_extent(points: Array, template: Template, *, place: str) -> None:
 
 def _compared(extent: float, template: Template) -> str:
     sizes = template.candidate_sizes()
+    length = f"{extent:.0f}" if extent >= 100.0 else f"{extent:.3g}"
     span = f"{sizes[0]:.3g}" + (f" to {sizes[-1]:.3g}" if len(sizes) > 1 else "")
     return (
-        f"the points are spread over {extent:.3g} m, and the body '{template.name()}' is {span} m "
-        "large"
+        f"the points are spread over {length} m, and the body '{template.name()}' is {span} m large"
     )
 
 

@@ -67,7 +67,7 @@ class TrackVerdict:
 
 
 def _reason(track: Track, numbers: Sequence[int]) -> str:
-    """Returns how many frames have which verdict, and the shares of the worst one."""
+    """Returns how many frames have which verdict, and the worst shares of one."""
     frames, parts = Counter(track.verdicts), []
     if len(track) > 1:
         parts.append(
@@ -82,7 +82,7 @@ def _reason(track: Track, numbers: Sequence[int]) -> str:
         where = f"in frame {numbers[flat[0]]} " if len(track) > 1 else ""
         parts.append(f"{where}the data are as flat as a wall")
     shares = np.minimum(track.inlier_shares, track.coverages)
-    if np.isfinite(shares).any():
+    if frames[Verdict.LOST] or frames[Verdict.DOUBTFUL]:
         worst = int(np.nanargmin(shares))
         where = f"in frame {numbers[worst]} " if len(track) > 1 else ""
         parts.append(

@@ -37,6 +37,14 @@ def test_default_folder_is_not_inside_other_results_either(regkit, results, monk
     assert f"inside the results folder {results}" in ended.err
 
 
+def test_results_are_not_written_into_a_recording(regkit, tmp_path):
+    (tmp_path / "sequence.yaml").write_text("fps: 30\n")
+    ended = regkit("track", WALK, "--out", tmp_path)
+    assert ended.code == 1
+    assert "recording" in ended.err
+    assert [one.name for one in tmp_path.iterdir()] == ["sequence.yaml"]
+
+
 def test_motion_is_not_written_into_the_results_of_a_run(regkit, tmp_path):
     for name in RUN:
         (tmp_path / name).write_text("")

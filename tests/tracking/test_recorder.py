@@ -150,7 +150,9 @@ def test_frame_without_data_is_bridged_and_told():
     assert np.isnan([track.inlier_shares[1], track.surface_distances[1]]).all()
     assert "empty" in recorder.message(1)
     judged = TrackVerdict.of(track)
+    assert judged.verdict is Verdict.DOUBTFUL
     assert "1 of 3 frames have no data" in judged.reason
+    assert "template" not in judged.reason, "the template is not to blame for a blank frame"
     with pytest.raises(NoDataError):
         recorder.snapshot(1)
 
