@@ -14,13 +14,14 @@ from typer.core import TyperCommand, TyperGroup
 
 from regkit import __version__
 from regkit.cli.completion import completing, stand_in
-from regkit.cli.console import print_error, show_warnings, tell_compiling
+from regkit.cli.console import print_error, print_warning, tell_compiling
 from regkit.cli.exit_codes import ERROR, INTERRUPTED, NOT_FOUND
 from regkit.cli.interrupt import Interrupt
 from regkit.cli.progress import display
 from regkit.cli.streams import flush_output, standard_streams
 from regkit.system.compiled import when_compiling
 from regkit.system.errors import NotFoundError, RegkitError
+from regkit.system.notes import show_notes
 from regkit.system.plugin_code import plugin_code
 from regkit.system.progress import show_on
 
@@ -137,7 +138,7 @@ def main() -> None:
     if completing():
         stand_in()
     when_compiling(tell_compiling)
-    show_warnings()
+    show_notes(print_warning)
     show_on(display)
     with standard_streams(), Interrupt() as interrupt:
         try:

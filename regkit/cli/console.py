@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterable
 from typing import Any
 
@@ -10,7 +9,6 @@ from rich.console import Console, ConsoleOptions, RenderableType
 from rich.segment import Segment
 
 from regkit.system.errors import RegkitError
-from regkit.system.notes import RegkitWarning
 from regkit.system.printable import printable
 
 
@@ -55,17 +53,3 @@ def print_warning(text: str) -> None:
     """Prints a warning with the prefix "warning" on each of its lines."""
     for line in text.splitlines():
         errors.print(f"warning: {line}", style="yellow")
-
-
-def show_warnings() -> None:
-    """Shows regkit's own warnings as lines for users, each text once; others stay as they are."""
-    warnings.simplefilter("default", RegkitWarning)
-    usual = warnings.showwarning
-
-    def shown(message: Warning | str, category: type[Warning], *place: Any, **more: Any) -> None:
-        if issubclass(category, RegkitWarning):
-            print_warning(str(message))
-        else:
-            usual(message, category, *place, **more)
-
-    warnings.showwarning = shown

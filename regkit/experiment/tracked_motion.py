@@ -138,7 +138,8 @@ def _arrays(folder: Path) -> dict[str, NDArray[Any]]:
     with reading(file, "the poses of regkit run"):
         numbers = {name: real_numbers(arrays[name], name) for name in NEEDED}
         frames = len(numbers["root"])
-        if numbers["size"].shape or not all(
+        whole = numbers["size"].shape == () and numbers["root"].shape == (frames, 4, 4)
+        if not whole or not all(
             len(numbers[name]) == frames and np.isfinite(numbers[name]).all() for name in MOVING
         ):
             raise DataError(f"damaged: not {frames} finite poses and a size")

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import base64
 from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import datetime
-from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
 from regkit.metrics import mean_of
@@ -18,15 +15,13 @@ from regkit.report.figures import plots
 from regkit.report.labels import BY_NAME, NAMES, counted
 from regkit.report.overlay import draw_overlay
 from regkit.report.plot import DARK, LIGHT, Plot
+from regkit.report.rendering import rendered
 from regkit.report.run import Run
 from regkit.report.summary import metrics, write_tables
 from regkit.report.tables import main_table, pair_table, recording_table
 from regkit.system.files import write_text
 from regkit.system.json_files import write_json
 from regkit.tracking.verdict import LOST_SHARE, SURE_COVERAGE, SURE_INLIERS
-
-if TYPE_CHECKING:
-    from jinja2 import Environment
 
 PICTURES = 12
 """Maximum number of overlays on the page, those of each method's worst recordings; the others are
@@ -109,7 +104,8 @@ def _text(template: str, run: Run, folder: Path, drawn: list[Drawn]) -> str:
     worst = set(_worst(run))
     shown = [one for one in pictures if (one.method, one.recording) in worst and one.file.exists()]
     machine = run.environment
-    return _environment().get_template(template).render(
+    return rendered(
+        template,
         run=run,
         finding=_finding(run),
         compared=_compared(run),
@@ -189,35 +185,3 @@ def _pictures(run: Run, folder: Path) -> Iterator[Picture]:
         for recording in by_recording:
             place = Path(method, recording, "overlay.png")
             yield Picture(method, recording, folder / place, quote(place.as_posix()))
-
-
-@cache
-def _environment() -> Environment:
-    from jinja2 import Environment, PackageLoader, StrictUndefined, select_autoescape
-
-    environment = Environment(
-        loader=PackageLoader("regkit.report"),
-        autoescape=select_autoescape(["html"]),
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    filters: dict[str, Any] = {
-        "png": _embedded,
-        "picture": lambda file: _embedded(file.read_bytes()),
-        "md": _markdown,
-    }
-    environment.filters.update(filters)
-    return environment
-
-
-def _embedded(png: bytes) -> str:
-    return "data:image/png;base64," + base64.b64encode(png).decode("ascii")
-
-
-def _markdown(text: object) -> str:
-    """Returns text with Markdown's special characters escaped, also for use in a table."""
-    flat = " ".join(str(text).split())
-    for special in "\\|*`[]<":
-        flat = flat.replace(special, "\\" + special)
-    return flat

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import sys
 import warnings
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 from regkit.system.printable import cut, one_line, printable
 
@@ -28,14 +30,25 @@ def note(message: str, *, place: Path | str | None = None) -> None:
     warnings.warn(RegkitWarning(text), stacklevel=2)
 
 
-def print_notes() -> None:
-    """Prints notes of this process as plain lines on standard error, without the place in code."""
-    usual = warnings.formatwarning
+def show_notes(show: Callable[[str], None] | None = None) -> None:
+    """Shows the notes of this process as lines for users, each text once.
 
-    def formatted(message: Warning | str, category: type[Warning], *rest: Any, **more: Any) -> str:
+    Other warnings stay as they are.
+
+    Args:
+        show: Shows a note; by default it is printed on standard error.
+    """
+    usual = warnings.showwarning
+
+    def shown(message: Warning | str, category: type[Warning], *place: Any, **more: Any) -> None:
         if issubclass(category, RegkitWarning):
-            return f"warning: {message}\n"
-        return usual(message, category, *rest, **more)
+            (show or _printed)(str(message))
+        else:
+            usual(message, category, *place, **more)
 
-    warnings.formatwarning = cast("Any", formatted)
+    warnings.showwarning = shown
     warnings.simplefilter("default", RegkitWarning)
+
+
+def _printed(text: str) -> None:
+    print(f"warning: {text}", file=sys.stderr)

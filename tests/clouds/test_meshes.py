@@ -84,6 +84,17 @@ def gltf(**changes):
     return json.dumps(content)
 
 
+def quantized_gltf():
+    """Returns the square with integers for coordinates, after the floating-point ones."""
+    corners = np.array(SQUARE, "<i2").tobytes()
+    uri = "data:;base64," + base64.b64encode(corners).decode()
+    content = json.loads(gltf(accessors__0__componentType=5122, accessors__0__bufferView=2))
+    content["buffers"].append({"byteLength": len(corners), "uri": uri})
+    content["bufferViews"].append({"buffer": 1, "byteLength": len(corners)})
+    content["extensionsRequired"] = ["KHR_mesh_quantization"]
+    return json.dumps(content)
+
+
 @pytest.fixture
 def read(tmp_path):
     def reader(name, content):
@@ -128,6 +139,7 @@ def test_polygons_of_another_program_are_its_whole_surface(name):
         ("a.stl", SOLID),
         ("a.stl", stl()),
         ("a.gltf", gltf()),
+        ("a.gltf", quantized_gltf()),
         ("a.gltf", gltf(meshes__0__primitives__0={"attributes": {"POSITION": 0}, "mode": 6})),
         ("a.gltf", gltf(meshes__0__primitives__0={"attributes": {"POSITION": 0}, "mode": 5})),
     ],

@@ -138,6 +138,8 @@ def test_columns_delimiter_and_decimal_sign_are_found(read, content):
         ("x,y,z\n", None, "no points"),
         ("1 2\n3 4\n", None, "no points"),
         (b"1 2 3\n4 5\x006\n", 2, "NUL"),
+        (b"1 2 3\x0b4 5 6\x0b7 8 9\n", 1, "end of a line"),
+        ("0 0 0\n1 2 3\u20284 5 6\n".encode(), 2, "end of a line"),
         ("1 2 3\n4 5 6\n".encode("utf-16-le"), 1, "NUL"),
         (b"\xff\xfe1\x00 ", None, ""),
         ("x,y,z\nnan,1,2\n,1,2\n", None, "all 2"),

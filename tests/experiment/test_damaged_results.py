@@ -231,3 +231,16 @@ def test_record_of_other_shapes_is_refused(track, name, shape):
     else:
         with pytest.raises(DataError, match=r"record\.npz"):
             results.record("gsog", "first")
+
+
+@pytest.mark.parametrize("name", ["root", "balls", "hinges", "markers"])
+def test_poses_of_other_shapes_are_refused(track, name):
+    """Also where the checksums were forged with them."""
+    file = track / "poses.npz"
+    with np.load(file) as arrays:
+        kept = dict(arrays)
+    kept[name] = np.zeros(len(kept[name]))
+    np.savez(file, **kept)
+    Manifest.of(track, Manifest.read(track).inputs).write(track)
+    with pytest.raises(DataError):
+        read_tracked_motion(track)

@@ -21,7 +21,7 @@ from regkit.experiment.task import Result, Task
 from regkit.experiment.workers.packed import Packed, performed
 from regkit.experiment.workers.team import TRIES, Team, Workers
 from regkit.system.errors import RegkitError
-from regkit.system.notes import print_notes
+from regkit.system.notes import show_notes
 from regkit.system.optional import load_library
 
 PATIENCE = 0.2
@@ -131,7 +131,7 @@ def _pool() -> Any:
 
 def _follow_parent(parent: int) -> None:
     """Runs on a worker: ends it with its parent, leaves Ctrl-C to the parent, and shows notes."""
-    print_notes()
+    show_notes()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
     def follow() -> None:

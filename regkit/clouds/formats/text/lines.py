@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import codecs
+import re
 from pathlib import Path
 
 from regkit.system.errors import DataError
@@ -16,6 +17,9 @@ _MARKS = (
 )
 """Byte order marks and their encodings; that of UTF-32 begins with that of UTF-16."""
 
+_ODD_END = re.compile("(?<=[0-9.])[\x0b\x0c\x1c-\x1e\x85\u2028\u2029](?=[-+.0-9])")
+"""A rare character between two numbers, which some programs take for the end of a line."""
+
 
 def lines_of(path: Path) -> list[str]:
     """Returns the lines of a text file, the first being line 1.
@@ -23,7 +27,7 @@ def lines_of(path: Path) -> list[str]:
     Bytes that are not UTF-8 are Latin-1, which only names of columns can need.
 
     Raises:
-        DataError: If the file holds NUL bytes, as binary files do.
+        DataError: If the file holds NUL bytes, as binary files do, or rare ends of lines.
     """
     # Control-Z ended files of DOS.
     content = path.read_bytes().rstrip(b"\x1a")
@@ -41,4 +45,13 @@ def lines_of(path: Path) -> list[str]:
             raise DataError(f"damaged text: not {encoding}", place=str(path)) from None
         text = content.decode("latin-1")
     # str.splitlines would also break lines at form feeds and other rare characters.
-    return text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    odd = _ODD_END.search(text)
+    if odd is not None:
+        number = next(n for n, line in enumerate(lines, 1) if _ODD_END.search(line))
+        raise DataError(
+            f"the character {odd.group()!r} is between two numbers, and may be the end of a line; "
+            "end lines by a line feed",
+            place=f"{path}:{number}",
+        )
+    return lines
