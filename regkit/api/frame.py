@@ -47,7 +47,8 @@ def frame_of(
             f"an array of shape {values.shape}; a depth image is (H, W), a cloud (N, 3)",
             place=place,
         )
-    if not len(values):
+    # A cloud without points is a frame without data; an image without pixels is a mistake.
+    if not len(values) and values.shape[1] != 3:
         raise DataError("the array is empty", place=place)
     lens = None if camera is None else _camera(camera, values.shape)
     if values.shape[1] == 3 and (lens is None or (lens.height, lens.width) != values.shape):

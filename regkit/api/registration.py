@@ -73,9 +73,19 @@ class Registration(Summary):
         return self.tracking.verdict
 
     @property
+    def reason(self) -> str:
+        """Why the body is doubtful or lost; empty if it was found."""
+        return self.tracking.judged.reason
+
+    @property
     def inlier_share(self) -> float:
         """Fraction of the points that lie on the body, from 0 to 1."""
         return float(self.tracking.inlier_shares[0])
+
+    @property
+    def coverage(self) -> float:
+        """Fraction of the body that has data nearby, from 0 to 1."""
+        return float(self.tracking.coverages[0])
 
     def error(self, truth: Mapping[str, ArrayLike] | ArrayLike) -> float:
         """Returns the mean distance [m] of the markers to reference joints.

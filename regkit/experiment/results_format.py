@@ -6,6 +6,7 @@ from pathlib import Path
 
 from regkit import __version__
 from regkit.system.errors import DataError, RegkitError
+from regkit.system.guard import foreign
 from regkit.system.json_files import read_json
 
 FORMAT = 3
@@ -31,7 +32,7 @@ def check_format(folder: Path) -> None:
         environment = read_json(file)
         written, author = int(environment.get("format", 1)), str(environment["regkit"])
     except (RegkitError, ValueError, TypeError, KeyError, AttributeError) as error:
-        reason = error.message if isinstance(error, RegkitError) else error
+        reason = error.message if isinstance(error, RegkitError) else foreign(error)
         raise DataError(
             f"damaged ({reason}); the file records the format of the results. Run the experiment "
             "again in another folder",

@@ -60,6 +60,10 @@ def checked_points(points: ArrayLike, *, place: str | None = None) -> Array:
     return array
 
 
+MARKS = (9999.0, 99999.0, 999999.0, 32768.0)
+"""Numbers, of either sign, that some programs write for a missing measurement."""
+
+
 def without_missing(points: ArrayLike, *, place: str | None = None) -> Array:
     """Returns the measured points (M, 3) [m] of points (N, 3) from a user or a file.
 
@@ -82,6 +86,7 @@ def without_missing(points: ArrayLike, *, place: str | None = None) -> Array:
             f"dropped; {len(measured)} remain",
             place=place,
         )
+    _tell_marks(measured, place)
     return measured
 
 
@@ -105,3 +110,18 @@ def measured_points(points: ArrayLike, *, place: str | None = None) -> Array:
             place=place,
         )
     return measured
+
+
+def _tell_marks(points: Array, place: str | None) -> None:
+    """Tells of points (N, 3) that look like marks of missing measurements."""
+    origin = ~points.any(axis=1)
+    marked = np.isin(np.abs(points), MARKS).any(axis=1)
+    # One point may well be the origin.
+    for rows, what in ((marked, "have such a coordinate as in"), (origin, "are exactly")):
+        if np.count_nonzero(rows) > 1:
+            count, first = np.count_nonzero(rows), points[np.flatnonzero(rows)[0]].tolist()
+            note(
+                f"{count} of {len(points)} points {what} {first}, which may mark a missing "
+                "measurement, and are kept; remove them, or write nan",
+                place=place,
+            )

@@ -6,6 +6,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from pydantic import ValidationError
+
 from regkit.system.errors import DataError, RegkitError
 
 LONGEST = 200
@@ -52,10 +54,19 @@ def reading(path: Path | str, what: str) -> Iterator[None]:
         raise DataError(f"not {what}: {foreign(error)}", place=str(path)) from None
 
 
+def _told(error: BaseException) -> str:
+    """Returns an exception's message; those of pydantic and of mappings begin with no reason."""
+    if isinstance(error, ValidationError):
+        first = error.errors(include_url=False)[0]
+        field = ".".join(map(str, first["loc"]))
+        return f"{field}: {first['msg']}" if field else first["msg"]
+    return f"{error} is missing" if isinstance(error, KeyError) else str(error)
+
+
 def foreign(error: BaseException) -> str:
     """Returns the first line of a foreign exception's message, cut, or its kind without one."""
     try:
-        lines = str(error).strip().splitlines()
+        lines = _told(error).strip().splitlines()
     except Exception:  # An exception of others may not even have a text.
         lines = []
     text = lines[0] if lines else type(error).__name__

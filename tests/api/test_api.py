@@ -241,7 +241,7 @@ WRONG = {
     "ragged": (lambda d, c: ([[[1.0], [2.0, 3.0]]], None), "its rows differ in length"),
     "four dimensions": (lambda d, c: (d[None], c), "frames[0]: an array of shape (4, 144, 176)"),
     "nothing": (lambda d, c: ([], c), "frames: there are no frames"),
-    "empty": (lambda d, c: ([np.zeros((0, 3))], c), "frames[0]: the array is empty"),
+    "empty": (lambda d, c: ([np.zeros((0, 3))], c), "there is no measurement"),
     "a number": (lambda d, c: (42, c), "frames: 42 is not"),
     "no folder": (lambda d, c: ("nowhere", None), "there is no such folder"),
     "folder and camera": (lambda d, c: (WALK, c), "camera: recordings and folders have a camera"),

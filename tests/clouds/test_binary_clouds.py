@@ -180,3 +180,13 @@ def test_arrays_of_an_archive_are_those_that_were_saved(tmp_path, random):
         np.testing.assert_array_equal(read[name], values)
     with pytest.raises(DataError, match="no array 'd'"):
         read_arrays(tmp_path / "a.npz", ["d"])
+
+
+def test_pcd_with_a_part_of_a_point_more_is_refused(tmp_path):
+    path = tmp_path / "cloud.pcd"
+    header = pcd([(axis, "F", 4, 1) for axis in "xyz"], np.ones((2, 3), "<f4"))
+    path.write_bytes(header + b"\n")
+    assert len(read_cloud(path)) == 2
+    path.write_bytes(header + b"\x00\x01")
+    with pytest.raises(DataError, match="2 bytes more"):
+        read_cloud(path)

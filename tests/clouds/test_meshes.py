@@ -137,6 +137,7 @@ def test_polygons_of_another_program_are_its_whole_surface(name):
         ("a.ply", binary_ply("big", "ushort", "uint")),
         ("a.ply", binary_ply("big", "int", "uchar", faces=[(0, 1, 2, 3)])),
         ("a.stl", SOLID),
+        ("a.stl", SOLID.upper()),
         ("a.stl", stl()),
         ("a.gltf", gltf()),
         ("a.gltf", quantized_gltf()),

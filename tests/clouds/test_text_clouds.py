@@ -192,3 +192,23 @@ def test_rows_are_equal_whether_numpy_reads_them_or_not(read, random):
     np.testing.assert_array_equal(plain, points)
     # A quote sends the file to the loop.
     np.testing.assert_array_equal(read('x,y,z\n"1",2,3\n' + rows)[1:], points)
+
+
+@pytest.mark.parametrize(
+    ("content", "scale"),
+    [
+        ("x [millimeters],y [millimeters],z [millimeters]\n1.5,2.5,3.5\n-4.25,5,6\n", 0.001),
+        ("# units: mm\nx,y,z\n1.5,2.5,3.5\n-4.25,5,6\n", 0.001),
+        ("# All units are in centimetres.\n1.5,2.5,3.5\n-4.25,5,6\n", 0.01),
+    ],
+)
+def test_unit_that_a_file_states_is_converted_and_told(read, content, scale):
+    with pytest.warns(RegkitWarning, match="unit"):
+        points = read(content)
+    np.testing.assert_allclose(points, np.multiply(POINTS, scale))
+
+
+@pytest.mark.parametrize("mark", ["-9999,-9999,-9999", "1,2,-99999", "0,0,0"])
+def test_points_that_look_like_missing_measurements_are_told(read, mark):
+    with pytest.warns(RegkitWarning, match="missing measurement"):
+        assert len(read(f"x,y,z\n1.5,2.5,3.5\n{mark}\n{mark}\n")) == 3

@@ -304,3 +304,13 @@ def test_the_links_of_a_file_are_read_in_time(tmp_path: Path) -> None:
     )
     (tmp_path / "arm.urdf").write_text(f"<robot>{links}{joints}</robot>")
     assert len(Urdf.read(tmp_path / "arm.urdf").links) == 300
+
+
+def test_link_without_a_name_is_refused_with_its_line(tmp_path: Path) -> None:
+    with pytest.raises(RegkitError, match=r"arm.urdf:4: .*empty"):
+        _read(tmp_path, ARM.replace('"lower"', '""'))
+
+
+def test_limits_that_may_be_degrees_are_told(tmp_path: Path) -> None:
+    with pytest.warns(RegkitWarning, match="turn.*-90 to 90 rad"):
+        _read(tmp_path, ARM.replace('lower="-1" upper="1"', 'lower="-90" upper="90"'))

@@ -6,6 +6,7 @@ import struct
 from pathlib import Path
 
 import pytest
+from pydantic import TypeAdapter
 
 from regkit.system.errors import ConfigError, DataError, RegkitError
 from regkit.system.guard import LONGEST, reading
@@ -60,3 +61,10 @@ def test_note_is_a_warning_with_its_place() -> None:
     with pytest.warns(RegkitWarning, match=r"a\.bvh:3: frame time is 0"):
         note("frame time is 0", place="a.bvh:3")
     assert not issubclass(RegkitWarning, RegkitError)
+
+
+def test_guard_says_which_field_is_wrong_or_missing() -> None:
+    with pytest.raises(DataError, match=r"a\.1: .*integer"), reading("x", "a list"):
+        TypeAdapter(dict[str, list[int]]).validate_json('{"a": [1, "b"]}')
+    with pytest.raises(DataError, match="'size' is missing"), reading("x", "a list"):
+        dict[str, int]()["size"]

@@ -161,10 +161,15 @@ def _ascii(header: _Header, body: bytes, place: str) -> Array:
 
 def _binary(header: _Header, body: bytes, place: str) -> Array:
     size = header.dtype.itemsize
-    rest = body[header.points * size :]
-    # Some writers end the file with a line feed, or fill it up.
-    if len(body) < header.points * size or len(rest) >= size or rest.strip(b"\0 \r\n"):
-        raise _wrong_count(header, len(body) / size, place)
+    end = header.points * size
+    if not end <= len(body) < end + size:
+        raise _wrong_count(header, len(body) // size, place)
+    if body[end:].strip(b"\0 \r\n"):
+        raise DataError(
+            f"{len(body) - end} bytes more than the header announces; a SIZE, COUNT or POINTS is "
+            "wrong, or the file is damaged",
+            place=place,
+        )
     rows = np.frombuffer(body, header.dtype, header.points)
     return np.column_stack([rows[str(axis)][:, 0].astype(np.float64) for axis in header.axes])
 

@@ -32,7 +32,7 @@ def read_stl(path: Path) -> tuple[Array, Indices]:
     # Binary files may begin with "solid" too, but then their size fits the count.
     if len(content) >= _HEADER and len(content) == size:
         corners = np.frombuffer(content, _TRIANGLE, announced, _HEADER)["corners"]
-    elif content.lstrip().startswith(b"solid") and b"\0" not in content:
+    elif content.lstrip()[:5].lower() == b"solid" and b"\0" not in content:
         corners = _text(path)
     else:
         held = max(0, len(content) - _HEADER) / _TRIANGLE.itemsize

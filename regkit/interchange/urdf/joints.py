@@ -23,6 +23,9 @@ TYPES = (*HINGES, "fixed", "spherical")
 OTHERS = ("floating", "planar", "prismatic")
 """Joint types of the format that translate, which a template has only at its root."""
 
+TURNING = 8.0 * np.pi
+"""A limit beyond this many turns may be meant in degrees [rad]."""
+
 ENDLESS = 200.0 * np.pi
 """A limit of more than a hundred turns stands for none [rad]."""
 
@@ -169,6 +172,12 @@ def _limits(element: Element, name: str, remarks: Remarks) -> tuple[float, float
     if low < -ENDLESS or high > ENDLESS:
         remarks.add(
             f"limits beyond {np.degrees(ENDLESS) / 360.0:.0f} turns are cut to that",
+            f"'{name}': {low:g} to {high:g} rad",
+            found.place,
+        )
+    elif low < -TURNING or high > TURNING:
+        remarks.add(
+            "limits are taken as radians, as the format says, which allows several turns",
             f"'{name}': {low:g} to {high:g} rad",
             found.place,
         )

@@ -91,6 +91,8 @@ def _links(robot: Element) -> dict[str, UrdfLink]:
     links: dict[str, UrdfLink] = {}
     for element in robot.all("link"):
         name = element.text("name")
+        if not name.strip():
+            raise element.wrong("the name of a link is empty; it must have one")
         if name in links:
             raise element.wrong(f"a second link is named '{name}'; names must be unique")
         collision, visual = (tuple(element.all(tag)) for tag in ("collision", "visual"))

@@ -6,12 +6,22 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+_PREFIXES = {"": 1.0, "milli": 0.001, "centi": 0.01, "deci": 0.1, "micro": 1e-6, "kilo": 1000.0}
 METRES = {
-    "m": 1.0, "meter": 1.0, "meters": 1.0, "metre": 1.0, "metres": 1.0,
-    "mm": 0.001, "cm": 0.01, "dm": 0.1, "um": 1e-6, "\u00b5m": 1e-6, "km": 1000.0,
-    "in": 0.0254, "inch": 0.0254, "ft": 0.3048, "feet": 0.3048,
+    "m": 1.0, "mm": 0.001, "cm": 0.01, "dm": 0.1, "um": 1e-6, "\u00b5m": 1e-6, "km": 1000.0,
+    "in": 0.0254, "inch": 0.0254, "inches": 0.0254, "ft": 0.3048, "foot": 0.3048, "feet": 0.3048,
+    **{
+        prefix + word: scale
+        for prefix, scale in _PREFIXES.items()
+        for word in ("meter", "meters", "metre", "metres")
+    },
 }  # fmt: skip
 """Units that a header may name, in metres."""
+
+_STATED = re.compile(
+    r"\bunits?\b\s*(?:[:=]|\bis\b|\bare\b)?\s*(?:in\s)?\s*[\[(\"']?(\w+)[\])\"'.]*\s*$"
+)
+"""A comment that names the unit, such as ``units: mm``."""
 
 _UNIT = re.compile(r"(?P<name>.*?)(?:[\s_/]*[\[({](?P<a>[^\])}]*)[\])}]|[\s_/]+(?P<b>[^\W\d_]+))$")
 _BEFORE = r"(?:p|pos|position|points?|points?_m_xyz|coords?|coordinates?|loc|location|vertex)"
@@ -34,13 +44,11 @@ class Columns:
 
     Attributes:
         indices: Columns of x, y and z.
-        unit: Their unit [m].
-        named: The unit's name; empty if the header names none.
+        unit: The unit's name; empty if the header names none.
     """
 
     indices: tuple[int, int, int]
-    unit: float = 1.0
-    named: str = ""
+    unit: str = ""
 
 
 def columns_named(names: Sequence[str], units: Sequence[str] | None = None) -> Columns | None:
@@ -82,6 +90,15 @@ def are_units(cells: Sequence[str]) -> bool:
     return any(bare) and any(cell in METRES for cell in bare) and not any(map(_digits, bare))
 
 
+def unit_stated(comments: Sequence[str]) -> str:
+    """Returns the unit of length that one of the comments names; empty if none does."""
+    for comment in comments:
+        match = _STATED.search(comment.lower())
+        if match is not None and match[1] in METRES:
+            return match[1]
+    return ""
+
+
 def _digits(cell: str) -> bool:
     return any(letter.isdigit() for letter in cell)
 
@@ -117,4 +134,4 @@ def _with_unit(indices: tuple[int, int, int], named: set[str]) -> Columns:
         return Columns(indices)
     if unit not in METRES:
         raise ValueError(f"unknown unit '{unit}'; use m, mm, cm, in or ft, or leave it out")
-    return Columns(indices, METRES[unit], unit)
+    return Columns(indices, unit)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from regkit.clouds.formats.text.ambiguity import check_unnamed
+from regkit.clouds.formats.text.columns import METRES, unit_stated
 from regkit.clouds.formats.text.delimiter import Delimiter, delimiter_of
 from regkit.clouds.formats.text.header import named_columns
 from regkit.clouds.formats.text.lines import lines_of
@@ -73,10 +74,11 @@ def read_text(path: Path) -> Array:
         check_unnamed(rows, delimiter, str(path), points)
         if width > 3 and path.suffix.lower() not in ORDERED:
             note(f"no header: the first three of {width} columns are x, y and z", place=path)
-        return points
-    if columns.named not in ("", "m"):
-        note(f"the header names the unit {columns.named}; converted to metres", place=path)
-    return points * columns.unit
+    unit = columns.unit if columns else ""
+    unit = unit or unit_stated([line for _, line in content.comments])
+    if unit not in ("", "m"):
+        note(f"the header names the unit {unit}; converted to metres", place=path)
+    return points * METRES[unit or "m"]
 
 
 def _points(
