@@ -18,6 +18,10 @@ LARGE, SMALL = 1.4, 0.6
 limbs; what is beyond is told."""
 
 
+NARROW = 1.005
+"""A size within this factor of an end of the range is at the end."""
+
+
 def check_unit(points: Array, template: Template, *, place: str) -> None:
     """Refuses data in another unit than the template.
 
@@ -66,6 +70,24 @@ def check_extent(points: Array, template: Template, *, place: str) -> None:
     else:
         return
     note(f"{_compared(extent, template)}; {told}", place=place)
+
+
+def tell_bound(size: float, template: Template, *, place: str) -> None:
+    """Tells that a found size is at an end of the template's range, where the search stops.
+
+    Args:
+        size: The found size [m].
+        template: The template.
+        place: Source of the data, for the message.
+    """
+    sizes = template.candidate_sizes()
+    if len(sizes) > 1 and not sizes[0] * NARROW < size < sizes[-1] / NARROW:
+        note(
+            f"the size that fits best, {size:.3g} m, is at an end of '{template.name()}'s range; "
+            "unless the body has it, check the unit of the data (depth_scale), the crop and the "
+            "template",
+            place=place,
+        )
 
 
 def _compared(extent: float, template: Template) -> str:

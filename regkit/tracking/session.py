@@ -13,7 +13,7 @@ from regkit.observation import Frame, Observation
 from regkit.skeleton import Pose, PoseDescription
 from regkit.start import Start, found_start, given_start
 from regkit.system.errors import ConfigError, NoDataError, RegkitError
-from regkit.tracking.extent import check_extent
+from regkit.tracking.extent import check_extent, tell_bound
 from regkit.tracking.loop import TrackedFrame, tracked
 
 
@@ -49,7 +49,9 @@ class Session:
             return _posed(self.template, self.start)
         if self.start is not None:
             return given_start(self.template, self.start)
-        return found_start(self.template, first, *self._later(index))
+        start = found_start(self.template, first, *self._later(index))
+        tell_bound(start.body.size, self.template, place=self.recording.name)
+        return start
 
     def tracked(self, registrar: Registrar, tracker: Tracker, pose: Pose) -> Iterator[TrackedFrame]:
         """Yields the recording's frames, tracked one by one from a pose.

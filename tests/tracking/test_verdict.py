@@ -10,7 +10,7 @@ from regkit.geometry.rigid import rigid
 from regkit.system.errors import DataError
 from regkit.system.notes import RegkitWarning
 from regkit.tracking import Track, TrackVerdict, Verdict
-from regkit.tracking.extent import check_extent, extent_of
+from regkit.tracking.extent import check_extent, extent_of, tell_bound
 from regkit_plugins.templates.hand import Hand
 from regkit_plugins.templates.human import Human
 
@@ -124,6 +124,15 @@ def test_extent_of_the_data_is_compared_with_the_template(template):
     for factor in (0.001, 1000.0):
         with pytest.raises(DataError, match="here: the points are spread over"):
             check_extent(factor * points, template, place="here")
+
+
+def test_size_at_an_end_of_the_range_is_told():
+    low, high = Human().description().size.range
+    for size in (low, high):
+        with pytest.warns(RegkitWarning, match="here: .*at an end of"):
+            tell_bound(size, Human(), place="here")
+    tell_bound(0.5 * (low + high), Human(), place="here")
+    tell_bound(1.7, Human(height=1.7), place="here")
 
 
 def test_extent_does_not_depend_on_direction_or_stray_points(random):
