@@ -153,6 +153,7 @@ def test_mistake_is_told_without_a_traceback(
     assert expected in ended.err
 
 
+@pytest.mark.long
 def test_rigid_and_jointed_methods_stand_in_one_experiment(regkit, tmp_path):
     """What a method cannot do is told; the others are run."""
     pytest.importorskip("open3d")

@@ -178,6 +178,7 @@ def test_broken_solver_is_none_of_those_that_keep_limits(distribution):
     assert "odd" not in Solver.keeping_limits()
 
 
+@pytest.mark.long
 def test_committed_schemas_are_of_the_built_ins_alone(regkit, distribution, tmp_path):
     """Whatever else is installed where they are checked."""
     distribution("[regkit.trackers]\nstay = tracker_that_stays:Stay\n", "good")

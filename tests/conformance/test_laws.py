@@ -212,6 +212,7 @@ def test_example_that_does_not_fit_is_told():
         conformance("regkit", examples={"lbfgs": {"max_iterations": -1}})
 
 
+@pytest.mark.long
 def test_wrong_gradient_of_an_installed_package_is_named(tmp_path):
     """In a process of its own, as its author would run it."""
     text = SUPERQUADRIC.read_text().replace("superquadric", "oddquadric")

@@ -178,6 +178,7 @@ def test_worker_that_cannot_serve_says_why(tmp_path):
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.long
 def test_interrupt_ends_the_processes_and_the_run_is_completed_later(
     regkit, files, serial, started
 ):

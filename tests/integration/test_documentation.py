@@ -16,7 +16,18 @@ PAGES = {page.path.relative_to(ROOT).as_posix(): page for page in pages()}
 LEFT_OUT = {block.place: block for page in PAGES.values() for block in page.blocks if block.reason}
 
 
-@pytest.mark.parametrize("name", [name for name, page in PAGES.items() if page.blocks])
+LONG = ("docs/tutorials/comparison.md", "docs/explanation/spheres.md", "docs/how-to/install.md")
+"""Pages whose blocks only a release runs; they take longest, and others use what they use."""
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=[pytest.mark.long] if name in LONG else [])
+        for name, page in PAGES.items()
+        if page.blocks
+    ],
+)
 def test_blocks_of_page_run(name, tmp_path, monkeypatch, regkit):
     monkeypatch.chdir(tmp_path)
     runner = Runner(PAGES[name], tmp_path, regkit, monkeypatch.syspath_prepend)

@@ -10,7 +10,7 @@ SOME = {"paper": "[02_walk]", "paper_why": "[05_bow]"}
 """One of their 28 recordings for each, of two of the three people."""
 
 
-LONG = ("paper_why", "limits")
+LONG = ("paper_why", "limits", "spheres", "synthetic")
 """Examples that only a release runs; the others use the same plug-ins."""
 
 
@@ -49,6 +49,7 @@ def test_spheres_track_the_shipped_walk_to_a_centimetre(regkit, tmp_path):
     assert figures["lost_frames"] == 0
 
 
+@pytest.mark.long
 def test_preset_icp_follows_the_shipped_walk(regkit, tmp_path):
     """The mesh is the person's own, and the start is found."""
     out = tmp_path / "out"

@@ -44,4 +44,6 @@ def _matrix(numbers: str, path: Path) -> Array:
         matrix = values.reshape(4, 4, order="F")
     except ValueError as error:
         raise DataError(f"an offsetMatrix is not 16 numbers ({error})", place=str(path)) from None
-    return checked_rigid(matrix, place=str(path))
+    # The stored matrix is used as it is, so that what is made from it keeps its last digit.
+    checked_rigid(matrix, place=str(path))
+    return matrix

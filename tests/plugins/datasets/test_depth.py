@@ -199,7 +199,7 @@ def announcing(path, width, height):
         (remove("camera.json"), "ROOT/camera.json: the file is missing; it should hold "
          "the camera's intrinsics"),
         (cut("camera.json", 0.5), "ROOT/camera.json:6: not JSON"),
-        (write("camera.json", b"\xff\xfe"), "ROOT/camera.json: not a camera file"),
+        (write("camera.json", b"\xff\xfe"), "ROOT/camera.json: not a JSON file"),
         (write("camera.json", "[1, 2]"), "ROOT/camera.json: must be a JSON object"),
         (write("camera.json", '{"width": 24, "height": 18}'), "ROOT/camera.json: not a camera "
          "file: intrinsic_matrix missing; it must have width, height and intrinsic_matrix"),

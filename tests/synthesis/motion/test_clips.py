@@ -156,7 +156,7 @@ def test_interpolated_goes_the_short_way_at_constant_speed():
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("no json", "not a motion clip"),
+        ("no json", "not JSON"),
         ('{"Loop": "wrap"}', "Frames"),
         (json.dumps({"Loop": "none", "Frames": [[0.1] * 43] * 3}), "2 or more rows of 44 numbers"),
     ],

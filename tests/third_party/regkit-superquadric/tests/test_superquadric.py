@@ -163,6 +163,7 @@ def test_solids_are_fitted_to_a_mesh(tmp_path):
             assert np.linalg.norm(one - other) < 0.03
 
 
+@pytest.mark.long
 def test_solids_that_a_template_lists_are_fitted_with_their_exponents(tmp_path):
     rotation = "rotation_deg: [14, -0.2, -0.9]"
     file = person(tmp_path, rotation, f"{rotation}, exponent: 5.0")
@@ -177,6 +178,7 @@ def test_solids_that_a_template_lists_are_fitted_with_their_exponents(tmp_path):
             assert np.linalg.norm(one - other) < 0.03
 
 
+@pytest.mark.long
 def test_example_runs_beside_icp_with_measures_and_pictures(tmp_path):
     ended = regkit("run", EXAMPLE, "--out", tmp_path / "out", "--set", "dataset.frames=2",
                    "--no-figures")  # fmt: skip
