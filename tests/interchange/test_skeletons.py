@@ -353,7 +353,8 @@ def test_other_formats_and_axes_are_refused(robot: Path) -> None:
         (
             "a.urdf",
             '<robot name="r"><link name="a"/><link name="l&#x80;eg"/>'
-            '<joint name="j" type="continuous"><origin xyz="0 0 1"/><parent link="a"/><child link="l&#x80;eg"/></joint></robot>',
+            '<joint name="j" type="continuous"><origin xyz="0 0 1"/>'
+            '<parent link="a"/><child link="l&#x80;eg"/></joint></robot>',
         ),
     ],
 )
