@@ -79,7 +79,11 @@ def lines(points: Any, file: Damaged) -> Iterator[str]:
     """A text cloud has a point for each line that is not blank, a comment or a header."""
     yield from cloud(points, file)
     text = decoded(file.content)
-    rows = [line for line in text.splitlines() if line.strip() and line.strip()[0] not in "#/"]
+    rows = [
+        line
+        for line in re.split(r"\r\n|\r|\n", text)
+        if line.strip() and line.strip()[0] not in "#/"
+    ]
     if not file.noted and not len(rows) - 2 <= len(points) <= len(rows):
         yield f"points: {len(points)} of {len(rows)} lines"
     tokens = re.split(r"[\s;\"]+", text)
@@ -117,8 +121,10 @@ def body(value: Body) -> Iterator[str]:
     yield from every_number(value.markers, "markers")
     for stance in value.stances:
         yield from numbers(value.place(stance.pose).transforms, stance.name, most=FARTHEST)
+        # A hinge that a stance does not name is at rest, which its limits may exclude.
         within = value.skeleton.limits.projected(stance.pose)
-        if not np.allclose(within.hinges, stance.pose.hinges, atol=1e-6):
+        bent = np.abs(stance.pose.hinges) > 0.0
+        if not np.allclose(within.hinges[bent], stance.pose.hinges[bent], atol=1e-6):
             yield f"stance {stance.name}: beyond the limits of a hinge"
 
 

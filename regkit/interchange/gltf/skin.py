@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from regkit.clouds.formats.gltf import LINES, POINTS, triangles
+from regkit.geometry.mesh_file import FARTHEST
 from regkit.geometry.rigid import transformed
 from regkit.interchange.gltf.bind import BindPose
 from regkit.interchange.gltf.file import GltfFile
@@ -105,6 +106,10 @@ def _part(file: GltfFile, primitive: Any, joints: int) -> SkinnedVertices:
         raise file.wrong(
             f"a mesh has {len(positions)} positions, {bones.shape} joints and {weights.shape} "
             "weights; their numbers must be equal"
+        )
+    if len(positions) and np.abs(positions).max() > FARTHEST:
+        raise file.wrong(
+            f"a position is {np.abs(positions).max():.3g}, farther than any measurement"
         )
     if positions.shape[1] != 3:
         raise file.wrong(f"positions have {positions.shape[1]} coordinates; they need 3")

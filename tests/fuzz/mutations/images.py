@@ -45,7 +45,7 @@ def size(random: Random, chunks: Chunks) -> Chunks:
     at = random.choice((0, 4))
     (now,) = struct.unpack(">I", head[at : at + 4])
     other = random.choice((0, 1, now + 1, now - 1, 2 * now, 60_000, 2**31 - 1))
-    head[at : at + 4] = struct.pack(">I", other)
+    head[at : at + 4] = struct.pack(">I", other % 2**32)
     return [(b"IHDR", bytes(head)), *chunks[1:]]
 
 

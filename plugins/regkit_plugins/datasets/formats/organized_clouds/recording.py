@@ -84,6 +84,8 @@ class OrganizedRecording(Recording):
         return Truth(tuple(positions), np.stack(list(positions.values()), axis=1))
 
     def _note(self, positions: dict[str, Array], index: int, name: str, position: Array) -> None:
+        if not name:
+            raise DataError("a marker has no name", place=self.file.place(index))
         track = positions.setdefault(name, np.full((self.length, 3), np.nan))
         if not np.isnan(track[index]).all():
             raise DataError(f"two positions have the name '{name}'", place=self.file.place(index))
