@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-
-from pydantic import ValidationError
 
 from regkit.system.errors import DataError, RegkitError
 
@@ -56,10 +55,12 @@ def reading(path: Path | str, what: str) -> Iterator[None]:
 
 def _told(error: BaseException) -> str:
     """Returns an exception's message; those of pydantic and of mappings begin with no reason."""
-    if isinstance(error, ValidationError):
+    # An error of pydantic comes from its module, which a command's list does not wait for.
+    pydantic = sys.modules.get("pydantic")
+    if pydantic is not None and isinstance(error, pydantic.ValidationError):
         first = error.errors(include_url=False)[0]
         field = ".".join(map(str, first["loc"]))
-        return f"{field}: {first['msg']}" if field else first["msg"]
+        return f"{field}: {first['msg']}" if field else str(first["msg"])
     return f"{error} is missing" if isinstance(error, KeyError) else str(error)
 
 

@@ -308,6 +308,7 @@ def test_writing_the_figures_takes_little_of_a_runs_time(files, monkeypatch):
     assert 3.0 * len(written) < 0.07 * (now[0] - 100.0)
 
 
+@pytest.mark.long
 @pytest.mark.filterwarnings("default::regkit.system.notes.RegkitWarning")
 def test_start_is_found_once(regkit, files):
     """A resumed run and other methods begin where the first one did, to the last bit."""

@@ -95,6 +95,7 @@ def test_figures_of_two_processes_are_those_of_one(regkit, files, serial):
     assert not list(files.out.rglob(".*"))
 
 
+@pytest.mark.long
 def test_killed_process_loses_nothing(regkit, files, serial, deadly):
     ended = regkit(
         "run", files.experiment, "--out", files.out, "--no-figures", "--jobs", 2, *deadly(1)

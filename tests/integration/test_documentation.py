@@ -16,7 +16,13 @@ PAGES = {page.path.relative_to(ROOT).as_posix(): page for page in pages()}
 LEFT_OUT = {block.place: block for page in PAGES.values() for block in page.blocks if block.reason}
 
 
-LONG = ("docs/tutorials/comparison.md", "docs/explanation/spheres.md", "docs/how-to/install.md")
+LONG = (
+    "docs/explanation/spheres.md",
+    "docs/how-to/install.md",
+    "docs/tutorials/comparison.md",
+    "docs/tutorials/first-experiment.md",
+    "docs/tutorials/new-shape-model.md",
+)
 """Pages whose blocks only a release runs; they take longest, and others use what they use."""
 
 

@@ -10,8 +10,8 @@ SOME = {"paper": "[02_walk]", "paper_why": "[05_bow]"}
 """One of their 28 recordings for each, of two of the three people."""
 
 
-LONG = ("paper_why", "limits", "spheres", "synthetic")
-"""Examples that only a release runs; the others use the same plug-ins."""
+LONG = ("depth_folder", "hand", "limits", "paper", "paper_why", "spheres", "synthetic")
+"""Examples that only a release runs; the others use the same plug-ins, and the README runs two."""
 
 
 @pytest.mark.parametrize(

@@ -96,6 +96,7 @@ def test_person_is_tracked_through_real_recordings(regkit, reference_data: Path,
         assert figures["surface_distance_mm"] < 20.0
 
 
+@pytest.mark.long
 def test_hand_is_tracked_through_a_real_recording(regkit, hand_recording: Path, tmp_path: Path):
     ended = regkit(
         "run",

@@ -152,6 +152,7 @@ def test_template_with_fitted_solids_is_calibrated(tmp_path):
     assert after != before
 
 
+@pytest.mark.long
 def test_solids_are_fitted_to_a_mesh(tmp_path):
     out = tmp_path / "fitted.yaml"
     ended = regkit("fit", SKIN, "--shape", "superquadric", "--out", out)
