@@ -31,7 +31,7 @@ class BodyFit:
         distance: Median distance of the points to the body's surface [m].
         inlier_share: Fraction of the points that fit the surface, from 0 to 1.
         coverage: Fraction of the body that has data nearby, from 0 to 1; parts that are out of the
-            picture or occluded have none.
+            picture or occluded have none. NaN for a body without capsules.
         relief: Standard deviation of the points along their thinnest direction, in radii of a
             typical limb; that of a wall is near 0, that of a body seen from one side about 1.
     """
@@ -55,19 +55,20 @@ class BodyFit:
             gaps = np.abs(capsules.surface_distance(points))
             bare = model_to_data(capsules.axis_points(SPACING * body.size), KDTree(points)).lengths
             near = _limb_radius(body.capsules)
+            coverage = float((bare <= near).mean())
             relief = _least_deviation(points) / near
         elif body.surface is not None:
             placed = body.surface.place(transforms)
             gaps = np.asarray(KDTree(placed).query(points)[0])
-            bare = np.asarray(KDTree(points).query(placed)[0])
             near = NEAR * body.size
-            relief = float("nan")  # A rigid object may be flat.
+            # The far side of an object is never seen, and an object may be flat.
+            coverage = relief = float("nan")
         else:
             return cls.unknown()
         return cls(
             distance=float(np.median(gaps)),
             inlier_share=float((gaps <= near).mean()),
-            coverage=float((bare <= near).mean()),
+            coverage=coverage,
             relief=relief,
         )
 

@@ -81,14 +81,16 @@ def _reason(track: Track, numbers: Sequence[int]) -> str:
     if len(flat):
         where = f"in frame {numbers[flat[0]]} " if len(track) > 1 else ""
         parts.append(f"{where}the data are as flat as a wall")
-    shares = np.minimum(track.inlier_shares, track.coverages)
+    shares = np.fmin(track.inlier_shares, track.coverages)
     if frames[Verdict.LOST] or frames[Verdict.DOUBTFUL]:
         worst = int(np.nanargmin(shares))
         where = f"in frame {numbers[worst]} " if len(track) > 1 else ""
+        told = [f"{100.0 * track.inlier_shares[worst]:.0f} % of the points lie on the body"]
+        if np.isfinite(track.coverages[worst]):
+            told.append(f"{100.0 * track.coverages[worst]:.0f} % of the body has data")
         parts.append(
-            f"{where}{100.0 * track.inlier_shares[worst]:.0f} % of the points lie on the body and "
-            f"{100.0 * track.coverages[worst]:.0f} % of the body has data; check the template, its "
-            "size, and the crop of the surroundings"
+            f"{where}{' and '.join(told)}; check the template, its size, and the crop of the "
+            "surroundings"
         )
     return ": ".join(parts)
 

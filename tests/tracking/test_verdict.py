@@ -77,6 +77,14 @@ def test_track_is_judged_by_its_frames(frames, verdict):
     assert bool(judged.reason) == (verdict is not F or N in frames)
 
 
+def test_rigid_object_is_judged_by_its_inliers_alone():
+    """Its far side is never seen."""
+    unknown = np.full(3, np.nan)
+    track = replace(track_with(F, D, L), coverages=unknown, reliefs=unknown)
+    assert track.verdicts == (F, D, L)
+    assert "nan" not in TrackVerdict.of(track).reason
+
+
 def test_wall_is_no_body():
     track = replace(track_with(F, F), reliefs=np.array([1.0, 0.1]))
     assert track.verdicts == (F, L)
