@@ -227,7 +227,7 @@ class Tracking(Summary):
         return {
             "recording": f"{self.name}, {len(self)} frames",
             **self.summary(measure),
-            "converged": f"{len(self) - int(measure.unconverged_frames or 0)} of {len(self)}",
+            "converged": f"{int(self.track.converged.sum())} of {len(self)}",
             "speed": f"{measure.fps:.3g} frames per second",
             **self.warning(),
         }

@@ -48,7 +48,7 @@ class RegistrationResult:
 
     def without_data(self, message: str) -> RegistrationResult:
         """Returns the result for the next frame, which has no data: the same pose."""
-        return RegistrationResult(self.pose, np.nan, np.nan, True, 0, 0, message)
+        return RegistrationResult(self.pose, np.nan, np.nan, False, 0, 0, message)
 
 
 @dataclass(frozen=True)

@@ -140,7 +140,7 @@ def measured(track: Track, body: Body, errors: JointErrors | None, fps: float) -
         lost_frames=None if losses is None else int(losses.lost.sum()),
         recovery_s=None if losses is None else losses.recovery(fps),
         lost_at_end=None if losses is None else int(losses.at_end),
-        unconverged_frames=float((track.converged == 0.0).sum()),
+        unconverged_frames=float((track.converged[seen] == 0.0).sum()),
         found_percent=100.0 * float(found.mean()) if seen.any() else None,
         inlier_percent=_mean(track.inlier_shares, 100.0),
         coverage_percent=_mean(track.coverages, 100.0),

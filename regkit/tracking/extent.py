@@ -17,7 +17,6 @@ LARGE, SMALL = 1.4, 0.6
 """Data of a body alone are hardly larger than this, with raised arms, or smaller, with folded
 limbs; what is beyond is told."""
 
-
 NARROW = 1.005
 """A size within this factor of an end of the range is at the end."""
 
