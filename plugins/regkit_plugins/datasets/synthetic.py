@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
-from regkit.config.changes import with_changes
 from regkit.config.model import misplaced
 from regkit.config.quantities import Rate, Seed
 from regkit.interfaces import Dataset, Recording
@@ -24,9 +23,10 @@ from regkit_synthesis.cameras.cameras import CameraChoice, camera_of
 from regkit_synthesis.hands.config import GesturesConfig
 from regkit_synthesis.noise import NOISES, DepthNoise, NoiseChoice, noise_of
 from regkit_synthesis.recordings.cache import RecordingCache
+from regkit_synthesis.recordings.defaults import completed
 from regkit_synthesis.recordings.digest import digest
 from regkit_synthesis.recordings.recording import DepthRecording
-from regkit_synthesis.recordings.scene import BODY, Scene, Sensor
+from regkit_synthesis.recordings.scene import Scene, Sensor
 from regkit_synthesis.recordings.take import Take
 from regkit_synthesis.rooms import RoomChoice, room_of
 
@@ -70,7 +70,7 @@ class Synthetic(Dataset):
         if not isinstance(defaults, dict) or not isinstance(takes, dict):
             return value
         whole = {
-            name: _over(defaults, take) if isinstance(take, dict) else take
+            name: completed(take, defaults) if isinstance(take, dict) else take
             for name, take in takes.items()
         }
         return {**value, "takes": whole}
@@ -194,14 +194,11 @@ class SyntheticRecording(Recording):
         Raises:
             DataError: If a frame does not show the body, or in a room no frame does.
         """
-        if (
-            scene.room
-            and not scene.empty
-            and not any((seen == BODY).any() for seen in scene.labels())
-        ):
+        if scene.hides_body():
             raise DataError(
-                "the room hides the body in every frame; change the room, or the view: below "
-                "elevation_deg 0 a camera may look at the floor from beneath"
+                "no frame shows the body: the room hides it, or it is outside of the image; change "
+                "the room or the view (with a negative elevation_deg the camera may be below the "
+                "floor)"
             )
         recording = scene.rendered(self.take.random(self.name, self.dataset.seed))
         empty = np.flatnonzero(~recording.depth.any(axis=(1, 2)))
@@ -217,22 +214,3 @@ class SyntheticRecording(Recording):
         return type(error)(
             f"this take cannot be rendered: {error}", place=f"dataset.takes.{self.name}"
         )
-
-
-_SOURCES = frozenset({"name", "path", "frames"})
-"""Alternative fields that select a body or motion."""
-
-
-def _over(defaults: Mapping[str, Any], take: Mapping[str, Any]) -> dict[str, Any]:
-    """Returns a take completed with the defaults."""
-    common, own = dict(defaults), dict(take)
-    for field, kind in (("body", "shipped"), ("motion", "clip")):
-        if isinstance(common.get(field), dict) and field in own:
-            if isinstance(own[field], str):
-                own[field] = {"kind": kind, "name": own[field]}
-            if isinstance(own[field], dict) and not _SOURCES.isdisjoint(own[field]):
-                # These fields exclude each other.
-                common[field] = {k: v for k, v in common[field].items() if k not in _SOURCES}
-    # A preset's name is invalid in a take; it is kept here to be refused by validation.
-    preset = {"preset": own["preset"]} if "preset" in own else {}
-    return {**with_changes(common, own), **preset}

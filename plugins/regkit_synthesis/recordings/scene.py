@@ -115,6 +115,16 @@ class Scene:
         for layers in self._layers():
             yield (nearest(layers)[1] + BODY).astype(np.uint8)
 
+    def hides_body(self) -> bool:
+        """Returns whether there is a room, and no frame shows the body that should be in it.
+
+        Raises:
+            DependencyError: If Open3D cannot be loaded.
+        """
+        if not self.room or self.empty:
+            return False
+        return not any((labels == BODY).any() for labels in self.labels())
+
     def _layers(self) -> Iterator[list[View]]:
         """Yields the views of the body and of each part of the room in every frame."""
         camera = self.sensor.camera
