@@ -201,11 +201,10 @@ class SyntheticRecording(Recording):
                 "floor)"
             )
         recording = scene.rendered(self.take.random(self.name, self.dataset.seed))
-        empty = np.flatnonzero(~recording.depth.any(axis=(1, 2)))
-        if len(empty):
-            what = "room" if scene.empty else "body"
+        blank = np.flatnonzero(~recording.depth.any(axis=(1, 2)))
+        if len(blank) and not scene.empty:
             raise DataError(
-                f"the image of frame {empty[0]} does not show the {what}; change view.distance, or "
+                f"the image of frame {blank[0]} does not show the body; change view.distance, or "
                 "leave it out",
             )
         return recording
