@@ -113,6 +113,11 @@ MOTIFS: Mapping[Set, Mapping[str, Motif]] = {
 }
 
 
+def motif_named(name: str) -> Motif:
+    """Returns a motion of any set by its name."""
+    return {one: motif for group in MOTIFS.values() for one, motif in group.items()}[name]
+
+
 @dataclass(frozen=True)
 class Moving:
     """A body that follows a motion.
@@ -130,6 +135,5 @@ class Moving:
 def moving(subject: str, motif: str) -> Moving:
     """Returns a body that follows a motion, both by name."""
     bodies = {one.name: one for group in SUBJECTS.values() for one in group}
-    motifs = {name: one for group in MOTIFS.values() for name, one in group.items()}
     body = HumanBody(bodies[subject].mesh(), body_map("anny_cmu"))
-    return Moving(body, body.moved_by(motifs[motif].motion))
+    return Moving(body, body.moved_by(motif_named(motif).motion))
