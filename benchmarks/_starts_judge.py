@@ -10,10 +10,9 @@ import numpy as np
 from _starts_shots import Shots
 
 from regkit.body import Body
-from regkit.interfaces import BoundTracker, Method, Past, Preprocessor, Template, Tracker
+from regkit.interfaces import BoundTracker, Method, Past, Start, StartSearch, Template
 from regkit.metrics.matching import matched
 from regkit.observation import Observation, Truth
-from regkit.start import Start, found_start
 from regkit.system.arrays import Array
 from regkit.system.errors import RegkitError
 
@@ -23,7 +22,7 @@ METHOD = {"preset": "best"}
 
 def found(kind: str, template: Template, observations: Sequence[Observation]) -> Start:
     """Returns the start of a search by its name."""
-    return found_start(template, *observations)
+    return StartSearch.parse(kind, place="benchmark", field="start").find(template, observations)
 
 
 @dataclass(frozen=True)
