@@ -1,0 +1,126 @@
+"""Hands in random orientations, alone before a camera of coded light."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, ClassVar
+
+import numpy as np
+from _starts_bodies import Set, Subject
+from _starts_case import Case, subset
+from _starts_shots import Shots, kept
+from _starts_views import random_rotations, seen
+
+from regkit.geometry.rigid import rigid
+from regkit.system.arrays import Array
+from regkit.system.cache import cache_folder
+from regkit_synthesis import assets
+from regkit_synthesis.bodies.hand import HandBody
+from regkit_synthesis.cameras.viewpoint import Viewpoint
+from regkit_synthesis.hands.config import GesturesConfig
+from regkit_synthesis.recordings.scene import SR305
+from regkit_synthesis.templates import right_hand_template
+
+ORIENTATIONS = 60
+"""Number of orientations, the same for all gestures of a set."""
+
+AWAY = 0.4
+"""Distance of the hand's middle to the camera [m]."""
+
+_CURLED = {"opened": 0.12, "thumb_lift_deg": 20}
+"""Without these the mesh's fingertips go into its palm, as the shipped gestures say."""
+
+GESTURES: Mapping[Set, tuple[tuple[Mapping[str, Any], ...], ...]] = {
+    "development": (
+        ({"pose": "handywork/flat"},),
+        ({"pose": "handywork/relax"},),
+        ({"pose": "handywork/vulcan"},),
+        ({"pose": "handywork/shaka", "opened": 0.12},),
+        ({"pose": "handywork/point", "opened": 0.12},),
+        ({"pose": "handywork/horns", **_CURLED},),
+        ({"pose": "handywork/fist", **_CURLED},),
+        ({"pose": "iwer/relaxed"},),
+        ({"pose": "iwer/point"},),
+        ({"pose": "iwer/pinch", "thumb_lift_deg": 8},),
+    ),
+    # Midway between two poses each.
+    "test": (
+        ({"pose": "handywork/flat"}, {"pose": "handywork/relax"}),
+        ({"pose": "handywork/flat"}, {"pose": "iwer/point"}),
+        ({"pose": "handywork/relax"}, {"pose": "handywork/fist", **_CURLED}),
+        ({"pose": "handywork/vulcan"}, {"pose": "handywork/point", "opened": 0.12}),
+        ({"pose": "handywork/vulcan"}, {"pose": "iwer/relaxed"}),
+        ({"pose": "handywork/shaka", "opened": 0.12}, {"pose": "handywork/flat"}),
+        ({"pose": "handywork/horns", **_CURLED}, {"pose": "handywork/vulcan"}),
+        ({"pose": "handywork/horns", **_CURLED}, {"pose": "iwer/relaxed"}),
+        ({"pose": "iwer/pinch", "thumb_lift_deg": 8}, {"pose": "handywork/flat"}),
+        ({"pose": "iwer/pinch", "thumb_lift_deg": 8}, {"pose": "handywork/fist", **_CURLED}),
+    ),
+}
+
+_AVERAGE = Subject("average hand", assets.average_hand, {"kind": "hand"}, "length", 0.1858)
+
+
+def _slim() -> Subject:
+    """Returns the slim hand; its template is made on first use, in half a minute."""
+    file: Path = cache_folder() / "benchmarks" / "slim_hand.yaml"
+    if not file.is_file():
+        file.parent.mkdir(parents=True, exist_ok=True)
+        right_hand_template(assets.slim_hand(), "A slim right hand", "a slim hand").write(file)
+    template = {"kind": "file", "path": str(file)}
+    return Subject("slim hand", assets.slim_hand, template, "size", 0.1938)
+
+
+@dataclass(frozen=True)
+class HandCase(Case):
+    """A hand in an orientation.
+
+    Attributes:
+        chosen: The set.
+        gesture: Index of the gesture in the set.
+        orientation: Index of the orientation.
+    """
+
+    chosen: Set
+    gesture: int
+    orientation: int
+
+    preprocessor: ClassVar[dict[str, Any]] = {"kind": "points", "voxel": 0.008, "sigma": 0.003}
+
+    @property
+    def name(self) -> str:
+        """Returns everything that the frames depend on, in words."""
+        poses = GESTURES[self.chosen][self.gesture]
+        return f"{self.subject.name}, {poses}, orientation {self.orientation}"
+
+    def shots(self) -> Shots:
+        """Returns one frame."""
+        return kept(f"hand: {self.name}", self._rendered)
+
+    def _rendered(self) -> Shots:
+        body = HandBody(self.subject.mesh())
+        poses = GESTURES[self.chosen][self.gesture]
+        timed = [{"time": float(time), **pose} for time, pose in enumerate((poses[0], poses[-1]))]
+        moved = body.moved_by(GesturesConfig.model_validate({"poses": timed, "sway": 0.0}))
+        T_camera_hand = self._placed() @ moved(0.5)
+        return seen(body.mesh, body.landmarks, [T_camera_hand], SR305, self.random)
+
+    def _placed(self) -> Array:
+        """Returns ``T_camera_ground`` (4, 4), with the turned hand's middle before the camera."""
+        before = Viewpoint(place=(0.0, 0.0, AWAY)).placed(SR305.camera, lambda: np.zeros((0, 3)))
+        seed = {"development": 0, "test": 1}[self.chosen]
+        turn = random_rotations(ORIENTATIONS, seed)[self.orientation]
+        return np.asarray(before @ rigid(turn, np.zeros(3)))
+
+
+def cases(chosen: Set, some: int | None = None, seed: int = 0) -> list[HandCase]:
+    """Returns all 600 cases of a set, or a random subset of them in random order."""
+    subject = _AVERAGE if chosen == "development" else _slim()
+    every = [
+        HandCase(subject, chosen, gesture, orientation)
+        for gesture in range(len(GESTURES[chosen]))
+        for orientation in range(ORIENTATIONS)
+    ]
+    return subset(every, some, seed)

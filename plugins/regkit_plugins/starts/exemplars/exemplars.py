@@ -1,0 +1,92 @@
+"""The search for the start among exemplars: the template's own poses, seen from all sides."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import AfterValidator, Field
+
+from regkit.config.plugin import slot_default
+from regkit.interfaces import Method, Start, StartSearch, Template
+from regkit.observation import Observation
+from regkit.search.exemplars import AtlasSettings, atlas_of
+from regkit.skeleton.joints import in_order
+from regkit.start import rigid_start
+from regkit.system.arrays import Array
+from regkit.system.optional import one_blas_thread
+from regkit_plugins.starts.exemplars.finalists import Comparison
+from regkit_plugins.starts.exemplars.search import Search
+
+Elevation = Annotated[float, Field(ge=-90.0, le=90.0)]
+Roll = Annotated[float, Field(ge=-180.0, le=180.0)]
+
+ROLLS = 24
+"""Number of rolls in a full turn."""
+
+
+class Exemplars(StartSearch):
+    """Looks the first frame up among the template's own poses, seen from all sides.
+
+    The atlas holds poses within the joint limits, in all views, as small depth images. The most
+    similar ones, over all rolls and sizes, are rendered in the camera and refined; the best few are
+    registered with a search of their limbs, and the one of least energy and misfit is the start.
+    """
+
+    kind: Literal["exemplars"] = "exemplars"
+
+    exemplars: Annotated[int, Field(ge=100, le=1_000_000)] = 30_000
+    """Number of exemplars; 30,000 of a person take some seconds to make, once, and 13 MB."""
+    elevation_deg: Annotated[tuple[Elevation, Elevation], AfterValidator(in_order)] = (-90.0, 90.0)
+    """Least and greatest angle of the camera above the body's horizon [deg]."""
+    roll_deg: Annotated[tuple[Roll, Roll], AfterValidator(in_order)] = (-180.0, 180.0)
+    """Least and greatest roll of the body in the picture [deg]."""
+    looked_up: Annotated[int, Field(ge=1, le=100_000)] = 600
+    """Number of similar exemplars that are rendered."""
+    refined: Annotated[int, Field(ge=1, le=10_000)] = 40
+    """Number of these that are refined."""
+    finalists: Annotated[int, Field(ge=1, le=1000)] = 6
+    """Number of refined poses that are registered."""
+    method: Method = slot_default(Method)
+    """Method that registers the finalists."""
+
+    def find(self, template: Template, observations: Sequence[Observation]) -> Start:
+        """Returns the start of least energy and misfit.
+
+        Raises:
+            ConfigError: If the template has no capsules, or no free root.
+        """
+        rigid = rigid_start(template, observations[0])
+        if rigid is not None:
+            return rigid
+        with one_blas_thread():
+            search = self._search(template)
+            sizes = template.candidate_sizes()
+            if len(sizes) > 1:
+                finalists = search.unsized(observations)
+            else:
+                finalists = search.sized(template.body(sizes[0]), observations[0])
+        return Start(finalists[0].body, finalists[0].pose)
+
+    def _search(self, template: Template) -> Search:
+        sizes = template.candidate_sizes()
+        usual = template.body(sizes[len(sizes) // 2])
+        low, high = np.radians(self.elevation_deg)
+        return Search(
+            template=template,
+            atlas=atlas_of(usual, AtlasSettings(self.exemplars, (float(low), float(high)))),
+            comparison=Comparison(self.method, usual.size),
+            rolls=self._rolls(),
+            looked_up=self.looked_up,
+            refined=self.refined,
+            finalists=self.finalists,
+        )
+
+    def _rolls(self) -> Array:
+        """Returns evenly spaced rolls (R,) [rad] of the allowed range."""
+        low, high = np.radians(self.roll_deg)
+        count = max(1, round(ROLLS * (high - low) / (2.0 * np.pi)))
+        if high - low > 2.0 * np.pi - 1e-6:
+            return np.linspace(low, high, count, endpoint=False)
+        return np.linspace(low, high, count + 1)
