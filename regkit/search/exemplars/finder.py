@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -83,7 +84,7 @@ class Finder:
     def disagreement(self, body: Body, pose: Pose, pictures: Pictures) -> float:
         """Returns the disagreement of a pose with the data, from 0 to 1."""
         links = body.place(pose).links[None]
-        return float(_rendered(body, links, pictures, SHARP)[0])
+        return float(_rendered(body, links, self._spheres(body), pictures, SHARP)[0])
 
     def _pose(self, found: Matches, index: int) -> Pose:
         exemplar = found.exemplars[index]
@@ -104,7 +105,7 @@ class Finder:
             some = np.flatnonzero(found.sizes == index)
             if len(some):
                 links = self._placed(found, some, body)
-                scores[some] = _rendered(body, links, pictures, ROUGH)
+                scores[some] = _rendered(body, links, self._spheres(body), pictures, ROUGH)
         return scores
 
     def _distinct(self, found: Matches, scores: Array) -> list[int]:
@@ -135,7 +136,7 @@ class Finder:
             pose.hinges,
             Bones.of(body),
             Hull.of(body),
-            _spheres(body),
+            self._spheres(body),
             points,
             pictures.pictures[0].grid,
             SCALES * body.size,
@@ -146,14 +147,22 @@ class Finder:
         found = body.skeleton.limits.hinged(Pose(root, balls, hinges))
         return Exemplar(body, found, self.disagreement(body, found, pictures))
 
+    def _spheres(self, body: Body) -> Spheres:
+        return next(own for known, own in self._all_spheres if known is body)
 
-def _spheres(body: Body) -> Spheres:
-    return Spheres.of(body.capsules.axis_points(SPACING * body.size))
+    @cached_property
+    def _all_spheres(self) -> list[tuple[Body, Spheres]]:
+        return [
+            (body, Spheres.of(body.capsules.axis_points(SPACING * body.size)))
+            for body in self.bodies
+        ]
 
 
-def _rendered(body: Body, links: Array, pictures: Pictures, tolerance: float) -> Array:
+def _rendered(
+    body: Body, links: Array, spheres: Spheres, pictures: Pictures, tolerance: float
+) -> Array:
     """Returns the mean disagreement (K,) over all pictures for T_world_link (K, L, 4, 4)."""
-    total, spheres = np.zeros(len(links)), _spheres(body)
+    total = np.zeros(len(links))
     for picture in pictures.pictures:
         placed = picture.T_camera_world @ links
         total += disagreements(
