@@ -58,14 +58,14 @@ class Finder:
         atlas: The atlas of the template.
         rolls: Rolls of the body against its exemplars that are tried, (R,) [rad].
         looked_up: Number of exemplars that are rendered.
-        refined: Number of these that are refined.
+        kept: Number of these that are refined.
     """
 
     bodies: Sequence[Body]
     atlas: Atlas
     rolls: Array
     looked_up: int
-    refined: int
+    kept: int
 
     def candidates(self, pictures: Pictures) -> list[Exemplar]:
         """Returns the refined poses, the one that agrees best with the data first."""
@@ -73,10 +73,8 @@ class Finder:
         count = -(-self.looked_up // (len(sizes) * len(pictures.pictures)))
         found = matches(self.atlas, pictures, sizes, self.rolls, count)
         scores = self._scores(found, pictures)
-        points = pictures.points
-        some = np.ascontiguousarray(points[:: max(1, len(points) // POINTS)])
         candidates = [
-            self._refined(self.bodies[found.sizes[index]], self._pose(found, index), some, pictures)
+            self.refined(self.bodies[found.sizes[index]], self._pose(found, index), pictures)
             for index in self._distinct(found, scores)
         ]
         return sorted(candidates, key=lambda candidate: candidate.disagreement)
@@ -110,7 +108,7 @@ class Finder:
 
     def _distinct(self, found: Matches, scores: Array) -> list[int]:
         """Returns the best matches that differ from each other, equally many of each size."""
-        most = -(-self.refined // len(self.bodies))
+        most = -(-self.kept // len(self.bodies))
         chosen: list[int] = []
         for index, body in enumerate(self.bodies):
             some = np.flatnonzero(found.sizes == index)
@@ -126,10 +124,19 @@ class Finder:
                     left &= gaps >= SAME * body.size
                     chosen.append(int(some[row]))
                     most -= 1
-            most = -(-self.refined // len(self.bodies))
+            most = -(-self.kept // len(self.bodies))
         return chosen
 
-    def _refined(self, body: Body, pose: Pose, points: Array, pictures: Pictures) -> Exemplar:
+    def refined(self, body: Body, pose: Pose, pictures: Pictures) -> Exemplar:
+        """Returns a pose after a few steps towards the data.
+
+        Args:
+            body: One of the bodies.
+            pose: The pose.
+            pictures: The data.
+        """
+        points = pictures.points
+        points = np.ascontiguousarray(points[:: max(1, len(points) // POINTS)])
         root, balls, hinges = refined(
             pose.root,
             pose.balls,

@@ -11,6 +11,7 @@ from regkit.search.limb_recovery import LimbRecovery
 from regkit.skeleton import Pose
 from regkit.start import Scan
 from regkit.start.sizes import misfit
+from regkit_plugins.starts.exemplars.prior import unlikely
 
 SAMPLES, TRIED, GAIN = 500, 2, 0.01
 """Configurations of each limb that are sampled and registered, and what one must gain."""
@@ -25,17 +26,19 @@ class Finalist:
         pose: Its pose.
         energy: Its energy, in the method's own units.
         misfit: Its two-sided misfit, dimensionless.
+        unlikely: Cost of the pose without regard to the data, dimensionless.
     """
 
     body: Body
     pose: Pose
     energy: float
     misfit: float
+    unlikely: float
 
     @property
     def cost(self) -> float:
-        """Energy plus misfit; lower is better."""
-        return self.energy + self.misfit
+        """Energy, misfit and prior; lower is better."""
+        return self.energy + self.misfit + self.unlikely
 
 
 @dataclass(frozen=True)
@@ -66,7 +69,8 @@ class Comparison:
         found = limbs.recovered(observation, found)
         energy = registrar.evaluate(observation, found.pose).energy
         gap = misfit(scan, body, found.pose, self.usual)
-        return Finalist(body, found.pose, energy, gap)
+        prior = unlikely(body, found.pose, observation.camera is not None)
+        return Finalist(body, found.pose, energy, gap, prior)
 
     def _bound(self, body: Body) -> tuple[Registrar, LimbRecovery]:
         if body.size not in self.bound:
