@@ -95,7 +95,7 @@ def _read(file: Path) -> Shots:
             tuple(map(str, arrays["joints"])),
             arrays["truth"],
             camera,
-            arrays["depth"] if "depth" in arrays else None,
+            arrays.get("depth"),
             float(arrays["scale"]),
-            arrays["clouds"] if "clouds" in arrays else None,
+            arrays.get("clouds"),
         )
