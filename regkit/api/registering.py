@@ -34,8 +34,8 @@ POINTS = 900
 WIDTH = 0.5
 """Standard deviation of these points, relative to the voxel size."""
 
-Beginning = Pose | PoseDescription | Mapping[str, Any]
-"""The pose in the first frame: a pose, or a mapping like an experiment's ``start``."""
+Beginning = Choice[StartSearch] | Pose | PoseDescription
+"""The search for the first pose, as in an experiment's ``start``; or the pose itself."""
 
 
 @renamed_arguments(observer="preprocessor")
@@ -62,8 +62,9 @@ def register(
             [px]. With a ``Camera``, points are treated as the surface visible to it; without one,
             as the whole surface.
         preprocessor: Preprocessing of points; by default they are downsampled to about 900.
-        start: Initial pose: a pose, or a mapping like an experiment's ``start``, which requires
-            the template's size. By default pose and size are estimated from the frame.
+        start: Search for pose and size, such as ``"stances"``, or a mapping as in an experiment's
+            ``start``; or the pose itself, which requires the template's size. By default both are
+            sought in all orientations.
 
     Returns:
         The body with its pose, markers and quality of the fit.
@@ -139,7 +140,7 @@ def _tracked(
     first = _first(recording)
     check_unit(first.points, loaded, place=first.place or recording.name)
     observes = preprocessor or _preprocessor_for(first)
-    session = Session(recording, loaded, observes, _described(start, place))
+    session = Session(recording, loaded, observes, _search(start, place))
     with one_thread():
         begin = _begin(session)
         registrar = chosen.bind(begin.body)
@@ -184,11 +185,13 @@ def _first(recording: Recording) -> Frame:
     raise NoDataError("no frame has a measurement", place=recording.name)
 
 
-def _described(start: Beginning | None, place: str) -> Pose | PoseDescription | None:
-    """Returns a start, with a mapping validated like an experiment's ``start``."""
-    if start is None or isinstance(start, (Pose, PoseDescription)):
+def _search(start: Beginning | None, place: str) -> StartSearch | Pose:
+    """Returns the search for the start, or a given pose."""
+    if isinstance(start, Pose):
         return start
-    return Document(dict(start), {(): f"{place}: start"}).validated(PoseDescription)
+    if isinstance(start, PoseDescription) and not isinstance(start, StartSearch):
+        start = StartSearch.default("pose", **start.model_dump())
+    return StartSearch.parse(start or StartSearch.default(), place=place, field="start")
 
 
 def _begin(session: Session) -> Start:
@@ -196,7 +199,8 @@ def _begin(session: Session) -> Start:
         with working("searching the start"):
             return session.begin()
     except RegkitError as error:
-        raise error if session.start is None else error.at("start") from None
+        found = isinstance(session.start, StartSearch) and session.start.searches
+        raise error if found else error.at("start") from None
 
 
 def _preprocessor_for(frame: Frame) -> Preprocessor:

@@ -14,9 +14,16 @@ from regkit.calibration.subject import Subject
 from regkit.config.model import Model
 from regkit.config.plugin import slot_default
 from regkit.config.quantities import Count, FrameCount
-from regkit.interfaces import Method, Preprocessor, Recording, Solver, Template, Tracker
-from regkit.skeleton import PoseDescription
-from regkit.start import Start
+from regkit.interfaces import (
+    Method,
+    Preprocessor,
+    Recording,
+    Solver,
+    Start,
+    StartSearch,
+    Template,
+    Tracker,
+)
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError
 from regkit.system.optional import one_blas_thread
@@ -37,8 +44,8 @@ class Calibration(Model):
     """Template of the subject, with average proportions."""
     preprocessor: Preprocessor | None = None
     """Preprocessor of the frames; by default voxels that suit the body's size."""
-    start: PoseDescription | None = None
-    """Pose in the first frame, which needs the template's size; by default it is searched for."""
+    start: StartSearch = slot_default(StartSearch)
+    """Search for pose and size in the first frame, or the pose itself, which requires the size."""
     frames: Count = 12
     """Number of frames used for the fit, spread over the tracked part of the recording."""
     longest: FrameCount = 300

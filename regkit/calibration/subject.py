@@ -13,7 +13,7 @@ from regkit.calibration.shape import Shape
 from regkit.system.arrays import Array
 from regkit.system.errors import NotFoundError
 from regkit.tracking import Verdict
-from regkit.tracking.verdict import frame_verdicts
+from regkit.body.verdict import frame_verdicts
 
 FARTHEST = 0.015
 """A fit has failed if the median distance of the data exceeds this fraction of the body's size."""

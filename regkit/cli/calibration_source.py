@@ -10,8 +10,8 @@ from regkit.cli.choices import template_named
 from regkit.cli.options import options
 from regkit.config.model import Model
 from regkit.experiment import Experiment
-from regkit.interfaces import Dataset, Preprocessor, Recording, Template
-from regkit.skeleton import PoseDescription
+from regkit.config.plugin import slot_default
+from regkit.interfaces import Dataset, Preprocessor, Recording, StartSearch, Template
 from regkit.system.errors import ConfigError, DataError
 
 
@@ -24,8 +24,8 @@ class Source(Model):
     """The template to calibrate."""
     preprocessor: Preprocessor | None = None
     """Preprocessing of the frames."""
-    start: PoseDescription | None = None
-    """Pose in the first frame."""
+    start: StartSearch = slot_default(StartSearch)
+    """Search for pose and size in the first frame, or the pose itself."""
 
     @classmethod
     def read(cls, path: Path, template: str | None, settings: Iterable[str]) -> Source:
@@ -48,11 +48,13 @@ class Source(Model):
             )
         if not path.is_dir():
             experiment = Experiment.read(path, settings, called="--set")
+            # A given start belongs to the experiment's template.
+            kept = template is None or experiment.start.searches
             return cls(
                 dataset=experiment.dataset,
                 template=experiment.template if template is None else template_named(template),
                 preprocessor=experiment.preprocessor,
-                start=experiment.start if template is None else None,
+                **({"start": experiment.start} if kept else {}),
             )
         for setting in settings:
             raise ConfigError(

@@ -11,8 +11,7 @@ from regkit.config.document import Document
 from regkit.config.model import Model
 from regkit.config.plugin import slot_default
 from regkit.config.yaml import yaml_value
-from regkit.interfaces import Method, Preprocessor, Template, Tracker
-from regkit.skeleton import PoseDescription
+from regkit.interfaces import Method, Preprocessor, StartSearch, Template, Tracker
 from regkit.system.errors import ConfigError
 
 
@@ -29,8 +28,8 @@ class Choices(Model):
     """Preprocessing of frames; by default they are downsampled to about 900 points."""
     tracker: Tracker = slot_default(Tracker)
     """Tracker from frame to frame, if the method has none of its own."""
-    start: PoseDescription | None = None
-    """Pose in the first frame; requires the template's size. By default both are found."""
+    start: StartSearch = slot_default(StartSearch)
+    """Search for pose and size in the first frame, or the pose itself (``kind: given``)."""
 
     @classmethod
     def of(cls, options: Mapping[str, str | None], settings: Iterable[str]) -> tuple[Choices, str]:

@@ -12,9 +12,15 @@ from pydantic import AfterValidator, Field, ValidationInfo, WithJsonSchema, fiel
 from regkit.config.document import Document
 from regkit.config.model import Model
 from regkit.config.plugin import slot_default
-from regkit.interfaces import Dataset, Method, Preprocessor, Recording, Template, Tracker
-from regkit.skeleton import PoseDescription
-from regkit.start import given_start
+from regkit.interfaces import (
+    Dataset,
+    Method,
+    Preprocessor,
+    Recording,
+    StartSearch,
+    Template,
+    Tracker,
+)
 from regkit.system.errors import ConfigError
 from regkit.system.names import LONGEST, file_name
 from regkit.tracking import Session
@@ -73,22 +79,22 @@ class Experiment(Model):
     """Preprocessing of frames."""
     tracker: Tracker = slot_default(Tracker)
     """Tracker from frame to frame, for methods without one of their own."""
-    start: PoseDescription | None = None
-    """Pose in the first frame of every recording, which requires the template's size. By default
-    both are estimated from the data."""
+    start: StartSearch = slot_default(StartSearch)
+    """Search for pose and size in the first frame of every recording, the same for all methods; or
+    the pose itself (``kind: given``), which requires the template's size."""
     methods: dict[Annotated[Name, AfterValidator(_not_reserved)], Method] = Field(min_length=1)
     """Methods to compare, by names of your choice."""
 
     @field_validator("start")
     @classmethod
     def _start_fits_template(
-        cls, start: PoseDescription | None, others: ValidationInfo
-    ) -> PoseDescription | None:
+        cls, start: StartSearch, others: ValidationInfo
+    ) -> StartSearch:
         templates = [others.data.get("template"), *others.data.get("subjects", {}).values()]
         for template in templates:
-            if start is not None and isinstance(template, Template):
+            if isinstance(template, Template):
                 try:
-                    given_start(template, start)
+                    start.check(template)
                 except ConfigError as error:
                     raise ValueError(error.message) from None
         return start

@@ -9,9 +9,8 @@ from typing import Self
 import numpy as np
 from pydantic import TypeAdapter
 
-from regkit.interfaces import Template
+from regkit.interfaces import Start, StartSearch, Template
 from regkit.skeleton import Pose
-from regkit.start import Start
 from regkit.system.digests import data_digest
 from regkit.system.errors import DataError, RegkitError
 from regkit.system.guard import reading
@@ -95,7 +94,7 @@ def kept_start(session: Session, folder: Path, inputs: str) -> Start:
     Raises:
         RegkitError: If no start is found.
     """
-    if session.start is not None:
+    if not (isinstance(session.start, StartSearch) and session.start.searches):
         return session.begin()
     file = start_file(folder, session.recording.name)
     if file.exists():

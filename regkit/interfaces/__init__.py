@@ -14,11 +14,23 @@ from regkit.interfaces.solver import (
     Solution,
     Solver,
 )
+from regkit.interfaces.start import Start, StartSearch
 from regkit.interfaces.template import Template
 from regkit.interfaces.term import JointEnergy, JointResponse, Scene, Term, VisibilityWeights
 from regkit.interfaces.tracker import BoundTracker, Past, Tracker
 
-SLOTS = (Dataset, Template, Preprocessor, ShapeModel, Kernel, Term, Solver, Tracker, Method)
+SLOTS = (
+    Dataset,
+    Template,
+    Preprocessor,
+    StartSearch,
+    ShapeModel,
+    Kernel,
+    Term,
+    Solver,
+    Tracker,
+    Method,
+)
 """All groups of plug-ins, in the order of the data flow."""
 
 __all__ = [
@@ -45,6 +57,8 @@ __all__ = [
     "Similarity",
     "Solution",
     "Solver",
+    "Start",
+    "StartSearch",
     "Template",
     "Term",
     "Tracker",

@@ -21,7 +21,7 @@ from regkit.report.summary import metrics, write_tables
 from regkit.report.tables import main_table, pair_table, recording_table
 from regkit.system.files import write_text
 from regkit.system.json_files import write_json
-from regkit.tracking.verdict import LOST_SHARE, SURE_COVERAGE, SURE_INLIERS
+from regkit.body.verdict import LOST_SHARE, SURE_COVERAGE, SURE_INLIERS
 
 PICTURES = 12
 """Maximum number of overlays on the page, those of each method's worst recordings; the others are

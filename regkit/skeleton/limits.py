@@ -108,7 +108,7 @@ class Limits(Brief):
         followers are set from their leaders.
         """
         balls, turned = within_limits(
-            pose.balls, self.centre, self.twist_axis, self._cone, self.twist
+            pose.balls, self.centre, self.twist_axis, self.cone, self.twist
         )
         hinges = self.hinged(pose).hinges
         if not turned and (hinges == pose.hinges).all():
@@ -157,11 +157,11 @@ class Limits(Brief):
 
     def _stretch(self, swing: Array) -> Array:
         """Returns the swing's length relative to the cone in its direction; above 1 outside."""
-        parts = (self._cone @ swing[:, :, None])[:, :, 0]
+        parts = (self.cone @ swing[:, :, None])[:, :, 0]
         return np.asarray(np.hypot(parts[:, 0], parts[:, 1]))
 
     @cached_property
-    def _cone(self) -> Array:
+    def cone(self) -> Array:
         """The two swing axes divided by the half angles of the cone, (n_ball, 2, 3) [1/rad]."""
         axes = np.stack([self.swing_axis, cross(self.twist_axis, self.swing_axis)], axis=1)
         return np.asarray(axes / self.swing[:, :, None])

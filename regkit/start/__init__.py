@@ -1,5 +1,13 @@
-"""Start: the pose and size in the first frames of a recording, estimated from the data alone."""
+"""What the searches for a start share: the pose and size in the first frames of a recording.
 
-from regkit.start.search import Start, found_start, given_start
+- ``scan``: a cloud and its two-sided distance to bodies.
+- ``fit``: fits of a posed body to a cloud, annealed from far to near.
+- ``sizes``: fits that are comparable between sizes.
+- ``rigid``, ``cloud``: starts of rigid surfaces.
+"""
 
-__all__ = ["Start", "found_start", "given_start"]
+from regkit.start.candidate import Candidate
+from regkit.start.rigid import rigid_start
+from regkit.start.scan import Scan
+
+__all__ = ["Candidate", "Scan", "rigid_start"]

@@ -6,7 +6,7 @@ from regkit.tracking.recorder import Snapshot, TrackRecorder
 from regkit.tracking.session import Session
 from regkit.tracking.track import Track
 from regkit.tracking.track_verdict import TrackVerdict
-from regkit.tracking.verdict import Verdict, check_verdicts
+from regkit.body.verdict import Verdict, check_verdicts
 
 __all__ = [
     "Session",

@@ -8,10 +8,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from regkit.interfaces import Preprocessor, Recording, Registrar, Template, Tracker
+from regkit.interfaces import (
+    Preprocessor,
+    Recording,
+    Registrar,
+    Start,
+    StartSearch,
+    Template,
+    Tracker,
+)
 from regkit.observation import Frame, Observation
-from regkit.skeleton import Pose, PoseDescription
-from regkit.start import Start, found_start, given_start
+from regkit.skeleton import Pose
 from regkit.system.errors import ConfigError, NoDataError, RegkitError
 from regkit.tracking.extent import check_extent, tell_bound
 from regkit.tracking.loop import TrackedFrame, tracked
@@ -25,15 +32,15 @@ class Session:
         recording: Source of the frames.
         template: Template of the body.
         preprocessor: Preprocessor of the frames.
-        start: Pose in the first frame, which requires the template's size; without it, pose and
-            size are searched for.
+        start: The search for pose and size in the first frame, or the pose, which requires the
+            template's size.
         sized_in: Number of frames, spread over the recording, that determine an unknown size.
     """
 
     recording: Recording
     template: Template
     preprocessor: Preprocessor
-    start: Pose | PoseDescription | None = None
+    start: StartSearch | Pose
     sized_in: int = 3
 
     def begin(self) -> Start:
@@ -47,9 +54,7 @@ class Session:
         check_extent(first.points, self.template, place=self.recording.name)
         if isinstance(self.start, Pose):
             return _posed(self.template, self.start)
-        if self.start is not None:
-            return given_start(self.template, self.start)
-        start = found_start(self.template, first, *self._later(index))
+        start = self.start.find(self.template, [first, *self._later(index)])
         tell_bound(start.body.size, self.template, place=self.recording.name)
         return start
 

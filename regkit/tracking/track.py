@@ -13,7 +13,7 @@ from regkit.body import Body
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit.system.brief import Brief
-from regkit.tracking.verdict import Verdict, frame_verdicts
+from regkit.body.verdict import Verdict, frame_verdicts
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from regkit.tracking.track import Track
-from regkit.tracking.verdict import FLAT, Verdict
+from regkit.body.verdict import FLAT, Verdict
 
 MANY = 0.1
 """A track is doubtful if a larger fraction of its frames is doubtful or has no data."""

@@ -7,13 +7,12 @@ from typing import Annotated
 
 import numpy as np
 from pydantic import Field
-from scipy.spatial import KDTree
 
 from regkit.config.model import Model
 from regkit.config.quantities import FrameCount
-from regkit.interfaces import Evaluation, Past, Registrar, RegistrationResult
+from regkit.interfaces import Past, Registrar, RegistrationResult
 from regkit.observation import Observation
-from regkit.search.limb_search import LimbSearch
+from regkit.search.limb_recovery import LimbRecovery
 
 BEST_SHARE = 0.25
 """Quantile of the outlier fraction over past frames that counts as usual."""
@@ -40,9 +39,8 @@ class Recovery(Model):
 
     def bind(self, registrar: Registrar) -> BoundRecovery:
         """Samples the configurations, which are the same for all frames."""
-        random = np.random.default_rng(0)
-        searches = LimbSearch.of_all(registrar.body, random, self.samples)
-        return BoundRecovery(self, registrar, tuple(searches))
+        limbs = LimbRecovery.of(registrar, self.samples, self.starts, self.gain)
+        return BoundRecovery(self, limbs)
 
 
 @dataclass(frozen=True)
@@ -51,13 +49,11 @@ class BoundRecovery:
 
     Attributes:
         recovery: The recovery.
-        registrar: The registrar.
-        searches: The search of each limb.
+        limbs: Search for the configurations of the limbs.
     """
 
     recovery: Recovery
-    registrar: Registrar
-    searches: tuple[LimbSearch, ...]
+    limbs: LimbRecovery
 
     def checked(
         self,
@@ -68,23 +64,7 @@ class BoundRecovery:
         """Returns the registration, or a better one with another configuration of a limb."""
         if not self._alarmed(found, past):
             return found
-        return self.recovered(observation, found)
-
-    def recovered(self, observation: Observation, found: RegistrationResult) -> RegistrationResult:
-        """Returns the best registration after searching all limbs in turn."""
-        best, evaluation = found, self.registrar.evaluate(observation, found.pose)
-        cloud = KDTree(observation.points)
-        for search in self.searches:
-            for start in search.starts(cloud, best.pose, self.recovery.starts):
-                tried = self.registrar.register(observation, [start])
-                rival = self.registrar.evaluate(observation, tried.pose)
-                if self._better(rival, evaluation):
-                    best, evaluation = tried, rival
-        return best
-
-    def _better(self, new: Evaluation, old: Evaluation) -> bool:
-        gain = float((new.inlier_probability - old.inlier_probability).mean())
-        return new.energy < old.energy and gain > self.recovery.gain
+        return self.limbs.recovered(observation, found)
 
     def _alarmed(self, found: RegistrationResult, past: Past) -> bool:
         """Returns whether there are more outliers than usual, or a search is due."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -11,26 +10,12 @@ from regkit.body import Body, Stance
 from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.skeleton import Pose
-from regkit.start.scan import SPACING, Scan
+from regkit.start import Candidate, Scan
+from regkit.start.scan import SPACING
 from regkit.system.arrays import Array
 
 FACING_CAMERA = np.diag([1.0, -1.0, -1.0])
 """R_camera_body of a body that faces the camera: its left on the image's right, its y up."""
-
-
-@dataclass(frozen=True)
-class Candidate:
-    """A body and pose that may explain the data.
-
-    Attributes:
-        body: The body at a size.
-        pose: Its pose.
-        misfit: Misfit to the data, dimensionless; lower is better.
-    """
-
-    body: Body
-    pose: Pose
-    misfit: float
 
 
 def guesses(scan: Scan, body: Body, cutoff: float) -> Iterator[Candidate]:

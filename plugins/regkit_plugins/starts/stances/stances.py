@@ -1,0 +1,83 @@
+"""The search for the start among likely stances, each fitted to the cloud."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Literal
+
+import numpy as np
+
+from regkit.body import Body
+from regkit.interfaces import Start, StartSearch, Template
+from regkit.observation import Observation
+from regkit.start import Candidate, Scan, rigid_start
+from regkit.start.fit import STIFFNESS
+from regkit.start.sizes import CUTOFF, FAR, fit, resized
+from regkit.system.optional import one_blas_thread
+from regkit_plugins.starts.stances.guesses import guesses
+
+COARSE = ((FAR, 5.0), (1.0, 5.0), (1.0, 1.0), (1.0, 0.2), (1.0, STIFFNESS))
+"""Cutoff and stiffness of the first fits. The body first moves as a whole: a hand's parallel
+fingers match the wrong data if they move before the hand is aligned."""
+
+LIKELY = 12
+"""Number of guesses that are fitted in a middle size."""
+
+FINALISTS = 3
+"""Number of these fits that are refined in every candidate size."""
+
+
+class Stances(StartSearch):
+    """Fits every likely stance of the template, upright and facing a level camera.
+
+    The stances are placed at the cloud's centre in several rotations. The best guesses are fitted to
+    the cloud, the best fits are refined in every candidate size, annealed from far to near, and the
+    best of these in sizes between the candidates.
+    """
+
+    kind: Literal["stances"] = "stances"
+
+    def find(self, template: Template, observations: Sequence[Observation]) -> Start:
+        """Returns the start that fits the first frame best.
+
+        Raises:
+            ConfigError: If the template has no capsules, or no free root.
+        """
+        rigid = rigid_start(template, observations[0])
+        if rigid is not None:
+            return rigid
+        with one_blas_thread():
+            return _found(template, [Scan(one.points) for one in observations])
+
+
+def _found(template: Template, scans: list[Scan]) -> Start:
+    sizes = template.candidate_sizes()
+    bodies = [template.body(size) for size in sizes]
+    if len(bodies) == 1:
+        (best,) = _fits(scans[0], bodies)
+        return Start(best.body, best.pose)
+    fits = [_fits(scan, bodies) for scan in scans]
+    # The best fit determines the size: a person who sits or folds the arms reveals it less well.
+    bests = [min(of_frame, key=_misfit) for of_frame in fits]
+    telling = int(np.argmin([best.misfit for best in bests]))
+    best = resized(scans[telling], template, bests[telling], sizes)
+    if telling:
+        nearest = min(fits[0], key=lambda one: abs(np.log(one.body.size / best.body.size)))
+        best = fit(scans[0], best.body, nearest.pose, sizes[len(sizes) // 2])
+    return Start(best.body, best.pose)
+
+
+def _fits(scan: Scan, bodies: list[Body]) -> list[Candidate]:
+    """Returns the best fit of each body to a cloud."""
+    usual = bodies[len(bodies) // 2]
+    rough = sorted(guesses(scan, usual, FAR * CUTOFF * usual.size), key=_misfit)[:LIKELY]
+    coarse = [fit(scan, usual, guess.pose, usual.size, COARSE) for guess in rough]
+    finalists = sorted(coarse, key=_misfit)[:FINALISTS]
+    return [
+        min((fit(scan, body, one.pose, usual.size) for one in finalists), key=_misfit)
+        for body in bodies
+    ]
+
+
+def _misfit(candidate: Candidate) -> float:
+    return candidate.misfit

@@ -1,0 +1,96 @@
+"""Descriptors of exemplars and clouds: what their small depth images show, centred."""
+
+from __future__ import annotations
+
+from math import cos, sin
+
+import numpy as np
+
+from regkit.search.exemplars.images import (
+    cut_image,
+    described,
+    image_centre,
+    points_image,
+    spheres_image,
+)
+from regkit.system.arrays import Array
+from regkit.system.compiled import compiled
+
+SIDE, POOLING = 48, 2
+"""Number of cells of an image, and of those in a pooled cell, along each side."""
+
+HALF, WIDE = 0.68, 0.782
+"""Half the width of an image, and of the wider one that finds its centre [size]."""
+
+DEEPEST = 0.22
+"""Depth from the centre beyond which differences count no more [size]."""
+
+
+@compiled
+def exemplar_descriptors(
+    places: Array, radii: Array, views: Array, cuts: Array
+) -> tuple[Array, Array]:
+    """Returns the descriptors (N, D) of posed bodies, and the centres of their images (N, 3).
+
+    Args:
+        places: Centres of spheres on the bodies' axes, (N, P, 3) [size].
+        radii: Radii of the spheres, (P,) [size].
+        views: R_view_body, (N, 3, 3).
+        cuts: Lines at which the picture ends: direction and distance from the image's centre
+            (N, 3) [size]; infinite for a whole body.
+    """
+    count = len(places)
+    descriptors = np.empty((count, 2 * (SIDE // POOLING) ** 2), dtype=np.float32)
+    centres = np.empty((count, 3))
+    for index in range(count):
+        seen = np.empty((len(radii), 3))
+        middle = np.zeros(3)
+        for sphere in range(len(radii)):
+            for i in range(3):
+                seen[sphere, i] = (
+                    views[index, i, 0] * places[index, sphere, 0]
+                    + views[index, i, 1] * places[index, sphere, 1]
+                    + views[index, i, 2] * places[index, sphere, 2]
+                )
+            middle += seen[sphere] / len(radii)
+        image = spheres_image(seen - middle, radii, WIDE, SIDE)
+        whole = middle + image_centre(image, WIDE)
+        centre = whole
+        normal, offset = cuts[index, :2], cuts[index, 2]
+        if np.isfinite(offset):
+            shift = normal[0] * (whole[0] - middle[0]) + normal[1] * (whole[1] - middle[1])
+            cut_image(image, WIDE, normal, offset + shift)
+            centre = middle + image_centre(image, WIDE)
+        image = spheres_image(seen - centre, radii, HALF, SIDE)
+        if np.isfinite(offset):
+            shift = normal[0] * (whole[0] - centre[0]) + normal[1] * (whole[1] - centre[1])
+            cut_image(image, HALF, normal, offset + shift)
+        descriptors[index] = described(image, POOLING, DEEPEST)
+        centres[index] = centre
+    return descriptors, centres
+
+
+@compiled
+def cloud_descriptors(
+    points: Array, spread: float, rolls: Array, nearest: bool
+) -> tuple[Array, Array]:
+    """Returns the descriptors (R, D) of a cloud at several rolls, and its image's centre (3,).
+
+    Args:
+        points: The cloud relative to its mean, along the viewing direction z, (N, 3) [size].
+        spread: Half the distance of neighbouring points [size].
+        rolls: Angles by which the cloud is rolled back about z, (R,) [rad].
+        nearest: Whether a cell shows its nearest point.
+    """
+    centre = image_centre(points_image(points, spread, WIDE, SIDE, nearest), WIDE)
+    around = points - centre
+    descriptors = np.empty((len(rolls), 2 * (SIDE // POOLING) ** 2), dtype=np.float32)
+    rolled = around.copy()
+    for index in range(len(rolls)):
+        cosine, sine = cos(rolls[index]), sin(rolls[index])
+        for point in range(len(around)):
+            rolled[point, 0] = cosine * around[point, 0] + sine * around[point, 1]
+            rolled[point, 1] = cosine * around[point, 1] - sine * around[point, 0]
+        image = points_image(rolled, spread, HALF, SIDE, nearest)
+        descriptors[index] = described(image, POOLING, DEEPEST)
+    return descriptors, centre

@@ -1,0 +1,107 @@
+"""Pictures of the data: the camera's own, or those of virtual cameras around a whole cloud."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.ndimage import distance_transform_edt
+from scipy.spatial import KDTree
+
+from regkit.geometry.rigid import rigid
+from regkit.geometry.rotation import rotation_between
+from regkit.observation import Observation
+from regkit.search.exemplars.blocks import Blocks
+from regkit.search.exemplars.images import points_image
+from regkit.system.arrays import Array
+
+FAR = 30.0
+"""Distance of a virtual camera, in units of the body's size: almost parallel rays."""
+
+CELLS = 56
+"""Number of blocks of a virtual picture along each side."""
+
+WIDTH = 1.8
+"""Width of a virtual picture, in units of the body's size."""
+
+SAMPLE = 200
+"""Number of points that show the spacing of neighbours."""
+
+
+@dataclass(frozen=True)
+class Picture:
+    """The data, seen by a camera.
+
+    Attributes:
+        T_camera_world: Pose of the camera, (4, 4).
+        blocks: The data as the camera sees them.
+        rotation: R_view_world, whose z axis is the direction in which the data are seen, (3, 3).
+    """
+
+    T_camera_world: Array
+    blocks: Blocks
+    rotation: Array
+
+
+@dataclass(frozen=True)
+class Pictures:
+    """All pictures of a frame.
+
+    Attributes:
+        points: The data in the world, (N, 3) [m].
+        pictures: The pictures.
+        one_sided: Whether the data show only the side that faces a camera.
+    """
+
+    points: Array
+    pictures: tuple[Picture, ...]
+    one_sided: bool
+
+    @classmethod
+    def of(cls, observation: Observation, size: float) -> Pictures:
+        """Returns the pictures of a frame: one of a depth image, three of a cloud.
+
+        Args:
+            observation: The frame; without a camera, its points are the whole surface.
+            size: Usual size of the body [m].
+        """
+        points, camera, depth = observation.points, observation.camera, observation.depth
+        middle = points.mean(axis=0)
+        if camera is not None and depth is not None:
+            towards = rotation_between(middle / np.linalg.norm(middle), np.array([0.0, 0.0, 1.0]))
+            blocks = Blocks.of(camera, depth, points)
+            return cls(points, (Picture(np.eye(4), blocks, towards),), one_sided=True)
+        views = [np.roll(np.eye(3), turn, axis=0) for turn in range(3)]
+        spread = 0.75 * _spacing(points)
+        pictures = [_virtual(points - middle, middle, view, size, spread) for view in views]
+        return cls(points, tuple(pictures), one_sided=False)
+
+    @cached_property
+    def spread(self) -> float:
+        """Half the distance of neighbouring points, with some overlap [m]."""
+        return 0.75 * _spacing(self.points)
+
+
+def _virtual(around: Array, middle: Array, view: Array, size: float, spread: float) -> Picture:
+    """Returns the picture of a cloud around its middle by a far camera."""
+    cell, distance = WIDTH * size / CELLS, FAR * size
+    image = points_image(around @ view.T, max(spread, 0.5 * cell), 0.5 * WIDTH * size, CELLS, True)
+    centre = 0.5 * (CELLS - 1)
+    focal = distance / cell
+    missing = ~np.isfinite(image)
+    nearest = distance_transform_edt(missing, return_distances=False, return_indices=True)
+    blocks = Blocks(
+        image + distance,
+        np.array([focal, focal, centre, centre]),
+        np.asarray(nearest, dtype=float),
+    )
+    return Picture(rigid(view, np.array([0.0, 0.0, distance]) - view @ middle), blocks, view)
+
+
+def _spacing(points: Array) -> float:
+    """Returns the median distance of neighbouring points [m]."""
+    some = points[:: max(1, len(points) // SAMPLE)]
+    if len(points) < 2:
+        return 0.0
+    return float(np.median(KDTree(points).query(some, k=2)[0][:, 1]))

@@ -1,0 +1,74 @@
+"""Poses and views of a template, sampled within its own joint limits."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from regkit.body import Body
+from regkit.geometry.rotation import from_vector, product
+from regkit.search.limbs import limbs_of
+from regkit.skeleton import Pose
+from regkit.system.arrays import Array
+
+ANYWHERE = 0.55
+"""Probability that a limb is anywhere within its limits, and not near that of a stance."""
+
+LIMB_SHAKE, TRUNK_SHAKE = 0.26, 0.2
+"""Standard deviation of the joints about a stance [rad]."""
+
+
+def sampled_poses(body: Body, random: np.random.Generator, count: int) -> tuple[Array, Array]:
+    """Returns ball quaternions (count, n_ball, 4) and hinge angles (count, n_hinge) [rad].
+
+    Each is a stance of the body, or its rest pose, shaken; each limb is with some probability
+    anywhere within its limits.
+
+    Args:
+        body: The body.
+        random: Source of the poses.
+        count: Number of poses.
+    """
+    bones = body.skeleton
+    stances = [stance.pose for stance in body.stances] or [bones.rest()]
+    chosen = random.integers(len(stances), size=count)
+    balls = np.array([pose.balls for pose in stances])[chosen]
+    hinges = np.array([pose.hinges for pose in stances])[chosen]
+    any_balls, any_hinges = bones.limits.sampled(random, count)
+    shakes = np.full(balls.shape[1], TRUNK_SHAKE)
+    limbs = limbs_of(bones)
+    for limb in limbs:
+        shakes[limb.balls] = LIMB_SHAKE
+    steps = random.normal(size=(*balls.shape[:2], 3)) * shakes[:, None]
+    balls = product(balls, from_vector(steps))
+    hinges = hinges + LIMB_SHAKE * random.normal(size=hinges.shape)
+    for limb in limbs:
+        rows = np.flatnonzero(random.uniform(size=count) < ANYWHERE)[:, None]
+        balls[rows, limb.balls] = any_balls[rows, limb.balls]
+        hinges[rows, limb.hinges] = any_hinges[rows, limb.hinges]
+    for index in range(count):
+        pose = bones.limits.projected(Pose(np.eye(4), balls[index], hinges[index]))
+        balls[index], hinges[index] = pose.balls, pose.hinges
+    return balls, hinges
+
+
+def sampled_views(
+    random: np.random.Generator, count: int, elevation: tuple[float, float]
+) -> Array:
+    """Returns rotations R_view_body (count, 3, 3) of a camera without roll, in any heading.
+
+    Args:
+        random: Source of the views.
+        count: Number of views.
+        elevation: Least and greatest angle of the camera above the body's horizon [rad]; the
+            directions are uniform between them.
+    """
+    heading = random.uniform(0.0, 2.0 * np.pi, count)
+    low, high = np.sin(elevation)
+    raised = np.arcsin(random.uniform(low, high, count))
+    cos_h, sin_h, cos_e, sin_e = np.cos(heading), np.sin(heading), np.cos(raised), np.sin(raised)
+    zero, one = np.zeros(count), np.ones(count)
+    turn = np.stack([cos_h, zero, sin_h, zero, one, zero, -sin_h, zero, cos_h], axis=1)
+    tilt = np.stack([one, zero, zero, zero, cos_e, -sin_e, zero, sin_e, cos_e], axis=1)
+    facing = np.diag([1.0, -1.0, -1.0])
+    turned = facing @ (tilt.reshape(count, 3, 3) @ turn.reshape(count, 3, 3))
+    return np.asarray(turned)

@@ -1,0 +1,88 @@
+"""Disagreement of rendered bodies with a block image, in compiled loops."""
+
+from __future__ import annotations
+
+from math import ceil, floor, sqrt
+
+import numpy as np
+
+from regkit.system.arrays import Array, Indices
+from regkit.system.compiled import compiled
+
+OUTSIDE = 0.3
+"""Cost of a block that only the body covers, beyond the picture, where there are no data."""
+
+NEAREST = 0.05
+"""A body closer to the camera than this [m] is not rendered."""
+
+
+@compiled
+def disagreements(
+    links: Array,
+    segment_links: Indices,
+    segments: Indices,
+    points: Array,
+    radii: Array,
+    blocks: Array,
+    intrinsics: Array,
+    tolerance: float,
+) -> Array:
+    """Returns the disagreement (N,) of posed bodies with a block image, from 0 to 1.
+
+    It is the mean over all blocks that show the data or the body: the depth difference in units of
+    the tolerance, at most 1, or 1 where only one of them is.
+
+    Args:
+        links: T_camera_link of each body, (N, L, 4, 4).
+        segment_links: Link of each segment, (S,).
+        segments: Segment of each sphere on the body's axes, (P,).
+        points: Centres of the spheres in the segments' frames, (P, 3) [m].
+        radii: Radii of the spheres, (P,) [m].
+        blocks: Depth of each block, (H, W) [m]; inf where nothing is, -1 where it is unknown.
+        intrinsics: fx, fy, cx, cy in blocks, (4,).
+        tolerance: Depth difference that counts as none agreeing [m].
+    """
+    fx, fy, cx, cy = intrinsics
+    rows, columns = blocks.shape
+    means = np.empty(len(links))
+    image = np.empty((rows, columns))
+    for body in range(len(links)):
+        image[:] = np.inf
+        behind = False
+        for sphere in range(len(radii)):
+            T = links[body, segment_links[segments[sphere]]]
+            p = points[sphere]
+            x = T[0, 0] * p[0] + T[0, 1] * p[1] + T[0, 2] * p[2] + T[0, 3]
+            y = T[1, 0] * p[0] + T[1, 1] * p[1] + T[1, 2] * p[2] + T[1, 3]
+            z = T[2, 0] * p[0] + T[2, 1] * p[1] + T[2, 2] * p[2] + T[2, 3]
+            if z < NEAREST:
+                behind = True
+                break
+            u, v, width = fx * x / z + cx, fy * y / z + cy, max(fx * radii[sphere] / z, 0.5)
+            for row in range(max(0, int(ceil(v - width))), min(rows - 1, int(floor(v + width))) + 1):
+                for column in range(
+                    max(0, int(ceil(u - width))), min(columns - 1, int(floor(u + width))) + 1
+                ):
+                    square = ((row - v) ** 2 + (column - u) ** 2) / (width * width)
+                    if square <= 1.0:
+                        depth = z - radii[sphere] * sqrt(1.0 - square)
+                        image[row, column] = min(image[row, column], depth)
+        if behind:
+            means[body] = 1.0
+            continue
+        total, count = 0.0, 0
+        for row in range(rows):
+            for column in range(columns):
+                seen, shown = blocks[row, column], image[row, column]
+                if seen < 0.0:
+                    if np.isfinite(shown):
+                        total += OUTSIDE
+                        count += 1
+                elif np.isfinite(seen) and np.isfinite(shown):
+                    total += min(abs(seen - shown) / tolerance, 1.0)
+                    count += 1
+                elif np.isfinite(seen) or np.isfinite(shown):
+                    total += 1.0
+                    count += 1
+        means[body] = total / max(count, 1)
+    return means

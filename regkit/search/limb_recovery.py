@@ -1,0 +1,59 @@
+"""Recovery of lost limbs: other configurations of each limb, registered and compared."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import KDTree
+
+from regkit.interfaces import Evaluation, Registrar, RegistrationResult
+from regkit.observation import Observation
+from regkit.search.limb_search import LimbSearch
+
+
+@dataclass(frozen=True)
+class LimbRecovery:
+    """Seeks better configurations of the limbs of a registered body.
+
+    Attributes:
+        registrar: The registrar.
+        searches: The search of each limb.
+        starts: Number of configurations per limb that are registered.
+        gain: Minimum increase of the mean inlier probability for accepting a configuration.
+    """
+
+    registrar: Registrar
+    searches: tuple[LimbSearch, ...]
+    starts: int
+    gain: float
+
+    @classmethod
+    def of(cls, registrar: Registrar, samples: int, starts: int, gain: float) -> LimbRecovery:
+        """Samples the configurations, which are the same for all frames.
+
+        Args:
+            registrar: The registrar.
+            samples: Number of sampled configurations per limb.
+            starts: Number of these that are registered.
+            gain: Minimum increase of the mean inlier probability.
+        """
+        random = np.random.default_rng(0)
+        searches = tuple(LimbSearch.of_all(registrar.body, random, samples))
+        return cls(registrar, searches, starts, gain)
+
+    def recovered(self, observation: Observation, found: RegistrationResult) -> RegistrationResult:
+        """Returns the best registration after searching all limbs in turn."""
+        best, evaluation = found, self.registrar.evaluate(observation, found.pose)
+        cloud = KDTree(observation.points)
+        for search in self.searches:
+            for start in search.starts(cloud, best.pose, self.starts):
+                tried = self.registrar.register(observation, [start])
+                rival = self.registrar.evaluate(observation, tried.pose)
+                if self._better(rival, evaluation):
+                    best, evaluation = tried, rival
+        return best
+
+    def _better(self, new: Evaluation, old: Evaluation) -> bool:
+        gain = float((new.inlier_probability - old.inlier_probability).mean())
+        return new.energy < old.energy and gain > self.gain
