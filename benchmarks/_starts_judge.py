@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -12,11 +13,10 @@ from _starts_case import Case
 from _starts_shots import Shots
 
 from regkit.body import Body
-from regkit.interfaces import BoundTracker, Method, Past, Template
+from regkit.interfaces import BoundTracker, Method, Past, Start, StartSearch, Template
 from regkit.metrics.matching import matched
 from regkit.observation import Observation, Truth
 from regkit.skeleton import Pose
-from regkit.start import Start, found_start
 from regkit.system.arrays import Array
 from regkit.system.errors import RegkitError
 from regkit.system.optional import one_thread
@@ -27,7 +27,8 @@ METHOD = {"preset": "best"}
 
 def found(kind: str, template: Template, observations: Sequence[Observation]) -> Start:
     """Returns the start that a search finds in the first observation."""
-    return found_start(template, *observations)
+    search = StartSearch.parse(kind, place="benchmark", field="start")
+    return search.find(template, observations)
 
 
 @dataclass(frozen=True)
@@ -86,25 +87,39 @@ def judged(kind: str, case: Case, *, sized: bool = True) -> Outcome:
     """
     template = case.subject.sized() if sized else case.subject.unsized()
     observations = case.observations()[: 1 if sized else None]
-    shots = case.shots()
+    shots, joints = case.shots(), case.judged_joints()
     with one_thread():
+        _prepare(kind, template, observations)
         begun = time.process_time()
         try:
             start = found(kind, template, observations)
         except RegkitError as error:
-            spent, missed = time.process_time() - begun, np.full(len(shots.joints), np.inf)
+            spent, missed = time.process_time() - begun, np.full(len(joints), np.inf)
             return Outcome(case.name, missed, np.inf, "refused", str(error), np.nan, spent)
         spent = time.process_time() - begun
         registered = bound(start.body).step(observations[0], Past.start(start.pose))
     return Outcome(
         case.name,
-        distances(start.body, registered.pose, shots),
-        float(distances(start.body, start.pose, shots).mean()),
-        str(getattr(start, "verdict", "")),
-        str(getattr(start, "reason", "")),
+        distances(start.body, registered.pose, shots)[joints],
+        float(distances(start.body, start.pose, shots)[joints].mean()),
+        str(start.verdict),
+        start.reason,
         start.body.size,
         spent,
     )
+
+
+_PREPARED: set[str] = set()
+"""Searches and templates of this process whose loops are compiled and whose atlas is loaded."""
+
+
+def _prepare(kind: str, template: Template, observations: Sequence[Observation]) -> None:
+    """Searches once, untimed, with a search and template that are new in this process."""
+    key = f"{kind} {template.model_dump_json()}"
+    if key not in _PREPARED:
+        _PREPARED.add(key)
+        with suppress(RegkitError):
+            found(kind, template, observations)
 
 
 def bound(body: Body) -> BoundTracker:
@@ -134,10 +149,8 @@ def _bound(known: _Known) -> BoundTracker:
 
 
 def distances(body: Body, pose: Pose, shots: Shots, frame: int = 0) -> Array:
-    """Returns the distances (J,) [m] of a body's markers to the joints of a frame.
-
-    The joints are those that the body has as markers, in the order of ``shots``.
-    """
-    columns, markers = matched(body, Truth(shots.joints, shots.truth), {})
+    """Returns the distances (J,) [m] of a body's markers to the joints of a frame."""
+    _, markers = matched(body, Truth(shots.joints, shots.truth), {})
+    assert len(markers) == len(shots.joints)
     placed = body.markers.place(body.place(pose).transforms)[markers]
-    return np.asarray(np.linalg.norm(placed - shots.truth[frame, columns], axis=1))
+    return np.asarray(np.linalg.norm(placed - shots.truth[frame], axis=1))

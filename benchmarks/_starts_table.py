@@ -85,5 +85,5 @@ def parts(outcomes: Iterable[Outcome], within: float) -> None:
         for part in one.parts:
             counts.setdefault(part, []).append(one.error < within)
     shares = sorted((float(np.mean(right)), part) for part, right in counts.items())
-    told = (f"{part} {100.0 * share:.0f} %" for share, part in shares if share < 1.0)
-    print("\nright by part: " + "; ".join(told), flush=True)
+    told = [f"{part} {100.0 * share:.0f} %" for share, part in shares if share < 1.0]
+    print("\nright by part: " + ("; ".join(told) or "all"), flush=True)
