@@ -24,7 +24,7 @@ os.environ.update(OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1", NUMBA_NUM_THREA
 from _starts_bodies import Set
 from _starts_options import Options
 
-SCENARIOS = ("people", "hands", "cropped", "scans", "recovery", "utd")
+SCENARIOS = ("people", "hands", "cropped", "scans", "recovery", "utd", "sr305")
 
 
 def options() -> tuple[Options, list[str]]:
