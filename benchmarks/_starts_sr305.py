@@ -23,7 +23,8 @@ from regkit_plugins.preprocessors.points import PointsPreprocessor
 
 DATA = Path(__file__).parents[2] / "shared" / "data" / "hand_depth_sr305_mit"
 
-SEQUENCES = ("20210326-230536", "20210326-231615")
+SEQUENCES = {"20210326-230536": 640, "20210326-231615": 410}
+"""Number of columns from the left that hold the hand; the rest shows the person."""
 
 CAMERA = Camera(640, 480, 476.007, 476.007, 313.683, 242.755)
 
@@ -79,6 +80,7 @@ def started(kind: str, files: tuple[Path, Path, Path]) -> Hand:
 def _frame(file: Path) -> Frame:
     with Image.open(file) as image:
         depth = np.asarray(image).astype(np.float64) / UNITS
+    depth[:, SEQUENCES[file.parent.name] :] = 0.0
     return Frame(CAMERA.back_projected(depth), CAMERA, depth, str(file))
 
 
