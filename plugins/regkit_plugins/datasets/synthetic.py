@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
-from regkit.config.changes import with_changes
 from regkit.config.model import misplaced
 from regkit.config.quantities import Rate, Seed
 from regkit.interfaces import Dataset, Recording
@@ -23,10 +23,12 @@ from regkit_synthesis.cameras.cameras import CameraChoice, camera_of
 from regkit_synthesis.hands.config import GesturesConfig
 from regkit_synthesis.noise import NOISES, DepthNoise, NoiseChoice, noise_of
 from regkit_synthesis.recordings.cache import RecordingCache
+from regkit_synthesis.recordings.defaults import completed
 from regkit_synthesis.recordings.digest import digest
 from regkit_synthesis.recordings.recording import DepthRecording
 from regkit_synthesis.recordings.scene import Scene, Sensor
 from regkit_synthesis.recordings.take import Take
+from regkit_synthesis.rooms import RoomChoice, room_of
 
 Name = Annotated[str, Field(pattern=r"^\w[\w. -]*$")]
 
@@ -50,6 +52,9 @@ class Synthetic(Dataset):
     """Seed of the noise, which changes nothing else."""
     fps: Rate = 30.0
     """Frames per second."""
+    room: RoomChoice = "none"
+    """The room of the takes that name none: a known one by its name, ``none``, or its parts by
+    their names."""
     defaults: Take = Take()
     """Fields that all takes share."""
     takes: dict[Name, Take] = Field(min_length=1)
@@ -65,7 +70,7 @@ class Synthetic(Dataset):
         if not isinstance(defaults, dict) or not isinstance(takes, dict):
             return value
         whole = {
-            name: _over(defaults, take) if isinstance(take, dict) else take
+            name: completed(take, defaults) if isinstance(take, dict) else take
             for name, take in takes.items()
         }
         return {**value, "takes": whole}
@@ -78,6 +83,9 @@ class Synthetic(Dataset):
                 raise misplaced(type(self), message, "takes", name)
             if isinstance(take.body, ShippedHand) != isinstance(take.motion, GesturesConfig):
                 message = "gestures are motions of a hand only"
+                raise misplaced(type(self), message, "takes", name)
+            if take.empty and not room_of(self.room if take.room is None else take.room):
+                message = "it is empty and has no room either; give it a room"
                 raise misplaced(type(self), message, "takes", name)
         return self
 
@@ -140,10 +148,23 @@ class SyntheticRecording(Recording):
         """Returns the digest of the scene, under which its images are cached."""
         return self._key
 
-    def truth(self) -> Truth:
-        """Returns the exact positions of joints and markers."""
+    def truth(self) -> Truth | None:
+        """Returns the exact positions of joints and markers; None if the body is left out."""
+        if self.take.empty:
+            return None
         scene = self._scene()
         return Truth(scene.joints, scene.truth())
+
+    def labels(self) -> Iterator[NDArray[np.uint8]]:
+        """Yields what each pixel of every frame shows, (H, W): an index in ``label_names``.
+
+        Labels are exact: where noise moves depths between pixels, they differ at outlines.
+        """
+        return self._scene().labels()
+
+    def label_names(self) -> tuple[str, ...]:
+        """Returns the names of the labels: nothing, the body, and the parts of the room."""
+        return ("nothing", "body", *self._scene().room)
 
     def folder(self) -> Path:
         """Returns the depth folder in the cache, rendered on first use."""
@@ -163,7 +184,7 @@ class SyntheticRecording(Recording):
             sensor = self.dataset.sensor()
             if self.take.noise is not None:
                 sensor = replace(sensor, noise=noise_of(self.take.noise))
-            return self.take.scene(self.name, sensor, self.fps, self.length)
+            return self.take.scene(self.name, sensor, self.fps, self.length, self.dataset.room)
         except RegkitError as error:
             raise self._located(error) from None
 
@@ -171,13 +192,20 @@ class SyntheticRecording(Recording):
         """Returns the rendered scene.
 
         Raises:
-            DataError: If a frame does not show the body.
+            DataError: If a frame does not show the body, or in a room no frame does.
         """
+        if scene.hides_body():
+            raise DataError(
+                "no frame shows the body: the room hides it, or it is outside of the image; change "
+                "the room or the view (with a negative elevation_deg the camera may be below the "
+                "floor)"
+            )
         recording = scene.rendered(self.take.random(self.name, self.dataset.seed))
         empty = np.flatnonzero(~recording.depth.any(axis=(1, 2)))
         if len(empty):
+            what = "room" if scene.empty else "body"
             raise DataError(
-                f"the image of frame {empty[0]} does not show the body; change view.distance, or "
+                f"the image of frame {empty[0]} does not show the {what}; change view.distance, or "
                 "leave it out",
             )
         return recording
@@ -186,22 +214,3 @@ class SyntheticRecording(Recording):
         return type(error)(
             f"this take cannot be rendered: {error}", place=f"dataset.takes.{self.name}"
         )
-
-
-_SOURCES = frozenset({"name", "path", "frames"})
-"""Alternative fields that select a body or motion."""
-
-
-def _over(defaults: Mapping[str, Any], take: Mapping[str, Any]) -> dict[str, Any]:
-    """Returns a take completed with the defaults."""
-    common, own = dict(defaults), dict(take)
-    for field, kind in (("body", "shipped"), ("motion", "clip")):
-        if isinstance(common.get(field), dict) and field in own:
-            if isinstance(own[field], str):
-                own[field] = {"kind": kind, "name": own[field]}
-            if isinstance(own[field], dict) and not _SOURCES.isdisjoint(own[field]):
-                # These fields exclude each other.
-                common[field] = {k: v for k, v in common[field].items() if k not in _SOURCES}
-    # A preset's name is invalid in a take; it is kept here to be refused by validation.
-    preset = {"preset": own["preset"]} if "preset" in own else {}
-    return {**with_changes(common, own), **preset}

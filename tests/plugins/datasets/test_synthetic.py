@@ -256,6 +256,11 @@ def test_camera_may_be_a_file_beside_the_yaml(tmp_path):
         ("takes={}", "takes"),
         ("takes.walk.view={place: [0, 0, 3]}", "takes.walk.view: give a distance or a place"),
         ("takes={'a/b': {}}", "takes.a/b"),
+        ("room=flor", "room: input should be 'none', 'floor', 'walls'"),
+        ("takes.walk.room={cat: {kind: box}}", "takes.walk.room.cat.size: field required"),
+        ("takes.walk.room={cat: {kind: cat}}", "takes.walk.room.cat"),
+        ("takes.walk.room={friend: {kind: person, motion: wlk}}", "no clip called 'wlk'"),
+        ("takes.walk.empty=true", "takes.walk: it is empty and has no room either"),
     ],
 )
 def test_mistake_is_told_at_its_place(tmp_path, setting, expected):
@@ -275,6 +280,59 @@ def test_camera_that_cannot_see_a_whole_body_is_told(tmp_path):
     (walk,) = dataset(tmp_path, text).chosen()
     with pytest.raises(ConfigError, match=r"principal point, \(-5, 24\.5\) px, is at the border"):
         walk.prepare()
+
+
+ROOMS = """\
+kind: synthetic
+camera: {width: 44, height: 36, fx: 58}
+room: floor
+defaults: {motion: walk, frames: 1, room: {cat: {kind: box, size: [0.5, 0.2, 0.3]}}}
+takes:
+  plain: {room: none}
+  named: {room: desk}
+  added: {room: {wall: {kind: wall}, cat: {side: left}}}
+  background: {room: furnished, empty: true}
+"""
+
+
+def test_room_is_that_of_the_take_over_that_of_the_defaults_over_that_of_the_dataset(tmp_path):
+    names = {r.name: r.label_names()[2:] for r in dataset(tmp_path, ROOMS).chosen()}
+    assert names["plain"] == ()
+    assert names["named"] == ("floor", "back_wall", "desk")
+    assert names["added"] == ("cat", "wall")
+    parts = "takes.walk.room={wall: {kind: wall}}"
+    named, _ = dataset(tmp_path, TAKES, "defaults.room=desk", parts).chosen()
+    assert named.label_names()[2:] == ("wall",)
+    walk, kick = dataset(tmp_path, TAKES, "room=floor", "takes.walk.room=none").chosen()
+    assert walk.label_names() == ("nothing", "body")
+    assert kick.label_names() == ("nothing", "body", "floor")
+
+
+def test_empty_take_shows_its_room_without_joints(tmp_path):
+    (empty,) = dataset(tmp_path, ROOMS, "recordings=[background]").chosen()
+    assert empty.truth() is None
+    assert (images(empty) > 0.0).mean() > 0.9
+    (labels,) = empty.labels()
+    assert {empty.label_names()[label] for label in np.unique(labels)} >= {"floor", "table"}
+    assert 1 not in labels
+    assert not (empty.folder() / "truth.csv").exists()
+
+
+def test_labels_are_those_of_the_pixels_that_are_measured(tmp_path):
+    (named,) = dataset(tmp_path, ROOMS, "recordings=[named]").chosen()
+    for image, labels in zip(images(named), named.labels(), strict=True):
+        assert np.array_equal(image > 0.0, labels > 0)
+        nearest = [image[labels == label].min() for label in (1, 4)]
+        assert nearest[1] < nearest[0]  # The desk is in front of the body.
+
+
+def test_room_that_hides_the_body_is_told(tmp_path):
+    below = "takes.named.view={elevation_deg: -60}"
+    (named,) = dataset(tmp_path, ROOMS, "recordings=[named]", below).chosen()
+    with pytest.raises(
+        RegkitError, match=r"takes\.named: .*no frame shows the body: the room hides it"
+    ):
+        named.prepare()
 
 
 def test_take_without_a_motion_is_refused(tmp_path):
