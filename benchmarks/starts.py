@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 from argparse import ArgumentDefaultsHelpFormatter, ArgumentParser
 from collections.abc import Callable, Mapping
 from importlib import import_module
@@ -24,7 +25,9 @@ os.environ.update(OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1", NUMBA_NUM_THREA
 from _starts_bodies import Set
 from _starts_options import Options
 
-SCENARIOS = ("people", "hands", "cropped", "scans", "recovery", "utd", "sr305")
+from regkit.system.notes import RegkitWarning
+
+SCENARIOS = ("people", "hands", "cropped", "scans", "recovery", "utd", "sr305", "rooms", "empty")
 
 
 def options() -> tuple[Options, list[str]]:
@@ -52,6 +55,8 @@ class _Format(ArgumentDefaultsHelpFormatter):
 def main() -> None:
     """Prints the tables, and their figures as one JSON object in the last line."""
     chosen, names = options()
+    # What is passed over or assumed is told of recordings, and here are thousands.
+    warnings.simplefilter("ignore", RegkitWarning)
     print(
         f"set {chosen.chosen}, start {chosen.start}, at most {chosen.some} cases of each scenario"
     )
