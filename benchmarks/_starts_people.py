@@ -31,7 +31,7 @@ class PersonCase(Case):
         motif: Name of the motion.
         heading: Rotation of the body from the direction to the camera [deg].
         elevation: Downward pitch of the camera [deg].
-        roll: Rotation of the camera about its optical axis [deg].
+        roll: Counter-clockwise rotation of the camera about its optical axis [deg].
     """
 
     motif: str
