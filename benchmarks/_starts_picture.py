@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -28,8 +28,22 @@ COLOURS = {
 """Colours of segments by the beginnings of their names; others are black."""
 
 
-def drawn(observation: Observation, body: Body, pose: Pose, title: str) -> NDArray[np.uint8]:
-    """Returns a picture (SIDE, SIDE, 3) of the data, with the axes of the body's capsules."""
+def drawn(
+    observation: Observation,
+    body: Body,
+    pose: Pose,
+    title: str,
+    marks: Mapping[str, tuple[int, int]],
+) -> NDArray[np.uint8]:
+    """Returns a picture (SIDE, SIDE, 3) of the data, with the axes of the body's capsules.
+
+    Args:
+        observation: The data.
+        body: The body.
+        pose: Its pose.
+        title: Title of the picture.
+        marks: Column and row of places that are marked in the image, by the parts of the body.
+    """
     assert observation.camera is not None
     assert observation.depth is not None
     columns, rows = observation.camera.projected(observation.points).T
@@ -46,10 +60,16 @@ def drawn(observation: Observation, body: Body, pose: Pose, title: str) -> NDArr
     for segment, pair in zip(body.capsules.segments, ends, strict=True):
         first, last = (observation.camera.projected(pair) - middle + half) * scale
         name = body.skeleton.names[segment]
-        colour = next((one for part, one in COLOURS.items() if name.startswith(part)), "black")
-        draw.line([*first, *last], fill=colour, width=3)
+        draw.line([*first, *last], fill=_colour(name), width=3)
+    for name, place in marks.items():
+        column, row = (np.array(place) - middle + half) * scale
+        draw.ellipse([column - 5, row - 5, column + 5, row + 5], outline=_colour(name), width=2)
     draw.text((5, 5), title, fill="black")
     return np.asarray(picture)
+
+
+def _colour(name: str) -> str:
+    return next((colour for part, colour in COLOURS.items() if name.startswith(part)), "black")
 
 
 def write_sheet(file: Path, pictures: Sequence[NDArray[np.uint8]], across: int = 4) -> None:
