@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from _starts_bodies import Set
 from _starts_options import Options
-from _starts_sessions import experiment
+from _starts_sessions import experiment, synthetic
 
 from regkit.interfaces import Start
 from regkit.system.errors import RegkitError
@@ -84,10 +84,10 @@ def _room(kind: str, random: np.random.Generator) -> Any:
 def called(kind: str, chosen: Set, index: int) -> Called:
     """Returns what a search makes of a frame, with a template of unknown size."""
     description = take(chosen, index)
-    told = experiment(
-        kind, {"kind": "human"}, {f"{chosen} {index}": description},
-        frames=1, empty=True, motion={"kind": "keyframes", "name": "arms", "start": 1.0},
-    )  # fmt: skip
+    motion = {"kind": "keyframes", "name": "arms", "start": 1.0}
+    takes = {f"{chosen} {index}": description}
+    dataset = synthetic(takes, frames=1, empty=True, motion=motion)
+    told = experiment(kind, {"kind": "human"}, dataset)
     (recording,) = told.dataset.chosen()
     whole = told.preprocessor.preprocess(next(recording.frames()))
     with one_thread():

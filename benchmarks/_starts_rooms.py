@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from _starts_bodies import Set
 from _starts_options import Options
-from _starts_sessions import experiment
+from _starts_sessions import experiment, synthetic
 
 from regkit.metrics.matching import matched
 from regkit.system.errors import RegkitError
@@ -72,7 +72,7 @@ def tracked(kind: str, item: tuple[str, Mapping[str, Any]]) -> InRoom:
     """Returns the errors of a take in a room, given by name."""
     room, take = item
     template = {"kind": "human", "build": take["body"], "height": HEIGHTS[take["body"]]}
-    chosen = experiment(kind, template, {"take": take}, frames=FRAMES, room=room)
+    chosen = experiment(kind, template, synthetic({"take": take}, frames=FRAMES, room=room))
     (recording,) = chosen.dataset.chosen()
     session, method, truth = chosen.session(recording), chosen.methods["best"], recording.truth()
     assert truth is not None

@@ -9,18 +9,16 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
-from _starts_judge import bound, found
 from _starts_options import Options
 from _starts_people import WITHIN
+from _starts_sessions import experiment, single
 
-from regkit.interfaces import Past, Recording, Template
+from regkit.interfaces import Recording
 from regkit.metrics.matching import matched
 from regkit.observation import Truth
 from regkit.system.arrays import Array
 from regkit.system.errors import RegkitError
-from regkit.system.optional import one_thread
 from regkit_plugins.datasets.utd_mhad import UtdMhad
-from regkit_plugins.preprocessors.points import PointsPreprocessor
 
 DATA = Path(__file__).parents[2] / "shared" / "data" / "utd_mhad"
 
@@ -103,26 +101,22 @@ def _mean(errors: Array) -> float:
 
 def started(kind: str, count: int, recording: Recording) -> Recorded:
     """Returns fresh starts in single frames; two more frames may show the size."""
-    template = Template.parse("human", place="benchmark", field="template")
-    prepares = PointsPreprocessor(voxel=0.03, sigma=0.01)
-    chosen = np.linspace(0.1, 0.9, count) * (recording.length - 1)
-    wanted = [int(index) for index in chosen]
-    observations = [prepares.preprocess(frame) for _, frame in recording.some(wanted)]
+    chosen = experiment(kind, {"kind": "human"}, {"kind": "utd_mhad", "root": str(DATA)})
+    spread = np.linspace(0.1, 0.9, count) * (recording.length - 1)
+    wanted = [int(index) for index in spread]
+    frames = [frame for _, frame in recording.some(wanted)]
     truth, singles = recording.truth(), []
     assert truth is not None
     third = max(1, count // 3)
     for number, index in enumerate(wanted):
-        more = [observations[(number + step * third) % count] for step in (1, 2)]
+        three = [frames[(number + step * third) % count] for step in range(3)]
         try:
-            with one_thread():
-                start = found(kind, template, [observations[number], *more])
-                tracker = bound(start.body)
-                result = tracker.step(observations[number], Past.start(start.pose))
+            start, found = single(chosen, three)
         except RegkitError:
             continue
         body, joints = start.body, Truth(truth.joints, truth.positions[index : index + 1])
         columns, markers = matched(body, joints, JOINTS)
-        transforms = body.place(result.pose).transforms
+        transforms = body.place(found.registered.pose).transforms
         errors = joints.positions[0, columns] - body.markers.place(transforms)[markers]
         rotations = transforms[body.markers.segments[markers], :3, :3]
         singles.append(Single(errors, rotations, str(start.verdict), body.size))
