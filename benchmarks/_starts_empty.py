@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -12,13 +13,18 @@ from _starts_bodies import Set
 from _starts_options import Options
 from _starts_sessions import experiment, synthetic
 
+from regkit.experiment import Experiment
 from regkit.interfaces import Start
-from regkit.system.errors import RegkitError
+from regkit.observation import Frame
+from regkit.system.errors import DataError, RegkitError
 from regkit.system.optional import one_thread
 from regkit_synthesis.rooms import ROOMS
 
 COUNT = 200
 """Number of frames, as many of each kind as of the others."""
+
+FEWEST = 500
+"""A frame shows at least this many points."""
 
 KINDS = ("empty room", "wall", "box of a cat's size", "box on a floor")
 
@@ -44,13 +50,13 @@ class Called:
         return f"{self.verdict}, bare {self.bare}: {self.kind}, {self.told}"
 
 
-def take(chosen: Set, index: int) -> dict[str, Any]:
+def take(chosen: Set, index: int, attempt: int) -> dict[str, Any]:
     """Returns a take without a body, in YAML's form."""
-    random = np.random.default_rng([{"development": 0, "test": 1}[chosen], index])
+    random = np.random.default_rng([{"development": 0, "test": 1}[chosen], index, attempt])
     kind = KINDS[index % len(KINDS)]
     view = {
-        "heading_deg": float(random.uniform(-180.0, 180.0)),
-        "elevation_deg": float(random.uniform(-10.0, 50.0)),
+        "heading_deg": _uniform(random, -180.0, 180.0),
+        "elevation_deg": _uniform(random, -10.0, 50.0),
         "roll_deg": float(random.choice([0.0, 0.0, 90.0, 180.0])),
     }
     return {"room": _room(kind, random), "view": view}
@@ -62,8 +68,8 @@ def _room(kind: str, random: np.random.Generator) -> Any:
         return str(random.choice([name for name in ROOMS if name not in ("none", "crowded")]))
     if kind == "wall":
         side = str(random.choice(["back", "back", "left", "right"]))
-        height, reach = float(random.uniform(0.5, 3.0)), float(random.uniform(0.2, 4.0))
-        distance = float(random.uniform(-0.3, 1.0))
+        height, reach = _uniform(random, 0.5, 3.0), _uniform(random, 0.2, 4.0)
+        distance = _uniform(random, -0.3, 1.0)
         return {
             "wall": {
                 "kind": "wall", "side": side, "distance": distance, "height": height, "reach": reach
@@ -72,28 +78,46 @@ def _room(kind: str, random: np.random.Generator) -> Any:
     # The box is where the body would be, in the middle of the picture.
     box = {
         "kind": "box",
-        "size": [float(random.uniform(*span)) for span in ((0.3, 0.6), (0.12, 0.25), (0.2, 0.35))],
+        "size": [_uniform(random, *span) for span in ((0.3, 0.6), (0.12, 0.25), (0.2, 0.35))],
         "distance": -0.5,
-        "heading_deg": float(random.uniform(-180.0, 180.0)),
+        "heading_deg": _uniform(random, -180.0, 180.0),
     }
     if kind == "box on a floor":
         return {"box": box, "floor": {"kind": "floor"}}
-    return {"box": {**box, "above": float(random.uniform(0.3, 1.0))}}
+    return {"box": {**box, "above": _uniform(random, 0.3, 1.0)}}
+
+
+def _uniform(random: np.random.Generator, low: float, high: float) -> float:
+    """Returns a random number of millimetres, or of thousandths of a degree."""
+    return round(float(random.uniform(low, high)), 3)
+
+
+def shown(kind: str, chosen: Set, index: int) -> tuple[Experiment, Frame, str]:
+    """Returns an experiment of one frame that shows something, the frame, and its take."""
+    motion = {"kind": "keyframes", "name": "arms", "start": 1.0}
+    for attempt in range(100):
+        description = take(chosen, index, attempt)
+        takes = {f"{chosen} {index} {attempt}": description}
+        dataset = synthetic(takes, frames=1, empty=True, motion=motion)
+        told = experiment(kind, {"kind": "human"}, dataset)
+        (recording,) = told.dataset.chosen()
+        # Beside the camera's view nothing can be rendered.
+        with suppress(DataError):
+            frame = next(recording.frames())
+            if len(frame.points) >= FEWEST:
+                return told, frame, str(description)
+    raise AssertionError(f"no view of frame {index} shows anything")
 
 
 def called(kind: str, chosen: Set, index: int) -> Called:
     """Returns what a search makes of a frame, with a template of unknown size."""
-    description = take(chosen, index)
-    motion = {"kind": "keyframes", "name": "arms", "start": 1.0}
-    takes = {f"{chosen} {index}": description}
-    dataset = synthetic(takes, frames=1, empty=True, motion=motion)
-    told = experiment(kind, {"kind": "human"}, dataset)
+    told, frame, description = shown(kind, chosen, index)
     (recording,) = told.dataset.chosen()
-    whole = told.preprocessor.preprocess(next(recording.frames()))
+    whole = told.preprocessor.preprocess(frame)
     with one_thread():
         verdict = _verdict(told.session(recording).begin)
         bare = _verdict(lambda: told.start.find(told.template, [whole]))
-    return Called(KINDS[index % len(KINDS)], verdict, bare, str(description))
+    return Called(KINDS[index % len(KINDS)], verdict, bare, description)
 
 
 def _verdict(search: Callable[[], Start]) -> str:
