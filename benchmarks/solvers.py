@@ -24,8 +24,8 @@ from regkit.interfaces import Method, Past, RegistrationResult, Solver
 from regkit.observation import Observation
 from regkit.registration import RegistrationProblem
 from regkit.skeleton import Pose
-from regkit.start import found_start
 from regkit.system.optional import one_blas_thread
+from regkit_plugins.starts.exemplars import Exemplars
 
 DEMO = Path(__file__).parent.parent / "docs" / "examples" / "demo.yaml"
 
@@ -44,7 +44,7 @@ def tracking_table() -> dict[str, Any]:
     experiment = Experiment.read(DEMO)
     (recording,) = experiment.dataset.chosen()
     data = [experiment.preprocessor.preprocess(frame) for frame in recording.frames()]
-    start = found_start(experiment.template, data[0])
+    start = Exemplars().find(experiment.template, [data[0]])
     figures: dict[str, Any] = {}
     for name, options in TRACKED.items():
         solver = Solver.load(options["kind"]).model_validate(options)

@@ -20,8 +20,8 @@ from pathlib import Path
 from regkit.experiment import Experiment
 from regkit.interfaces import BoundTracker, Past, RegistrationResult
 from regkit.observation import Frame
-from regkit.start import found_start
 from regkit.system.optional import one_blas_thread
+from regkit_plugins.starts.exemplars import Exemplars
 
 EXAMPLES = Path(__file__).parent.parent / "docs" / "examples"
 ROUNDS = 5
@@ -53,7 +53,9 @@ class Bench:
         method = experiment.methods["method"]
         self.frames = list(recording.frames())
         self.preprocessor = experiment.preprocessor
-        start = found_start(experiment.template, self.preprocessor.preprocess(self.frames[0]))
+        start = Exemplars().find(
+            experiment.template, [self.preprocessor.preprocess(self.frames[0])]
+        )
         self.start = Past.start(start.pose)
         self.follower: BoundTracker = (method.tracker or experiment.tracker).bind(
             method.bind(start.body)

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 from regkit.api.choices import Choice, load_template, name_of
 from regkit.api.frame import Intrinsics, Measured, frame_of
@@ -13,11 +12,17 @@ from regkit.api.recordings import Frames, GivenFrames, recording_of
 from regkit.api.registration import Registration
 from regkit.api.tracking import Tracking, TrackingError
 from regkit.clouds import spacing, voxel_for
-from regkit.config.document import Document
-from regkit.interfaces import Method, Preprocessor, Recording, Template, Tracker
+from regkit.interfaces import (
+    Method,
+    Preprocessor,
+    Recording,
+    Start,
+    StartSearch,
+    Template,
+    Tracker,
+)
 from regkit.observation import Frame
 from regkit.skeleton import Pose, PoseDescription
-from regkit.start import Start
 from regkit.system.errors import ConfigError, NoDataError, RegkitError
 from regkit.system.optional import one_thread
 from regkit.system.progress import is_shown, working

@@ -8,12 +8,12 @@ import numpy as np
 
 from regkit.body import Body, BodyDescription, BodyFit
 from regkit.body.proportions import Proportions
+from regkit.body.verdict import frame_verdicts
 from regkit.calibration.frames import Looks, distances
 from regkit.calibration.shape import Shape
 from regkit.system.arrays import Array
 from regkit.system.errors import NotFoundError
 from regkit.tracking import Verdict
-from regkit.body.verdict import frame_verdicts
 
 FARTHEST = 0.015
 """A fit has failed if the median distance of the data exceeds this fraction of the body's size."""

@@ -9,8 +9,8 @@ from regkit.calibration import Calibration
 from regkit.cli.choices import template_named
 from regkit.cli.options import options
 from regkit.config.model import Model
-from regkit.experiment import Experiment
 from regkit.config.plugin import slot_default
+from regkit.experiment import Experiment
 from regkit.interfaces import Dataset, Preprocessor, Recording, StartSearch, Template
 from regkit.system.errors import ConfigError, DataError
 

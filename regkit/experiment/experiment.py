@@ -87,9 +87,7 @@ class Experiment(Model):
 
     @field_validator("start")
     @classmethod
-    def _start_fits_template(
-        cls, start: StartSearch, others: ValidationInfo
-    ) -> StartSearch:
+    def _start_fits_template(cls, start: StartSearch, others: ValidationInfo) -> StartSearch:
         templates = [others.data.get("template"), *others.data.get("subjects", {}).values()]
         for template in templates:
             if isinstance(template, Template):

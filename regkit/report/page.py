@@ -8,6 +8,7 @@ from datetime import datetime
 from pathlib import Path
 from urllib.parse import quote
 
+from regkit.body.verdict import LOST_SHARE, SURE_COVERAGE, SURE_INLIERS
 from regkit.metrics import mean_of
 from regkit.metrics.pairs import best
 from regkit.report.brief import brief, flow
@@ -21,7 +22,6 @@ from regkit.report.summary import metrics, write_tables
 from regkit.report.tables import main_table, pair_table, recording_table
 from regkit.system.files import write_text
 from regkit.system.json_files import write_json
-from regkit.body.verdict import LOST_SHARE, SURE_COVERAGE, SURE_INLIERS
 
 PICTURES = 12
 """Maximum number of overlays on the page, those of each method's worst recordings; the others are

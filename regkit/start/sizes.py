@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from regkit.interfaces import Template
 from regkit.body import Body
+from regkit.interfaces import Template
 from regkit.skeleton import Pose
 from regkit.start.candidate import Candidate
 from regkit.start.fit import STIFFNESS, Stage, fitted

@@ -13,6 +13,9 @@ from regkit.system.notes import note
 Array = NDArray[np.float64]
 """Array of real numbers; the docstring of each use gives the shape."""
 
+Singles = NDArray[np.float32]
+"""Array of real numbers in single precision, where there are many."""
+
 Indices = NDArray[np.intp]
 """Array of integers that index another array."""
 

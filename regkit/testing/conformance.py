@@ -18,6 +18,7 @@ from regkit.testing.plugin_laws import PluginLaws
 from regkit.testing.preprocessor_laws import PreprocessorLaws
 from regkit.testing.shape_laws import ShapeLaws
 from regkit.testing.solver_laws import SolverLaws
+from regkit.testing.start_laws import StartLaws
 from regkit.testing.template_laws import TemplateLaws
 from regkit.testing.term_laws import TermLaws
 from regkit.testing.tracker_laws import TrackerLaws
@@ -32,6 +33,7 @@ LAWS: Mapping[str, tuple[type[Laws], ...]] = {
     "pair": (KernelLaws,),
     "term_pair": (TermLaws,),
     "solver": (SolverLaws,),
+    "start": (StartLaws,),
     "tracker": (TrackerLaws,),
     "method": (MethodLaws,),
 }

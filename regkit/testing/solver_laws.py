@@ -113,15 +113,15 @@ class SolverLaws(Laws):
         )  # fmt: skip
 
     @pytest.mark.parametrize(
-        ("function", "start"), [(constant, [0.3, -0.2, 0.0, 1.0]), (bowl, TARGET)],
+        ("function", "origin"), [(constant, [0.3, -0.2, 0.0, 1.0]), (bowl, TARGET)],
         ids=["no_force", "minimum"],
     )  # fmt: skip
     def test_solver_stays_at_a_minimum(
-        self, solver: Solver, function: Function, start: Array
+        self, solver: Solver, function: Function, origin: Array
     ) -> None:
         """Without a force there is no step."""
-        solution = solver.minimize(Watched(function, start))
-        by = np.abs(solution.x - start).max()
+        solution = solver.minimize(Watched(function, origin))
+        by = np.abs(solution.x - origin).max()
         require(
             by < 1e-9, solver, f"steps {by:.2g} away from a start without a force",
             look_at=type(solver).minimize,

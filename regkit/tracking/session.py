@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -24,6 +24,11 @@ from regkit.tracking.extent import check_extent, tell_bound
 from regkit.tracking.loop import TrackedFrame, tracked
 
 
+def default_start() -> StartSearch:
+    """Returns the search that is used when none is named."""
+    return StartSearch.parse(StartSearch.default(), place="regkit", field="start")
+
+
 @dataclass(frozen=True)
 class Session:
     """A recording to track, the same for every method.
@@ -40,7 +45,7 @@ class Session:
     recording: Recording
     template: Template
     preprocessor: Preprocessor
-    start: StartSearch | Pose
+    start: StartSearch | Pose = field(default_factory=default_start)
     sized_in: int = 3
 
     def begin(self) -> Start:

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from regkit.body import Body
+from regkit.body.verdict import Verdict, frame_verdicts
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit.system.brief import Brief
-from regkit.body.verdict import Verdict, frame_verdicts
 
 
 @dataclass(frozen=True)

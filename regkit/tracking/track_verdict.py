@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from regkit.tracking.track import Track
 from regkit.body.verdict import FLAT, Verdict
+from regkit.tracking.track import Track
 
 MANY = 0.1
 """A track is doubtful if a larger fraction of its frames is doubtful or has no data."""

@@ -44,7 +44,7 @@ def test_calibrate_writes_a_template_that_experiments_can_use(regkit, files, sub
         "--set",
         template,
         "--set",
-        "start=null",
+        "start=exemplars",
     )
     assert ended.code == 0, ended.err
     # A template may be replaced, and be calibrated further.

@@ -12,7 +12,10 @@ from regkit.clouds import write_cloud
 
 WALK = DATA / "human_walk"
 HUMAN = ("--template", "{kind: human, height: 1.63}")
-START = ("--set", "start={root: {position: [-0.05, -0.05, 3.25], rotation_deg: [180, 0, 0]}}")
+START = (
+    "--set",
+    "start={kind: given, root: {position: [-0.05, -0.05, 3.25], rotation_deg: [180, 0, 0]}}",
+)
 FILES = {"result.json", "markers.csv", "hinges.csv", "frames.csv", "poses.npz", "picture.png"}
 
 
@@ -130,7 +133,7 @@ def test_settings_change_what_options_name(regkit):
         (("register", WALK, "--method", "bst"), ("--method bst", "did you mean 'best'")),
         (("register", WALK, "--set", "template.heigt=1"), ("template.heigt", "did you mean")),
         (("register", WALK, "--set", "metod=best"), ("--set metod=best", "did you mean 'method'")),
-        (("register", WALK, "--set", "start={}"), ("start", "size")),
+        (("register", WALK, "--set", "start={kind: given}"), ("start", "size")),
         (("track", "nowhere"), ("nowhere", "no such folder")),
         (("track", DATA), ("--recording", "name one")),
         (("track", DATA, "--recording", "walk"), ("--recording", "no recording")),

@@ -192,7 +192,7 @@ def test_setup_names_what_has_changed(tmp_path, files):
     )
     plugin.write_text(text)
     run_plugin_file(plugin)
-    settings = (f"template={{kind: file, path: {rod}}}", "start=null",
+    settings = (f"template={{kind: file, path: {rod}}}", "start=exemplars",
                 f"tracker={{kind: own, weights: {weights}}}")  # fmt: skip
 
     def setup() -> Setup:

@@ -18,10 +18,10 @@ from regkit.geometry.camera import Camera
 from regkit.observation import Observation
 from regkit.observation.crop import Crop
 from regkit.skeleton import Pose
-from regkit.start import found_start
 from regkit_plugins.datasets.depth import DepthFolders
 from regkit_plugins.datasets.utd_mhad import UtdMhad
 from regkit_plugins.preprocessors.points import PointsPreprocessor
+from regkit_plugins.starts.exemplars import Exemplars
 from regkit_plugins.templates.hand import Hand
 from regkit_plugins.templates.human import Human
 
@@ -38,7 +38,7 @@ def test_start_of_people_is_found_within_the_reference_accuracy(reference_data: 
     errors = {}
     for recording in dataset.found()[::3]:
         observation = PointsPreprocessor(voxel=0.03).preprocess(next(recording.frames()))
-        start = found_start(Human(), observation)
+        start = Exemplars().find(Human(), [observation])
         markers = start.body.markers.place(start.body.place(start.pose).transforms)
         truth = recording.truth()
         chosen = [start.body.markers.names.index(name) for name in truth.joints]
@@ -69,7 +69,7 @@ def test_start_of_a_hand_lies_on_its_surface(hand_recording: Path):
     preprocessor = PointsPreprocessor(voxel=0.006, sigma=0.004, crop=crop)
     frame = next(DepthFolders(root=hand_recording).found()[0].frames())
     observation = preprocessor.preprocess(frame)
-    start = found_start(Hand(side="right"), observation)
+    start = Exemplars().find(Hand(side="right"), [observation])
     distance = median_to_surface(start.body, start.pose, observation)
     print("median distance to the surface [m]:", distance)
     assert distance < 0.008

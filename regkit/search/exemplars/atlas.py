@@ -10,7 +10,7 @@ from regkit.body import Body
 from regkit.search.exemplars.descriptors import exemplar_descriptors
 from regkit.search.exemplars.poses import sampled_poses, sampled_views
 from regkit.skeleton import Placement, Pose
-from regkit.system.arrays import Array
+from regkit.system.arrays import Array, Singles
 
 DIMENSIONS = 64
 """Number of principal components of the descriptors."""
@@ -53,16 +53,16 @@ class Atlas:
         centres: Centres of the images in the view's axes, from the body's root, (N, 3) [size].
         mean: Mean descriptor, (D,).
         basis: Principal components, (D, d).
-        codes: Descriptors on these components, (N, d).
+        codes: Singless on these components, (N, d).
     """
 
-    balls: Array
-    hinges: Array
-    views: Array
-    centres: Array
-    mean: Array
-    basis: Array
-    codes: Array
+    balls: Singles
+    hinges: Singles
+    views: Singles
+    centres: Singles
+    mean: Singles
+    basis: Singles
+    codes: Singles
 
     @classmethod
     def of(cls, body: Body, settings: AtlasSettings) -> Atlas:
@@ -98,7 +98,7 @@ class Atlas:
         """Number N of exemplars."""
         return len(self.codes)
 
-    def arrays(self) -> dict[str, Array]:
+    def arrays(self) -> dict[str, Singles]:
         """Returns the arrays by name, for a file."""
         return asdict(self)
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from scipy.ndimage import distance_transform_edt
 
 from regkit.geometry.camera import Camera
+from regkit.search.exemplars.model import Grid
 from regkit.system.arrays import Array
 
 ACROSS = 44
@@ -23,49 +22,39 @@ ONE_SURFACE = 0.15
 """Pixels of a block that are farther than this behind its nearest one do not count [m]."""
 
 
-@dataclass(frozen=True)
-class Blocks:
-    """A depth image in blocks.
+def grid_around(camera: Camera, depth: Array, points: Array) -> Grid:
+    """Returns the blocks of a depth image around points.
 
-    Attributes:
-        depth: Depth of each block, (H, W) [m]; inf where nothing is, -1 where it is unknown.
-        intrinsics: fx, fy, cx, cy in blocks, (4,).
-        nearest: Row and column of the nearest block with depth, (2, H, W).
+    Args:
+        camera: The camera.
+        depth: Its depth image, (H, W) [m]: zero where nothing is, NaN where it is unknown.
+        points: The data, (N, 3) [m].
     """
+    pixels = camera.projected(points)
+    low, high = pixels.min(axis=0), pixels.max(axis=0)
+    extent = float((high - low).max())
+    side = max(1, round(extent / ACROSS))
+    left, top = np.floor(low - MARGIN * extent).astype(int)
+    right, bottom = np.ceil(high + MARGIN * extent).astype(int)
+    columns, rows = -(-(right - left) // side), -(-(bottom - top) // side)
+    # Beyond the picture the data are unknown.
+    whole = np.full((rows * side, columns * side), np.nan)
+    r0, r1 = max(top, 0), min(top + rows * side, camera.height)
+    c0, c1 = max(left, 0), min(left + columns * side, camera.width)
+    whole[r0 - top : r1 - top, c0 - left : c1 - left] = depth[r0:r1, c0:c1]
+    cells = whole.reshape(rows, side, columns, side).swapaxes(1, 2).reshape(rows, columns, -1)
+    blocks = _reduced(cells)
+    middle = 0.5 * (side - 1)
+    offsets = [(camera.cx - left - middle) / side, (camera.cy - top - middle) / side]
+    intrinsics = np.array([camera.fx / side, camera.fy / side, *offsets])
+    return Grid(blocks, nearest_shown(blocks), intrinsics)
 
-    depth: Array
-    intrinsics: Array
-    nearest: Array
 
-    @classmethod
-    def of(cls, camera: Camera, depth: Array, points: Array) -> Blocks:
-        """Returns the blocks around points.
-
-        Args:
-            camera: The camera.
-            depth: Its depth image, (H, W) [m]: zero where nothing is, NaN where it is unknown.
-            points: The data, (N, 3) [m].
-        """
-        pixels = camera.projected(points)
-        low, high = pixels.min(axis=0), pixels.max(axis=0)
-        extent = float((high - low).max())
-        side = max(1, round(extent / ACROSS))
-        left, top = np.floor(low - MARGIN * extent).astype(int)
-        right, bottom = np.ceil(high + MARGIN * extent).astype(int)
-        columns, rows = -(-(right - left) // side), -(-(bottom - top) // side)
-        # Beyond the picture the data are unknown.
-        whole = np.full((rows * side, columns * side), np.nan)
-        r0, r1 = max(top, 0), min(top + rows * side, camera.height)
-        c0, c1 = max(left, 0), min(left + columns * side, camera.width)
-        whole[r0 - top : r1 - top, c0 - left : c1 - left] = depth[r0:r1, c0:c1]
-        cells = whole.reshape(rows, side, columns, side).swapaxes(1, 2).reshape(rows, columns, -1)
-        blocks = _reduced(cells)
-        missing = ~(np.isfinite(blocks) & (blocks > 0.0))
-        nearest = distance_transform_edt(missing, return_distances=False, return_indices=True)
-        middle = 0.5 * (side - 1)
-        offsets = [(camera.cx - left - middle) / side, (camera.cy - top - middle) / side]
-        intrinsics = np.array([camera.fx / side, camera.fy / side, *offsets])
-        return cls(blocks, intrinsics, np.asarray(nearest, dtype=float))
+def nearest_shown(depth: Array) -> Array:
+    """Returns row and column (2, H, W) of the nearest block with depth to each block (H, W)."""
+    missing = ~(np.isfinite(depth) & (depth > 0.0))
+    indices = distance_transform_edt(missing, return_distances=False, return_indices=True)
+    return np.asarray(indices, dtype=float)
 
 
 def _reduced(cells: Array) -> Array:

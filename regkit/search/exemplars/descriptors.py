@@ -13,7 +13,7 @@ from regkit.search.exemplars.images import (
     points_image,
     spheres_image,
 )
-from regkit.system.arrays import Array
+from regkit.system.arrays import Array, Singles
 from regkit.system.compiled import compiled
 
 SIDE, POOLING = 48, 2
@@ -29,7 +29,7 @@ DEEPEST = 0.22
 @compiled
 def exemplar_descriptors(
     places: Array, radii: Array, views: Array, cuts: Array
-) -> tuple[Array, Array]:
+) -> tuple[Singles, Array]:
     """Returns the descriptors (N, D) of posed bodies, and the centres of their images (N, 3).
 
     Args:
@@ -73,7 +73,7 @@ def exemplar_descriptors(
 @compiled
 def cloud_descriptors(
     points: Array, spread: float, rolls: Array, nearest: bool
-) -> tuple[Array, Array]:
+) -> tuple[Singles, Array]:
     """Returns the descriptors (R, D) of a cloud at several rolls, and its image's centre (3,).
 
     Args:

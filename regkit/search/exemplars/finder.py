@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
 from regkit.body import Body
-from regkit.geometry.capsules import AxisPoints
 from regkit.search.exemplars.atlas import SPACING, Atlas
 from regkit.search.exemplars.lookup import Matches, matches
+from regkit.search.exemplars.model import Bones, Hull, Spheres
 from regkit.search.exemplars.pictures import Pictures
 from regkit.search.exemplars.refinement import refined
 from regkit.search.exemplars.rendering import disagreements
@@ -70,7 +69,8 @@ class Finder:
     def candidates(self, pictures: Pictures) -> list[Exemplar]:
         """Returns the refined poses, the one that agrees best with the data first."""
         sizes = [body.size for body in self.bodies]
-        found = matches(self.atlas, pictures, sizes, self.rolls, self.looked_up)
+        count = -(-self.looked_up // (len(sizes) * len(pictures.pictures)))
+        found = matches(self.atlas, pictures, sizes, self.rolls, count)
         scores = self._scores(found, pictures)
         points = pictures.points
         some = np.ascontiguousarray(points[:: max(1, len(points) // POINTS)])
@@ -83,7 +83,7 @@ class Finder:
     def disagreement(self, body: Body, pose: Pose, pictures: Pictures) -> float:
         """Returns the disagreement of a pose with the data, from 0 to 1."""
         links = body.place(pose).links[None]
-        return float(_rendered(body, links, self._axes(body), pictures, SHARP)[0])
+        return float(_rendered(body, links, pictures, SHARP)[0])
 
     def _pose(self, found: Matches, index: int) -> Pose:
         exemplar = found.exemplars[index]
@@ -104,7 +104,7 @@ class Finder:
             some = np.flatnonzero(found.sizes == index)
             if len(some):
                 links = self._placed(found, some, body)
-                scores[some] = _rendered(body, links, self._axes(body), pictures, ROUGH)
+                scores[some] = _rendered(body, links, pictures, ROUGH)
         return scores
 
     def _distinct(self, found: Matches, scores: Array) -> list[int]:
@@ -129,65 +129,34 @@ class Finder:
         return chosen
 
     def _refined(self, body: Body, pose: Pose, points: Array, pictures: Pictures) -> Exemplar:
-        bones, limits, capsules, axes = body.skeleton, body.skeleton.limits, body.capsules, None
-        axes = self._axes(body)
-        picture = pictures.pictures[0]
         root, balls, hinges = refined(
             pose.root,
             pose.balls,
             pose.hinges,
-            bones.link_offsets,
-            bones.link_parents,
-            bones.ball_links,
-            bones.hinge_links,
-            bones.hinge_axes,
-            bones.dof_mask,
-            bones.segment_links,
-            limits.hinge,
-            limits.centre,
-            limits.twist_axis,
-            limits.cone,
-            limits.twist,
-            capsules.segments,
-            capsules.ends,
-            capsules.radii,
-            axes.segments,
-            axes.points,
-            axes.radii,
+            Bones.of(body),
+            Hull.of(body),
+            _spheres(body),
             points,
-            picture.blocks.depth,
-            picture.blocks.nearest,
-            picture.blocks.intrinsics,
+            pictures.pictures[0].grid,
             SCALES * body.size,
             SPRINGS,
             1.0 if pictures.one_sided else 0.0,
             pictures.one_sided,
         )
-        found = limits.hinged(Pose(root, balls, hinges))
+        found = body.skeleton.limits.hinged(Pose(root, balls, hinges))
         return Exemplar(body, found, self.disagreement(body, found, pictures))
 
-    def _axes(self, body: Body) -> AxisPoints:
-        return self._all_axes[next(i for i, one in enumerate(self.bodies) if one is body)]
 
-    @cached_property
-    def _all_axes(self) -> list[AxisPoints]:
-        return [body.capsules.axis_points(SPACING * body.size) for body in self.bodies]
+def _spheres(body: Body) -> Spheres:
+    return Spheres.of(body.capsules.axis_points(SPACING * body.size))
 
 
-def _rendered(
-    body: Body, links: Array, axes: AxisPoints, pictures: Pictures, tolerance: float
-) -> Array:
+def _rendered(body: Body, links: Array, pictures: Pictures, tolerance: float) -> Array:
     """Returns the mean disagreement (K,) over all pictures for T_world_link (K, L, 4, 4)."""
-    total = np.zeros(len(links))
+    total, spheres = np.zeros(len(links)), _spheres(body)
     for picture in pictures.pictures:
+        placed = picture.T_camera_world @ links
         total += disagreements(
-            picture.T_camera_world @ links,
-            body.skeleton.segment_links,
-            axes.segments,
-            axes.points,
-            axes.radii,
-            picture.blocks.depth,
-            picture.blocks.intrinsics,
-            tolerance * body.size,
+            placed, body.skeleton.segment_links, spheres, picture.grid, tolerance * body.size
         )
     return np.asarray(total / len(pictures.pictures))

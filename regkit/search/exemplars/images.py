@@ -10,7 +10,7 @@ from math import floor, sqrt
 
 import numpy as np
 
-from regkit.system.arrays import Array
+from regkit.system.arrays import Array, Singles
 from regkit.system.compiled import compiled
 
 BLUR = np.array([0.25, 0.5, 0.25])
@@ -35,13 +35,13 @@ def spheres_image(centres: Array, radii: Array, half: float, side: int) -> Array
         # A sphere thinner than a cell still shows.
         shown = max(radius, 0.6 * cell)
         for row in range(
-            max(0, int(floor((y - shown + half) / cell))),
-            min(side - 1, int(floor((y + shown + half) / cell))) + 1,
+            max(0, floor((y - shown + half) / cell)),
+            min(side - 1, floor((y + shown + half) / cell)) + 1,
         ):
             down = (row + 0.5) * cell - half - y
             for column in range(
-                max(0, int(floor((x - shown + half) / cell))),
-                min(side - 1, int(floor((x + shown + half) / cell))) + 1,
+                max(0, floor((x - shown + half) / cell)),
+                min(side - 1, floor((x + shown + half) / cell)) + 1,
             ):
                 right = (column + 0.5) * cell - half - x
                 square = right * right + down * down
@@ -69,12 +69,12 @@ def points_image(points: Array, spread: float, half: float, side: int, nearest: 
     for point in range(len(points)):
         x, y, z = points[point]
         for row in range(
-            max(0, int(floor((y - spread + half) / cell))),
-            min(side - 1, int(floor((y + spread + half) / cell))) + 1,
+            max(0, floor((y - spread + half) / cell)),
+            min(side - 1, floor((y + spread + half) / cell)) + 1,
         ):
             for column in range(
-                max(0, int(floor((x - spread + half) / cell))),
-                min(side - 1, int(floor((x + spread + half) / cell))) + 1,
+                max(0, floor((x - spread + half) / cell)),
+                min(side - 1, floor((x + spread + half) / cell)) + 1,
             ):
                 total[row, column] += z
                 count[row, column] += 1.0
@@ -123,7 +123,7 @@ def cut_image(image: Array, half: float, normal: Array, offset: float) -> None:
 
 
 @compiled
-def described(image: Array, pooling: int, deepest: float) -> Array:
+def described(image: Array, pooling: int, deepest: float) -> Singles:
     """Returns the descriptor of an image: pooled and blurred occupancy and depth, (2 n^2,).
 
     Args:

@@ -38,14 +38,14 @@ class Matches:
 def matches(
     atlas: Atlas, pictures: Pictures, sizes: Sequence[float], rolls: Array, count: int
 ) -> Matches:
-    """Returns the ``count`` most similar exemplars, at the place where they cover the data.
+    """Returns the most similar exemplars, at the place where they cover the data.
 
     Args:
         atlas: The atlas.
         pictures: The data.
         sizes: Sizes of the body [m].
         rolls: Rolls of the body against the exemplar, (R,) [rad].
-        count: Number K of matches.
+        count: Number of matches for each picture and size.
     """
     points, norms = pictures.points, (atlas.codes**2).sum(axis=1)
     middle = points.mean(axis=0)
@@ -69,13 +69,9 @@ def matches(
             roots[:, :3, 3] = place - moved[:, :, 0]
             found = distances.ravel()[best]
             parts.append(Matches(np.full(len(best), index), exemplar, roots, found))
-    whole = Matches(
+    return Matches(
         *(
             np.concatenate([getattr(part, name) for part in parts])
             for name in ("sizes", "exemplars", "roots", "distances")
         )
-    )
-    kept = np.argsort(whole.distances)[:count]
-    return Matches(
-        whole.sizes[kept], whole.exemplars[kept], whole.roots[kept], whole.distances[kept]
     )

@@ -6,14 +6,14 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.ndimage import distance_transform_edt
 from scipy.spatial import KDTree
 
 from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import rotation_between
 from regkit.observation import Observation
-from regkit.search.exemplars.blocks import Blocks
+from regkit.search.exemplars.blocks import grid_around, nearest_shown
 from regkit.search.exemplars.images import points_image
+from regkit.search.exemplars.model import Grid
 from regkit.system.arrays import Array
 
 FAR = 30.0
@@ -35,12 +35,12 @@ class Picture:
 
     Attributes:
         T_camera_world: Pose of the camera, (4, 4).
-        blocks: The data as the camera sees them.
+        grid: The data as the camera sees them.
         rotation: R_view_world, whose z axis is the direction in which the data are seen, (3, 3).
     """
 
     T_camera_world: Array
-    blocks: Blocks
+    grid: Grid
     rotation: Array
 
 
@@ -70,8 +70,8 @@ class Pictures:
         middle = points.mean(axis=0)
         if camera is not None and depth is not None:
             towards = rotation_between(middle / np.linalg.norm(middle), np.array([0.0, 0.0, 1.0]))
-            blocks = Blocks.of(camera, depth, points)
-            return cls(points, (Picture(np.eye(4), blocks, towards),), one_sided=True)
+            grid = grid_around(camera, depth, points)
+            return cls(points, (Picture(np.eye(4), grid, towards),), one_sided=True)
         views = [np.roll(np.eye(3), turn, axis=0) for turn in range(3)]
         spread = 0.75 * _spacing(points)
         pictures = [_virtual(points - middle, middle, view, size, spread) for view in views]
@@ -89,14 +89,9 @@ def _virtual(around: Array, middle: Array, view: Array, size: float, spread: flo
     image = points_image(around @ view.T, max(spread, 0.5 * cell), 0.5 * WIDTH * size, CELLS, True)
     centre = 0.5 * (CELLS - 1)
     focal = distance / cell
-    missing = ~np.isfinite(image)
-    nearest = distance_transform_edt(missing, return_distances=False, return_indices=True)
-    blocks = Blocks(
-        image + distance,
-        np.array([focal, focal, centre, centre]),
-        np.asarray(nearest, dtype=float),
-    )
-    return Picture(rigid(view, np.array([0.0, 0.0, distance]) - view @ middle), blocks, view)
+    intrinsics = np.array([focal, focal, centre, centre])
+    grid = Grid(image + distance, nearest_shown(image + distance), intrinsics)
+    return Picture(rigid(view, np.array([0.0, 0.0, distance]) - view @ middle), grid, view)
 
 
 def _spacing(points: Array) -> float:
@@ -104,4 +99,5 @@ def _spacing(points: Array) -> float:
     some = points[:: max(1, len(points) // SAMPLE)]
     if len(points) < 2:
         return 0.0
-    return float(np.median(KDTree(points).query(some, k=2)[0][:, 1]))
+    distances = np.asarray(KDTree(points).query(some, k=2)[0])
+    return float(np.median(distances[:, 1]))

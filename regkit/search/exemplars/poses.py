@@ -51,9 +51,7 @@ def sampled_poses(body: Body, random: np.random.Generator, count: int) -> tuple[
     return balls, hinges
 
 
-def sampled_views(
-    random: np.random.Generator, count: int, elevation: tuple[float, float]
-) -> Array:
+def sampled_views(random: np.random.Generator, count: int, elevation: tuple[float, float]) -> Array:
     """Returns rotations R_view_body (count, 3, 3) of a camera without roll, in any heading.
 
     Args:

@@ -11,7 +11,8 @@ from math import hypot, sqrt
 
 import numpy as np
 
-from regkit.system.arrays import Array, Indices
+from regkit.search.exemplars.model import Grid, Hull, Spheres
+from regkit.system.arrays import Array
 from regkit.system.compiled import compiled
 
 HIDDEN = 0.5
@@ -67,9 +68,7 @@ def pull_to_data(
     gradients: Array,
     transforms: Array,
     points: Array,
-    segments: Indices,
-    ends: Array,
-    radii: Array,
+    hull: Hull,
     scale: float,
     one_sided: bool,
 ) -> None:
@@ -80,12 +79,11 @@ def pull_to_data(
         gradients: Their gradients, (S, 6).
         transforms: T_camera_segment, (S, 4, 4).
         points: The data in the camera's frame, (M, 3) [m].
-        segments: Segment of each capsule, (C,).
-        ends: Ends of the capsules in the segments' frames, (C, 2, 3) [m].
-        radii: Their radii, (C, 2) [m].
+        hull: The capsules.
         scale: Distance at which a point has a quarter of its weight [m].
         one_sided: Whether the data show only the side that faces the camera.
     """
+    segments, ends, radii = hull
     count = len(segments)
     starts, units = np.empty((count, 3)), np.empty((count, 3))
     lengths, tangents, widening = np.empty(count), np.empty(count), np.empty(count)
@@ -143,12 +141,8 @@ def pull_from_free_space(
     blocks: Array,
     gradients: Array,
     transforms: Array,
-    segments: Indices,
-    points: Array,
-    radii: Array,
-    image: Array,
-    nearest: Array,
-    intrinsics: Array,
+    spheres: Spheres,
+    grid: Grid,
     scale: float,
     weight: float,
 ) -> None:
@@ -160,15 +154,13 @@ def pull_from_free_space(
         blocks: Blocks of the segments, (S, 6, 6).
         gradients: Their gradients, (S, 6).
         transforms: T_camera_segment, (S, 4, 4).
-        segments: Segment of each sphere, (P,).
-        points: Centres in the segments' frames, (P, 3) [m].
-        radii: Their radii, (P,) [m].
-        image: Depth of each block, (H, W) [m]; inf where nothing is, -1 where it is unknown.
-        nearest: Row and column of the nearest block with depth, (2, H, W).
-        intrinsics: fx, fy, cx, cy in blocks, (4,).
+        spheres: The spheres.
+        grid: The data.
         scale: Distance at which a sphere has half its weight [m].
         weight: Weight of all spheres together.
     """
+    segments, points, radii = spheres
+    image, nearest, intrinsics = grid
     fx, fy, cx, cy = intrinsics
     rows, columns = image.shape
     direction, arm = np.empty(3), np.empty(3)

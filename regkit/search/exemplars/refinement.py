@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from regkit.search.exemplars.model import Bones, Grid, Hull, Spheres
 from regkit.search.exemplars.pulls import pull_from_free_space, pull_to_data
 from regkit.skeleton.compiled_placement import joint_twists, place_links, segment_jacobian
 from regkit.skeleton.compiled_steps import retracted_balls, retracted_root, within_limits
-from regkit.system.arrays import Array, Indices
+from regkit.system.arrays import Array
 from regkit.system.compiled import compiled
 
 DAMPING, FLOOR = 0.02, 1e-3
@@ -22,28 +23,11 @@ def refined(
     root: Array,
     balls: Array,
     hinges: Array,
-    offsets: Array,
-    parents: Indices,
-    ball_links: Indices,
-    hinge_links: Indices,
-    hinge_axes: Array,
-    dof_mask: Array,
-    segment_links: Indices,
-    hinge_limits: Array,
-    centre: Array,
-    twist_axis: Array,
-    cone: Array,
-    twist_limits: Array,
-    capsule_segments: Indices,
-    ends: Array,
-    radii: Array,
-    sphere_segments: Indices,
-    sphere_points: Array,
-    sphere_radii: Array,
+    bones: Bones,
+    hull: Hull,
+    spheres: Spheres,
     points: Array,
-    image: Array,
-    nearest: Array,
-    intrinsics: Array,
+    grid: Grid,
     scales: Array,
     springs: Array,
     free_space: float,
@@ -52,48 +36,58 @@ def refined(
     """Returns root (4, 4), balls (n_ball, 4) and hinges (n_hinge,) after the steps.
 
     Each step minimises the robust distances of the points to the capsules, how far the body is in
-    free space, and springs between the joints and those of the exemplar. The first arguments are
-    those of ``Skeleton`` and ``Limits``; the others those of ``pull_to_data`` and
-    ``pull_from_free_space``.
+    free space, and springs between the joints and those of the exemplar.
 
     Args:
+        root: T_camera_root of the exemplar, (4, 4).
+        balls: Its ball quaternions, (n_ball, 4).
+        hinges: Its hinge angles, (n_hinge,) [rad].
+        bones: Kinematics and limits of the body.
+        hull: Its capsules.
+        spheres: Spheres on the capsules' axes.
+        points: The data in the camera's frame, (M, 3) [m].
+        grid: The data as blocks.
         scales: Scale of the robust distances in each step, (K,) [m].
         springs: Stiffness of the springs in each step, in units of the squared scale, (K,).
         free_space: Weight of free space against the data.
+        one_sided: Whether the data show only the side that faces the camera.
     """
-    dofs, segments = dof_mask.shape
+    dofs, segments = bones.dof_mask.shape
     first, hinge = 6, 6 + 3 * len(balls)
     turned = np.zeros(dofs)
     for step in range(len(scales)):
         links = place_links(
-            offsets,
-            parents,
+            bones.offsets,
+            bones.parents,
             root,
-            ball_links,
+            bones.ball_links,
             balls.reshape(1, len(balls), 4),
-            hinge_links,
-            hinge_axes,
+            bones.hinge_links,
+            bones.hinge_axes,
             hinges.reshape(1, len(hinges)),
         )[0]
         transforms = np.empty((segments, 4, 4))
         arms = np.empty((segments, 3))
         for segment in range(segments):
-            transforms[segment] = links[segment_links[segment]]
+            transforms[segment] = links[bones.segment_links[segment]]
             arms[segment] = transforms[segment, :3, 3] - root[:3, 3]
         blocks, gradients = np.zeros((segments, 6, 6)), np.zeros((segments, 6))
-        pull_to_data(
-            blocks, gradients, transforms, points, capsule_segments, ends, radii, scales[step],
-            one_sided,
-        )  # fmt: skip
+        pull_to_data(blocks, gradients, transforms, points, hull, scales[step], one_sided)
         if free_space > 0.0:
             pull_from_free_space(
-                blocks, gradients, transforms, sphere_segments, sphere_points, sphere_radii, image,
-                nearest, intrinsics, scales[step], free_space,
-            )  # fmt: skip
+                blocks, gradients, transforms, spheres, grid, scales[step], free_space
+            )
         twists = joint_twists(
-            links, root[:3, 3].copy(), first, ball_links, hinge_links, hinge_axes, dofs, root
+            links,
+            root[:3, 3].copy(),
+            first,
+            bones.ball_links,
+            bones.hinge_links,
+            bones.hinge_axes,
+            dofs,
+            root,
         )
-        jacobian = segment_jacobian(twists, dof_mask, arms)
+        jacobian = segment_jacobian(twists, bones.dof_mask, arms)
         matrix, gradient = np.zeros((dofs, dofs)), np.zeros(dofs)
         for segment in range(segments):
             matrix += jacobian[segment].T @ (blocks[segment] @ jacobian[segment])
@@ -104,19 +98,23 @@ def refined(
                 matrix[dof, dof] += springs[step] * scales[step] ** 2
                 gradient[dof] += springs[step] * scales[step] ** 2 * turned[dof]
             matrix[dof, dof] += DAMPING * matrix[dof, dof] + floor
-        change = -np.linalg.solve(matrix, gradient)
+        change = np.zeros(dofs)
+        change -= np.linalg.solve(matrix, gradient)
         for dof in range(dofs):
             most = FARTHEST if dof < 3 else WIDEST
             change[dof] = min(max(change[dof], -most), most)
         turned[first:] += change[first:]
         root = retracted_root(root, change)
-        turns = np.ascontiguousarray(change[first:hinge]).reshape(len(balls), 3)
+        turns = change[first:hinge].copy().reshape(len(balls), 3)
         balls, _ = within_limits(
-            retracted_balls(balls, turns), centre, twist_axis, cone, twist_limits
+            retracted_balls(balls, turns),
+            bones.centre,
+            bones.twist_axis,
+            bones.cone,
+            bones.twist_limits,
         )
         hinges = hinges + change[hinge:]
         for index in range(len(hinges)):
-            hinges[index] = min(
-                max(hinges[index], hinge_limits[index, 0]), hinge_limits[index, 1]
-            )
+            low, high = bones.hinge_limits[index]
+            hinges[index] = min(max(hinges[index], low), high)
     return root, balls, hinges

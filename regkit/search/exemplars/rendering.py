@@ -6,6 +6,7 @@ from math import ceil, floor, sqrt
 
 import numpy as np
 
+from regkit.search.exemplars.model import Grid, Spheres
 from regkit.system.arrays import Array, Indices
 from regkit.system.compiled import compiled
 
@@ -20,11 +21,8 @@ NEAREST = 0.05
 def disagreements(
     links: Array,
     segment_links: Indices,
-    segments: Indices,
-    points: Array,
-    radii: Array,
-    blocks: Array,
-    intrinsics: Array,
+    spheres: Spheres,
+    grid: Grid,
     tolerance: float,
 ) -> Array:
     """Returns the disagreement (N,) of posed bodies with a block image, from 0 to 1.
@@ -35,13 +33,12 @@ def disagreements(
     Args:
         links: T_camera_link of each body, (N, L, 4, 4).
         segment_links: Link of each segment, (S,).
-        segments: Segment of each sphere on the body's axes, (P,).
-        points: Centres of the spheres in the segments' frames, (P, 3) [m].
-        radii: Radii of the spheres, (P,) [m].
-        blocks: Depth of each block, (H, W) [m]; inf where nothing is, -1 where it is unknown.
-        intrinsics: fx, fy, cx, cy in blocks, (4,).
+        spheres: Spheres on the body's axes.
+        grid: The data.
         tolerance: Depth difference that counts as none agreeing [m].
     """
+    segments, points, radii = spheres
+    blocks, _, intrinsics = grid
     fx, fy, cx, cy = intrinsics
     rows, columns = blocks.shape
     means = np.empty(len(links))
@@ -59,9 +56,9 @@ def disagreements(
                 behind = True
                 break
             u, v, width = fx * x / z + cx, fy * y / z + cy, max(fx * radii[sphere] / z, 0.5)
-            for row in range(max(0, int(ceil(v - width))), min(rows - 1, int(floor(v + width))) + 1):
+            for row in range(max(0, ceil(v - width)), min(rows - 1, floor(v + width)) + 1):
                 for column in range(
-                    max(0, int(ceil(u - width))), min(columns - 1, int(floor(u + width))) + 1
+                    max(0, ceil(u - width)), min(columns - 1, floor(u + width)) + 1
                 ):
                     square = ((row - v) ** 2 + (column - u) ** 2) / (width * width)
                     if square <= 1.0:

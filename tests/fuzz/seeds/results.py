@@ -33,7 +33,7 @@ name: seed
 dataset: {{kind: depth, root: {ROOT}/docs/examples/data/human_walk, frames: 2}}
 template: {{kind: human, height: 1.7}}
 preprocessor: {{kind: points, voxel: 0.08, sigma: 0.05}}
-start: {{root: {{position: [-0.05, -0.05, 3.25], rotation_deg: [180, 0, 0]}}}}
+start: {{kind: given, root: {{position: [-0.05, -0.05, 3.25], rotation_deg: [180, 0, 0]}}}}
 methods:
   icp: {{preset: icp}}
 """

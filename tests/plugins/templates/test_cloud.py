@@ -8,9 +8,9 @@ from regkit.clouds import write_cloud
 from regkit.geometry.rigid import rigid, transformed
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.observation import Observation
-from regkit.start import found_start
 from regkit.system.errors import DataError
 from regkit_plugins.methods.coarse_to_fine.resolutions import voxel_downsampled_surface
+from regkit_plugins.starts.exemplars import Exemplars
 from regkit_plugins.templates.cloud import CloudTemplate
 from regkit_synthesis.samples.mannequin import main
 
@@ -52,7 +52,7 @@ def test_start_is_found_in_any_orientation(template, lump, turn):
     middle = rigid(np.eye(3), lump.mean(axis=0))
     seen = transformed(truth, lump)
     seen = seen[seen[:, 2] < seen[:, 2].mean() + 0.02]
-    start = found_start(template, Observation(seen, np.ones(len(seen)), np.ones(len(seen))))
+    start = Exemplars().find(template, [Observation(seen, np.ones(len(seen)), np.ones(len(seen)))])
     off = np.linalg.norm(
         start.body.surface.place(start.body.place(start.pose).transforms)
         - transformed(truth @ middle, lump - lump.mean(axis=0)),

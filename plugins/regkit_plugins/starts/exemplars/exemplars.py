@@ -8,15 +8,19 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import AfterValidator, Field
 
-from regkit.body import Body
 from regkit.config.plugin import slot_default
 from regkit.interfaces import Method, Start, StartSearch, Template
 from regkit.observation import Observation
-from regkit.search.exemplars import Atlas, AtlasSettings, Finder, Pictures, atlas_of
-from regkit.start import Candidate, Scan, rigid_start
-from regkit.start.sizes import fit, resized
+from regkit.search.exemplars import AtlasSettings, atlas_of
+from regkit.skeleton.joints import in_order
+from regkit.start import rigid_start
+from regkit.system.arrays import Array
 from regkit.system.optional import one_blas_thread
-from regkit_plugins.starts.exemplars.finalists import Comparison, Finalist
+from regkit_plugins.starts.exemplars.finalists import Comparison
+from regkit_plugins.starts.exemplars.search import Search
+
+Elevation = Annotated[float, Field(ge=-90.0, le=90.0)]
+Roll = Annotated[float, Field(ge=-180.0, le=180.0)]
 
 ROLLS = 24
 """Number of rolls in a full turn."""
@@ -34,9 +38,9 @@ class Exemplars(StartSearch):
 
     exemplars: Annotated[int, Field(ge=100, le=1_000_000)] = 30_000
     """Number of exemplars; 30,000 of a person take some seconds to make, once, and 13 MB."""
-    elevation_deg: tuple[float, float] = (-90.0, 90.0)
+    elevation_deg: Annotated[tuple[Elevation, Elevation], AfterValidator(in_order)] = (-90.0, 90.0)
     """Least and greatest angle of the camera above the body's horizon [deg]."""
-    roll_deg: tuple[float, float] = (-180.0, 180.0)
+    roll_deg: Annotated[tuple[Roll, Roll], AfterValidator(in_order)] = (-180.0, 180.0)
     """Least and greatest roll of the body in the picture [deg]."""
     looked_up: Annotated[int, Field(ge=1, le=100_000)] = 600
     """Number of similar exemplars that are rendered."""
@@ -57,28 +61,32 @@ class Exemplars(StartSearch):
         if rigid is not None:
             return rigid
         with one_blas_thread():
-            best, _ = _Search(self, template).best(observations[0])
-        return Start(best.body, best.pose)
+            search = self._search(template)
+            sizes = template.candidate_sizes()
+            if len(sizes) > 1:
+                finalists = search.unsized(observations)
+            else:
+                finalists = search.sized(template.body(sizes[0]), observations[0])
+        return Start(finalists[0].body, finalists[0].pose)
 
+    def _search(self, template: Template) -> Search:
+        sizes = template.candidate_sizes()
+        usual = template.body(sizes[len(sizes) // 2])
+        low, high = np.radians(self.elevation_deg)
+        return Search(
+            template=template,
+            atlas=atlas_of(usual, AtlasSettings(self.exemplars, (float(low), float(high)))),
+            comparison=Comparison(self.method, usual.size),
+            rolls=self._rolls(),
+            looked_up=self.looked_up,
+            refined=self.refined,
+            finalists=self.finalists,
+        )
 
-class _Search:
-    def __init__(self, exemplars: Exemplars, template: Template) -> None:
-        self.exemplars, self.template = exemplars, template
-        self.sizes = template.candidate_sizes()
-        usual = self.sizes[len(self.sizes) // 2]
-        self.bodies = [template.body(size) for size in self.sizes]
-        low, high = np.radians(exemplars.elevation_deg)
-        settings = AtlasSettings(exemplars.exemplars, (float(low), float(high)))
-        self.atlas = atlas_of(self.bodies[len(self.bodies) // 2], settings)
-        self.comparison = Comparison(exemplars.method, usual)
-
-    def best(self, observation: Observation) -> tuple[Finalist, list[Finalist]]:
-        rolls = np.arange(ROLLS) * 2 * np.pi / ROLLS
-        finder = Finder(self.bodies, self.atlas, rolls, self.exemplars.looked_up, self.exemplars.refined)
-        pictures = Pictures.of(observation, self.bodies[len(self.bodies) // 2].size)
-        scan = Scan(observation.points)
-        finalists = [
-            self.comparison.finalist(one.body, one.pose, observation, scan)
-            for one in finder.candidates(pictures)[: self.exemplars.finalists]
-        ]
-        return min(finalists, key=lambda one: one.cost), finalists
+    def _rolls(self) -> Array:
+        """Returns evenly spaced rolls (R,) [rad] of the allowed range."""
+        low, high = np.radians(self.roll_deg)
+        count = max(1, round(ROLLS * (high - low) / (2.0 * np.pi)))
+        if high - low > 2.0 * np.pi - 1e-6:
+            return np.linspace(low, high, count, endpoint=False)
+        return np.linspace(low, high, count + 1)

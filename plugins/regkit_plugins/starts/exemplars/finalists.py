@@ -23,12 +23,19 @@ class Finalist:
     Attributes:
         body: The body at a size.
         pose: Its pose.
-        cost: Energy plus two-sided misfit, dimensionless; lower is better.
+        energy: Its energy, in the method's own units.
+        misfit: Its two-sided misfit, dimensionless.
     """
 
     body: Body
     pose: Pose
-    cost: float
+    energy: float
+    misfit: float
+
+    @property
+    def cost(self) -> float:
+        """Energy plus misfit; lower is better."""
+        return self.energy + self.misfit
 
 
 @dataclass(frozen=True)
@@ -58,7 +65,8 @@ class Comparison:
         found = registrar.register(observation, [pose])
         found = limbs.recovered(observation, found)
         energy = registrar.evaluate(observation, found.pose).energy
-        return Finalist(body, found.pose, energy + misfit(scan, body, found.pose, self.usual))
+        gap = misfit(scan, body, found.pose, self.usual)
+        return Finalist(body, found.pose, energy, gap)
 
     def _bound(self, body: Body) -> tuple[Registrar, LimbRecovery]:
         if body.size not in self.bound:

@@ -30,9 +30,9 @@ FINALISTS = 3
 class Stances(StartSearch):
     """Fits every likely stance of the template, upright and facing a level camera.
 
-    The stances are placed at the cloud's centre in several rotations. The best guesses are fitted to
-    the cloud, the best fits are refined in every candidate size, annealed from far to near, and the
-    best of these in sizes between the candidates.
+    The stances are placed at the cloud's centre in several rotations. The best guesses are fitted
+    to the cloud, the best fits are refined in every candidate size, annealed from far to near, and
+    the best of these in sizes between the candidates.
     """
 
     kind: Literal["stances"] = "stances"

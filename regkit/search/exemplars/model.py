@@ -1,0 +1,97 @@
+"""A body as compiled loops see it: named tuples of arrays."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from regkit.body import Body
+from regkit.geometry.capsules import AxisPoints
+from regkit.system.arrays import Array, Indices
+
+
+class Bones(NamedTuple):
+    """Kinematics and limits; see ``Skeleton`` and ``Limits``."""
+
+    offsets: Array
+    parents: Indices
+    ball_links: Indices
+    hinge_links: Indices
+    hinge_axes: Array
+    dof_mask: Array
+    segment_links: Indices
+    hinge_limits: Array
+    centre: Array
+    twist_axis: Array
+    cone: Array
+    twist_limits: Array
+
+    @classmethod
+    def of(cls, body: Body) -> Bones:
+        """Returns the kinematics of a body."""
+        bones, limits = body.skeleton, body.skeleton.limits
+        return cls(
+            bones.link_offsets,
+            bones.link_parents,
+            bones.ball_links,
+            bones.hinge_links,
+            bones.hinge_axes,
+            bones.dof_mask,
+            bones.segment_links,
+            limits.hinge,
+            limits.centre,
+            limits.twist_axis,
+            limits.cone,
+            limits.twist,
+        )
+
+
+class Hull(NamedTuple):
+    """The surface as capsules.
+
+    Attributes:
+        segments: Segment of each capsule, (C,).
+        ends: Their ends in the segments' frames, (C, 2, 3) [m].
+        radii: Their radii, (C, 2) [m].
+    """
+
+    segments: Indices
+    ends: Array
+    radii: Array
+
+    @classmethod
+    def of(cls, body: Body) -> Hull:
+        """Returns the surface of a body."""
+        return cls(body.capsules.segments, body.capsules.ends, body.capsules.radii)
+
+
+class Spheres(NamedTuple):
+    """The body as spheres on the axes of its capsules.
+
+    Attributes:
+        segments: Segment of each sphere, (P,).
+        points: Centres in the segments' frames, (P, 3) [m].
+        radii: Their radii, (P,) [m].
+    """
+
+    segments: Indices
+    points: Array
+    radii: Array
+
+    @classmethod
+    def of(cls, axes: AxisPoints) -> Spheres:
+        """Returns spheres on the axes."""
+        return cls(axes.segments, axes.points, axes.radii)
+
+
+class Grid(NamedTuple):
+    """A depth image in blocks, as a pinhole camera sees them.
+
+    Attributes:
+        depth: Depth of each block, (H, W) [m]; inf where nothing is, -1 where it is unknown.
+        nearest: Row and column of the nearest block with depth, (2, H, W).
+        intrinsics: fx, fy, cx, cy in blocks, (4,).
+    """
+
+    depth: Array
+    nearest: Array
+    intrinsics: Array
