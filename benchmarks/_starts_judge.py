@@ -11,6 +11,7 @@ from functools import lru_cache
 import numpy as np
 from _starts_case import Case
 from _starts_shots import Shots
+from _starts_truth import true_start
 
 from regkit.body import Body
 from regkit.interfaces import BoundTracker, Method, Past, Start, StartSearch, Template
@@ -25,8 +26,20 @@ METHOD = {"preset": "best"}
 """The method that is registered from a start, with its tracker's recovery of limbs."""
 
 
-def found(kind: str, template: Template, observations: Sequence[Observation]) -> Start:
-    """Returns the start that a search finds in the first observation."""
+def found(
+    kind: str, template: Template, observations: Sequence[Observation], shots: Shots | None = None
+) -> Start:
+    """Returns the start in the first observation.
+
+    Args:
+        kind: Name of a search, or ``truth`` for the best start that there is.
+        template: The template.
+        observations: What the search is given.
+        shots: The frames with their truth; only ``truth`` looks at it.
+    """
+    if kind == "truth":
+        assert shots is not None
+        return true_start(template, shots)
     search = StartSearch.parse(kind, place="benchmark", field="start")
     return search.find(template, observations)
 
@@ -85,14 +98,16 @@ def judged(kind: str, case: Case, *, sized: bool = True) -> Outcome:
         case: The case.
         sized: Whether the template has the right size; otherwise the size is found from all frames.
     """
+    sized = sized or kind == "truth"
     template = case.subject.sized() if sized else case.subject.unsized()
     observations = case.observations()[: 1 if sized else None]
     shots, joints = case.shots(), case.judged_joints()
     with one_thread():
-        _prepare(kind, template, observations)
+        if kind != "truth":
+            _prepare(kind, template, observations)
         begun = time.process_time()
         try:
-            start = found(kind, template, observations)
+            start = found(kind, template, observations, shots)
         except RegkitError as error:
             spent, missed = time.process_time() - begun, np.full(len(joints), np.inf)
             return Outcome(case.name, missed, np.inf, "refused", str(error), np.nan, spent)

@@ -115,7 +115,7 @@ def tracked(kind: str, case: TrackCase) -> Recovered:
     """Returns what becomes of a track from the start that a search finds in its first frame."""
     observations, shots = case.observations(), case.shots()
     with one_thread():
-        start = found(kind, case.subject.sized(), observations[:1])
+        start = found(kind, case.subject.sized(), observations[:1], shots)
         follower, past, errors = bound(start.body), Past.start(start.pose), []
         for frame, observation in enumerate(observations):
             result = follower.step(observation, past)

@@ -1,13 +1,11 @@
 """Real hands before an SR305: fingertips against those seen in the images, and pictures.
 
-Nobody measured the joints of these hands. In the second sequence, a right hand that shows its palm,
-the five fingertips were marked by eye, to about a centimetre where a finger is bent to the camera.
+Nobody measured the joints of these hands; in the second sequence fingertips were marked by eye.
 """
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -16,6 +14,7 @@ import numpy as np
 from _starts_judge import bound, found
 from _starts_options import Options
 from _starts_picture import drawn, write_sheet
+from _starts_tips import FINGERS, TIPS
 from numpy.typing import NDArray
 from PIL import Image
 
@@ -36,23 +35,6 @@ SEQUENCES = {"20210326-230536": 640, "20210326-231615": 410}
 
 MARKED = "20210326-231615"
 """The sequence with marked fingertips."""
-
-FINGERS = ("thumb", "index", "middle", "ring", "little")
-
-TIPS: Mapping[int, tuple[tuple[int, int], ...]] = {
-    0: ((300, 298), (294, 225), (258, 217), (240, 226), (224, 256)),
-    20: ((377, 285), (355, 250), (329, 232), (305, 229), (288, 255)),
-    40: ((353, 297), (339, 256), (307, 238), (284, 233), (264, 257)),
-    60: ((362, 291), (349, 246), (304, 211), (288, 220), (276, 245)),
-    80: ((358, 283), (350, 213), (316, 252), (294, 236), (272, 243)),
-    100: ((353, 283), (352, 211), (321, 249), (298, 237), (283, 262)),
-    140: ((324, 295), (340, 213), (302, 206), (287, 221), (273, 257)),
-    160: ((393, 272), (341, 213), (299, 210), (293, 246), (293, 287)),
-    180: ((398, 268), (358, 229), (332, 212), (310, 207), (284, 234)),
-    200: ((395, 252), (346, 200), (311, 196), (299, 214), (302, 265)),
-    220: ((383, 279), (378, 213), (342, 204), (332, 228), (330, 281)),
-}
-"""Column and row of each fingertip, from the thumb to the little finger, by image."""
 
 RIGHT, WORST = 0.02, 0.04
 """A hand is right if its tips are within the first distance on average, none beyond the second,

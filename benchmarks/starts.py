@@ -27,24 +27,31 @@ from _starts_options import Options
 
 from regkit.system.notes import RegkitWarning
 
-SCENARIOS = ("people", "hands", "cropped", "scans", "recovery", "utd", "sr305", "rooms", "empty")
+SYNTHETIC = ("people", "hands", "cropped", "scans", "recovery")
+"""Scenarios whose starts are compared with the truth."""
+
+SCENARIOS = (*SYNTHETIC, "rooms", "empty", "utd", "sr305", "scene")
 
 
 def options() -> tuple[Options, list[str]]:
     """Returns the options of the command line, and the names of the scenarios."""
     parser = ArgumentParser(description=__doc__.splitlines()[0], formatter_class=_Format)
-    parser.add_argument("--only", default=",".join(SCENARIOS), help="scenarios to run")
+    parser.add_argument("--only", help=f"scenarios to run, of {','.join(SCENARIOS)}")
     parser.add_argument("--some", type=int, default=360, help="most cases of a scenario, at random")
     parser.add_argument("--seed", type=int, default=0, help="seed of this choice")
     parser.add_argument("--set", choices=get_args(Set), default="test", help="bodies and motions")
-    parser.add_argument("--start", default="exemplars", help="the search: exemplars or stances")
+    parser.add_argument(
+        "--start", default="exemplars", help="the search: exemplars or stances; or truth"
+    )
     parser.add_argument("--jobs", type=int, default=1, help="processes")
     parser.add_argument("--each", action="store_true", help="print every case")
     given = parser.parse_args()
-    names = given.only.split(",")
+    known = SYNTHETIC if given.start == "truth" else SCENARIOS
+    names = given.only.split(",") if given.only else list(known)
     for name in names:
-        if name not in SCENARIOS:
-            parser.error(f"there is no scenario '{name}' (there are: {', '.join(SCENARIOS)})")
+        if name not in known:
+            told = f"with --start {given.start} there are: {', '.join(known)}"
+            parser.error(f"there is no scenario '{name}' ({told})")
     return Options(given.start, given.set, given.some, given.seed, given.jobs, given.each), names
 
 
