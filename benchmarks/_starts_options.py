@@ -11,7 +11,9 @@ from _starts_bodies import Set
 from rich.console import Console
 from rich.progress import track
 
-Item, Result = TypeVar("Item"), TypeVar("Result")
+Item = TypeVar("Item")
+
+Result = TypeVar("Result")
 
 
 @dataclass(frozen=True)

@@ -71,7 +71,7 @@ class ScanCase(Case):
         if not self.orientation:
             return _UPRIGHT
         seed = {"development": 0, "test": 1}[self.chosen]
-        return random_rotations(ORIENTATIONS, seed)[self.orientation] @ _UPRIGHT
+        return np.asarray(random_rotations(ORIENTATIONS, seed)[self.orientation] @ _UPRIGHT)
 
 
 def _surface_points(vertices: Array, faces: Indices, random: np.random.Generator) -> Array:

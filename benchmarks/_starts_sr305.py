@@ -6,13 +6,14 @@ Nobody measured the joints of these hands; in the second sequence fingertips wer
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
 import numpy as np
 from _starts_judge import bound, found
-from _starts_options import Options
+from _starts_options import Item, Options
 from _starts_picture import drawn, write_sheet
 from _starts_tips import FINGERS, TIPS
 from numpy.typing import NDArray
@@ -112,7 +113,7 @@ def _template() -> Template:
     return Template.parse("hand", place="benchmark", field="template")
 
 
-def started(kind: str, files: tuple[Path, Path, Path]) -> Hand:
+def started(kind: str, files: tuple[Path, ...]) -> Hand:
     """Returns the fresh start in the first image; two more may show the size."""
     observations = [_observation(file) for file in files]
     with one_thread():
@@ -134,7 +135,7 @@ def tracked(kind: str, files: list[Path]) -> list[Hand]:
     return hands
 
 
-def _three(items: list, index: int) -> tuple:
+def _three(items: Sequence[Item], index: int) -> tuple[Item, ...]:
     """Returns an item with the two that are a third and two thirds of the list after it."""
     third = len(items) // 3
     return tuple(items[(index + step * third) % len(items)] for step in range(3))
