@@ -18,13 +18,13 @@ SIZE = 1.2
 class StartLaws(Laws):
     """Laws of starts."""
 
-    @pytest.fixture(scope="class")
+    @pytest.fixture
     def linkage_template(self) -> Template:
         """Returns the template of the linkage, with its size."""
         data = Template.default("file", path=str(LINKAGE), size=SIZE)
         return Template.parse(data, place="the laws", field="template")
 
-    @pytest.fixture(scope="class")
+    @pytest.fixture
     def seen(self, linkage_template: Template) -> Observation:
         """Returns data of the linkage."""
         body = linkage_template.body(SIZE)

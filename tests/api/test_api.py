@@ -339,13 +339,9 @@ def test_template_file_and_cloud_are_templates(tmp_path):
 
 
 def test_file_is_registered_as_its_frame(human, tmp_path):
-    start = {
-        "kind": "given",
-        "root": {"position": [-0.05, -0.05, 3.25], "rotation_deg": [180, 0, 0]},
-    }
     file = DATA / "human_walk" / "depth" / "000000.png"
     found = [
-        regkit.register(one, human, start=start).markers
+        regkit.register(one, human, start=START).markers
         for one in (file, str(file), regkit.load_frame(file))
     ]
     np.testing.assert_array_equal(found[0], found[1])

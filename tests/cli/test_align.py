@@ -181,7 +181,7 @@ def test_rigid_method_on_a_jointed_body_is_told(regkit, tmp_path):
     ended = regkit(
         "run", example, "--out", tmp_path / "out", "--no-figures", "--set", "dataset.frames=1",
         "--set", "methods={icp: open3d_icp}", "--set", "template={kind: human, height: 1.7}",
-        "--set", "start={kind: given, root: {position: [-0.05, -0.05, 3.25], rotation_deg: [180, 0, 0]}}",
+        "--set", "start={kind: given, root: {position: [0, 0, 3.25], rotation_deg: [180, 0, 0]}}",
     )  # fmt: skip
     assert ended.code == 1
     assert "method 'open3d_icp' is rigid, but the template 'human' has 15 segm" in ended.err

@@ -15,7 +15,9 @@ from regkit_synthesis.recordings.take import Take
 from regkit_synthesis.rooms import ROOMS, Box, Chair, Person, Region, Table
 
 SENSOR = Sensor(Camera(width=88, height=72, fx=115.0, fy=115.0, cx=43.5, cy=35.5), 0.0, 1000.0)
-WALK = {"motion": "walk", "frames": 2, "view": {"elevation_deg": 15, "heading_deg": 20}}
+HOVERING = {"kind": "clip", "name": "walk", "grounded": False}
+"""Off the ground, which spares the search for the soles over the whole motion."""
+WALK = {"motion": HOVERING, "frames": 2, "view": {"elevation_deg": 15, "heading_deg": 20}}
 REGION = Region(np.array([-0.4, -0.3, 0.1]), np.array([0.6, 0.5, 1.8]))
 TIMES = np.array([0.0, 0.5])
 
@@ -126,7 +128,7 @@ def test_box_is_closed_and_seen_from_outside():
 
 
 def test_second_person_stays_beside_the_region_of_the_first():
-    person = Person(motion="walk", side="left", distance=0.1, heading_deg=90.0)
+    person = Person(motion=HOVERING, side="left", distance=0.1, heading_deg=90.0)
     surface = person.surface(REGION, TIMES)
     own = Region.around(surface.vertices(time) for time in TIMES)
     assert own.upper[0] == pytest.approx(REGION.lower[0] - 0.1)
@@ -136,8 +138,7 @@ def test_second_person_stays_beside_the_region_of_the_first():
 
 def test_digest_changes_with_what_the_room_shows():
     box = {"kind": "box", "size": (0.5, 0.5, 0.5)}
-    rooms = ["none", {"box": box}, {"other": box}, {"box": {**box, "velocity": (0.1, 0.0)}}]
+    rooms = [{"box": box}, {"other": box}, {"box": {**box, "velocity": (0.1, 0.0)}}]
     scenes = [Take.model_validate({**WALK, "room": r}).scene("walk", SENSOR, 2.0, 2) for r in rooms]
-    scenes += [scene("floor"), scene("walls", empty=True), scene("walls")]
+    scenes += [scene(), scene("floor"), scene("walls", empty=True), scene("walls")]
     assert len({digest(one, 0) for one in scenes}) == len(scenes)
-    assert digest(scene("floor"), 0) == digest(in_room("floor"), 0)

@@ -19,7 +19,8 @@ POINTS = np.random.default_rng(0).normal(size=(300, 3)) * [0.2, 0.3, 0.9] + [0.4
 
 
 def walk(**view):
-    take = Take.model_validate({"motion": "walk", "frames": 1, "view": view})
+    motion = {"kind": "clip", "name": "walk", "grounded": False}
+    take = Take.model_validate({"motion": motion, "frames": 1, "view": view})
     return take.scene("walk", Sensor(SQUARE, 0.0, 1000.0), 30.0, 1)
 
 

@@ -28,7 +28,7 @@ from regkit_synthesis.recordings.digest import digest
 from regkit_synthesis.recordings.recording import DepthRecording
 from regkit_synthesis.recordings.scene import Scene, Sensor
 from regkit_synthesis.recordings.take import Take
-from regkit_synthesis.rooms import RoomChoice, room_of
+from regkit_synthesis.rooms import RoomChoice
 
 Name = Annotated[str, Field(pattern=r"^\w[\w. -]*$")]
 
@@ -84,7 +84,7 @@ class Synthetic(Dataset):
             if isinstance(take.body, ShippedHand) != isinstance(take.motion, GesturesConfig):
                 message = "gestures are motions of a hand only"
                 raise misplaced(type(self), message, "takes", name)
-            if take.empty and not room_of(self.room if take.room is None else take.room):
+            if take.empty and not take.parts(self.room):
                 message = "it is empty and has no room either; give it a room"
                 raise misplaced(type(self), message, "takes", name)
         return self
@@ -164,7 +164,7 @@ class SyntheticRecording(Recording):
 
     def label_names(self) -> tuple[str, ...]:
         """Returns the names of the labels: nothing, the body, and the parts of the room."""
-        return ("nothing", "body", *self._scene().room)
+        return ("nothing", "body", *self.take.parts(self.dataset.room))
 
     def folder(self) -> Path:
         """Returns the depth folder in the cache, rendered on first use."""
@@ -201,11 +201,10 @@ class SyntheticRecording(Recording):
                 "floor)"
             )
         recording = scene.rendered(self.take.random(self.name, self.dataset.seed))
-        empty = np.flatnonzero(~recording.depth.any(axis=(1, 2)))
-        if len(empty):
-            what = "room" if scene.empty else "body"
+        blank = np.flatnonzero(~recording.depth.any(axis=(1, 2)))
+        if len(blank) and not scene.empty:
             raise DataError(
-                f"the image of frame {empty[0]} does not show the {what}; change view.distance, or "
+                f"the image of frame {blank[0]} does not show the body; change view.distance, or "
                 "leave it out",
             )
         return recording

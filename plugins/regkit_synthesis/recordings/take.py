@@ -62,6 +62,14 @@ class Take(Model):
             return body if isinstance(body, str) else body.name
         return self.subject
 
+    def parts(self, room: RoomName | Mapping[str, Part]) -> Mapping[str, Part]:
+        """Returns the parts of its room, by name.
+
+        Args:
+            room: The room of a take that names none.
+        """
+        return room_of(room if self.room is None else self.room)
+
     def random(self, name: str, seed: int) -> Callable[[int], np.random.Generator]:
         """Returns the random generator of each frame's noise, for the recording ``name``.
 
@@ -105,7 +113,6 @@ class Take(Model):
             return np.concatenate([skin.posed(moved(frame / fps)) for frame in range(self.frames)])
 
         T_camera_ground = self.view.placed(sensor.camera, surface)
-        parts = room_of(room if self.room is None else self.room)
         return Scene(
             name=name,
             source=f"Rendered by regkit: {_told(body_config)}, moved by {_told(motion_config)}",
@@ -117,7 +124,7 @@ class Take(Model):
             frames=frames,
             fps=fps,
             markers=self.markers,
-            room=self._surroundings(parts, body.mesh, moved, fps, T_camera_ground),
+            room=self._surroundings(self.parts(room), body.mesh, moved, fps, T_camera_ground),
             empty=self.empty,
         )
 

@@ -286,7 +286,10 @@ ROOMS = """\
 kind: synthetic
 camera: {width: 44, height: 36, fx: 58}
 room: floor
-defaults: {motion: walk, frames: 1, room: {cat: {kind: box, size: [0.5, 0.2, 0.3]}}}
+defaults:
+  motion: {kind: clip, name: walk, grounded: false}
+  frames: 1
+  room: {cat: {kind: box, size: [0.5, 0.2, 0.3]}}
 takes:
   plain: {room: none}
   named: {room: desk}
