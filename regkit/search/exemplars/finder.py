@@ -10,7 +10,7 @@ import numpy as np
 
 from regkit.body import Body
 from regkit.search.exemplars.atlas import SPACING, Atlas
-from regkit.search.exemplars.lookup import Matches, matches
+from regkit.search.exemplars.lookup import Matches, cut_matches, matches
 from regkit.search.exemplars.model import Bones, Hull, Spheres
 from regkit.search.exemplars.pictures import Pictures
 from regkit.search.exemplars.refinement import refined
@@ -26,6 +26,9 @@ SAME = 0.06
 
 POINTS = 220
 """Number of points that refine a pose."""
+
+CUT = 2
+"""Factor of the number of exemplars that are looked up at each border that cuts the data off."""
 
 SCALES = np.array([0.08] * 3 + [0.05] * 3 + [0.03] * 4)
 """Scale of the robust distances in each step of the refinement [size]."""
@@ -59,6 +62,7 @@ class Finder:
         rolls: Rolls of the body against its exemplars that are tried, (R,) [rad].
         looked_up: Number of exemplars that are rendered.
         kept: Number of these that are refined.
+        cut_atlas: The atlas of bodies that a picture shows in part; None if none is sought.
     """
 
     bodies: Sequence[Body]
@@ -66,12 +70,16 @@ class Finder:
     rolls: Array
     looked_up: int
     kept: int
+    cut_atlas: Atlas | None = None
 
     def candidates(self, pictures: Pictures) -> list[Exemplar]:
         """Returns the refined poses, the one that agrees best with the data first."""
         sizes = [body.size for body in self.bodies]
         count = -(-self.looked_up // (len(sizes) * len(pictures.pictures)))
         found = matches(self.atlas, pictures, sizes, self.rolls, count)
+        if self.cut_atlas is not None and pictures.cut:
+            cut = cut_matches(self.cut_atlas, pictures, sizes, CUT * count)
+            found = Matches.joined([found, cut])
         scores = self._scores(found, pictures)
         candidates = [
             self.refined(self.bodies[found.sizes[index]], self._pose(found, index), pictures)
@@ -85,15 +93,11 @@ class Finder:
         return float(_rendered(body, links, self._spheres(body), pictures, SHARP)[0])
 
     def _pose(self, found: Matches, index: int) -> Pose:
-        exemplar = found.exemplars[index]
-        balls, hinges = self.atlas.balls[exemplar], self.atlas.hinges[exemplar]
-        return Pose(found.roots[index], balls.astype(float), hinges.astype(float))
+        return Pose(found.roots[index], found.balls[index], found.hinges[index])
 
     def _placed(self, found: Matches, some: Indices, body: Body) -> Array:
         """Returns T_world_link (K, L, 4, 4) of some matches of one size."""
-        chosen = found.exemplars[some]
-        balls, hinges = self.atlas.balls[chosen], self.atlas.hinges[chosen]
-        pose = Pose(np.eye(4), balls.astype(float), hinges.astype(float))
+        pose = Pose(np.eye(4), found.balls[some], found.hinges[some])
         return np.asarray(found.roots[some][:, None] @ Placement.of(body.skeleton, pose).links)
 
     def _scores(self, found: Matches, pictures: Pictures) -> Array:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -36,6 +36,7 @@ class Search:
     Attributes:
         template: The template.
         atlas: Its atlas.
+        cut_atlas: Function that returns the atlas of bodies that a picture shows in part.
         comparison: Registers the finalists.
         rolls: Rolls that are tried, (R,) [rad].
         looked_up: Number of similar exemplars that are rendered.
@@ -45,6 +46,7 @@ class Search:
 
     template: Template
     atlas: Atlas
+    cut_atlas: Callable[[], Atlas]
     comparison: Comparison
     rolls: Array
     looked_up: int
@@ -87,10 +89,17 @@ class Search:
             observation: The frame.
             each: Number of finalists of each size.
         """
-        pictures, scan = Pictures.of(observation, self._usual), Scan(observation.points)
+        pictures, scan = Pictures.of(observation, self._usual), Scan.of(observation)
         # A size between the candidates resembles fewer exemplars.
         more = 1 if len(bodies) == 1 else MORE
-        finder = Finder(bodies, self.atlas, self.rolls, more * self.looked_up, more * self.refined)
+        finder = Finder(
+            bodies,
+            self.atlas,
+            self.rolls,
+            more * self.looked_up,
+            more * self.refined,
+            self.cut_atlas() if pictures.cut else None,
+        )
         candidates = finder.candidates(pictures)
         chosen: list[Exemplar] = []
         for body in bodies:
@@ -115,7 +124,7 @@ class Search:
             observation: The frame.
             finalists: Finalists of all sizes, the best first.
         """
-        scan = Scan(observation.points)
+        scan = Scan.of(observation)
         bests = {one.body.size: one for one in reversed(finalists)}
         fits = [fit(scan, one.body, one.pose, self._usual) for one in bests.values()]
         best = resized(scan, self.template, min(fits, key=_misfit), self._sizes)
