@@ -60,8 +60,10 @@ class TrackRecorder:
     def add(self, frame: TrackedFrame) -> None:
         """Records the next frame."""
         body, found = self.registrar.body, frame.registered
-        points = None if frame.observation is None else frame.observation.points
-        fit = BodyFit.unknown() if points is None else BodyFit.of(body, found.pose, points)
+        points, fit = None, BodyFit.unknown()
+        if frame.observation is not None:
+            points = frame.observation.points
+            fit = BodyFit.of(body, found.pose, points, frame.observation.silhouette)
         values = {
             "root": found.pose.root,
             "balls": found.pose.balls,
@@ -70,6 +72,7 @@ class TrackRecorder:
             "surface_distances": fit.distance,
             "inlier_shares": fit.inlier_share,
             "coverages": fit.coverage,
+            "misfits": fit.misfit,
             "reliefs": fit.relief,
             "points": 0 if points is None else len(points),
             "energies": found.energy,

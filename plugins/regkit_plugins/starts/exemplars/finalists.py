@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+
+import numpy as np
 
 from regkit.body import Body
 from regkit.interfaces import Method, Registrar
@@ -11,10 +14,15 @@ from regkit.search.limb_recovery import LimbRecovery
 from regkit.skeleton import Pose
 from regkit.start import Scan
 from regkit.start.sizes import misfit
+from regkit.system.arrays import Array
 from regkit_plugins.starts.exemplars.prior import unlikely
 
 SAMPLES, TRIED, GAIN = 500, 2, 0.01
 """Configurations of each limb that are sampled and registered, and what one must gain."""
+
+
+OTHER = 0.12
+"""Poses whose markers differ more than this on average are other ones [size]: 20 cm of a person."""
 
 
 @dataclass(frozen=True)
@@ -77,3 +85,22 @@ class Comparison:
             registrar = self.method.bind(body)
             self.bound[body.size] = registrar, LimbRecovery.of(registrar, SAMPLES, TRIED, GAIN)
         return self.bound[body.size]
+
+
+def margin(finalists: Sequence[Finalist]) -> float:
+    """Returns the cost of the best other pose less that of the best one; NaN without another.
+
+    Args:
+        finalists: The finalists, the best first.
+    """
+    best, *rivals = finalists
+    places = _markers(best)
+    for rival in rivals:
+        apart = float(np.linalg.norm(_markers(rival) - places, axis=1).mean())
+        if apart > OTHER * best.body.size:
+            return rival.cost - best.cost
+    return float("nan")
+
+
+def _markers(finalist: Finalist) -> Array:
+    return finalist.body.markers.place(finalist.body.place(finalist.pose).transforms)
