@@ -30,6 +30,7 @@ class RegistrationResult:
         evaluations: Number of energy evaluations.
         message: Reason why the solver ended.
         multipliers: Multipliers of the limits, if the solver computes them.
+        searched: Whether the tracker sought the whole body anew in this frame.
     """
 
     pose: Pose
@@ -40,6 +41,7 @@ class RegistrationResult:
     evaluations: int
     message: str
     multipliers: Multipliers | None = None
+    searched: bool = False
 
     @classmethod
     def given(cls, pose: Pose) -> RegistrationResult:

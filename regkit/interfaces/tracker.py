@@ -13,6 +13,9 @@ from regkit.skeleton import Pose
 WINDOW = 1000
 """Number of stored inlier shares, enough to determine the usual share in a recording."""
 
+SEARCHES = 8
+"""Number of stored searches, enough to make them rare while they are in vain."""
+
 
 @dataclass(frozen=True)
 class Past:
@@ -23,12 +26,17 @@ class Past:
         before: Result of the frame before the last, if there is one.
         frames: Number of registered frames.
         inlier_shares: Inlier shares of up to ``WINDOW`` last frames, the latest last.
+        gap: Number of frames without data since the last frame.
+        searches: Number of frames, also without data, since each of up to ``SEARCHES`` last
+            searches for the whole body, the latest last; 1 for the last frame.
     """
 
     last: RegistrationResult
     before: RegistrationResult | None = None
     frames: int = 0
     inlier_shares: tuple[float, ...] = ()
+    gap: int = 0
+    searches: tuple[int, ...] = ()
 
     @classmethod
     def start(cls, pose: Pose) -> Past:
@@ -42,11 +50,17 @@ class Past:
             before=self.last if self.frames else None,
             frames=self.frames + 1,
             inlier_shares=(*self.inlier_shares[1 - WINDOW :], result.inlier_share),
+            searches=_older((*self.searches, 0) if result.searched else self.searches),
         )
 
     def interrupted(self) -> Past:
         """Returns the past after a frame without data, in which the motion is unknown."""
-        return replace(self, before=None)
+        return replace(self, before=None, gap=self.gap + 1, searches=_older(self.searches))
+
+
+def _older(searches: tuple[int, ...]) -> tuple[int, ...]:
+    """Returns the ages of the last searches one frame later."""
+    return tuple(age + 1 for age in searches[-SEARCHES:])
 
 
 class BoundTracker(ABC):
