@@ -18,6 +18,19 @@ SEARCHES = 8
 
 
 @dataclass(frozen=True)
+class BodySearch:
+    """A search for the whole body in an earlier frame.
+
+    Attributes:
+        age: Number of frames since, also without data; 1 for the last frame.
+        points: Number of points in which the body was sought.
+    """
+
+    age: int
+    points: int
+
+
+@dataclass(frozen=True)
 class Past:
     """The results of previous frames, with memory that does not grow with their number.
 
@@ -27,8 +40,7 @@ class Past:
         frames: Number of registered frames.
         inlier_shares: Inlier shares of up to ``WINDOW`` last frames, the latest last.
         gap: Number of frames without data since the last frame.
-        searches: Number of frames, also without data, since each of up to ``SEARCHES`` last
-            searches for the whole body, the latest last; 1 for the last frame.
+        searches: Up to ``SEARCHES`` last searches for the whole body, the latest last.
     """
 
     last: RegistrationResult
@@ -36,7 +48,7 @@ class Past:
     frames: int = 0
     inlier_shares: tuple[float, ...] = ()
     gap: int = 0
-    searches: tuple[int, ...] = ()
+    searches: tuple[BodySearch, ...] = ()
 
     @classmethod
     def start(cls, pose: Pose) -> Past:
@@ -45,12 +57,13 @@ class Past:
 
     def followed_by(self, result: RegistrationResult) -> Past:
         """Returns the past after one more frame."""
+        new = (BodySearch(0, result.searched),) if result.searched else ()
         return Past(
             last=result,
             before=self.last if self.frames else None,
             frames=self.frames + 1,
             inlier_shares=(*self.inlier_shares[1 - WINDOW :], result.inlier_share),
-            searches=_older((*self.searches, 0) if result.searched else self.searches),
+            searches=_older((*self.searches, *new)),
         )
 
     def interrupted(self) -> Past:
@@ -58,9 +71,9 @@ class Past:
         return replace(self, before=None, gap=self.gap + 1, searches=_older(self.searches))
 
 
-def _older(searches: tuple[int, ...]) -> tuple[int, ...]:
-    """Returns the ages of the last searches one frame later."""
-    return tuple(age + 1 for age in searches[-SEARCHES:])
+def _older(searches: tuple[BodySearch, ...]) -> tuple[BodySearch, ...]:
+    """Returns the last searches, one frame later."""
+    return tuple(BodySearch(one.age + 1, one.points) for one in searches[-SEARCHES:])
 
 
 class BoundTracker(ABC):

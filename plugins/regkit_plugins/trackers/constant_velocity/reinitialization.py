@@ -22,8 +22,14 @@ ROLLS = np.linspace(-np.pi, np.pi, 24, endpoint=False)
 FEWEST_POINTS = 30
 """Fewer points than this show no body."""
 
-LEAST_AGES = tuple(2**k - 1 for k in range(1, SEARCHES + 1))
+LEAST_AGES = tuple(4 * (2**k - 1) for k in range(1, SEARCHES + 1))
 """Least number of frames since the last search, the one before it, and so on."""
+
+SPAN = 100
+"""In so many frames there are at most ``SEARCHES`` searches, whatever the reason."""
+
+GROWN = 1.5
+"""A body that enters the picture is sought again when it has this many times the points."""
 
 
 class Reinitialization(Model):
@@ -31,8 +37,8 @@ class Reinitialization(Model):
 
     It searches when the limbs do not explain the outliers of a frame, and in the first frame with
     data after frames without. The best of the poses that it finds replaces the tracked one only if
-    both its energy and its misfit to the data are clearly lower. Searches that repeat become rarer:
-    the k-th last one is at least 2^k - 1 frames ago.
+    it has fewer outliers, less energy and clearly less misfit to the data. Searches that repeat
+    become rarer: the k-th last one is at least 4 (2^k - 1) frames ago.
     """
 
     exemplars: Annotated[int, Field(ge=100, le=1_000_000)] = 30_000
@@ -84,7 +90,8 @@ class BoundReinitialization:
             past: Results of previous frames.
             excess: Fraction of outliers beyond those that the alarm of the limbs allows.
         """
-        if len(observation.points) < FEWEST_POINTS or not self._due(past, excess):
+        points = len(observation.points)
+        if points < FEWEST_POINTS or not self._due(points, past, excess):
             return found
         scan, size = Scan(observation.points), self.limbs.registrar.body.size
         tracked = Finalist.registered(self.limbs, found, observation, scan, size)
@@ -92,18 +99,21 @@ class BoundReinitialization:
         best = min(rivals, key=_cost, default=tracked)
         if self._better(best, tracked):
             found = best.result
-        return replace(found, searched=True)
+        return replace(found, searched=points)
 
-    def _due(self, past: Past, excess: float) -> bool:
+    def _due(self, points: int, past: Past, excess: float) -> bool:
         """Returns whether the body may be lost, and was not sought too often already."""
         if not past.frames:
             # The start has just been sought.
             return False
-        ages = past.searches[::-1]
+        last = past.searches[::-1]
+        if len(last) == SEARCHES and last[-1].age < SPAN:
+            return False
         if past.gap:
-            return len(ages) < len(LEAST_AGES) or ages[-1] >= LEAST_AGES[-1]
-        rested = all(age >= least for age, least in zip(ages, LEAST_AGES, strict=False))
-        return rested and excess > self.settings.alarm
+            return True
+        grown = not last or points >= GROWN * last[0].points
+        rested = all(one.age >= least for one, least in zip(last, LEAST_AGES, strict=False))
+        return (grown or rested) and excess > self.settings.alarm
 
     def _finalists(self, observation: Observation, scan: Scan) -> list[Finalist]:
         settings, body = self.settings, self.limbs.registrar.body
@@ -116,7 +126,14 @@ class BoundReinitialization:
         ]
 
     def _better(self, new: Finalist, old: Finalist) -> bool:
-        return new.energy < old.energy and new.misfit < old.misfit - self.settings.gain
+        """Returns whether a pose explains the frame clearly better, by every measure there is."""
+        gain = new.result.inlier_share - old.result.inlier_share
+        return (
+            new.energy < old.energy
+            and new.misfit < old.misfit - self.settings.gain
+            # A method without inlier shares has none to compare.
+            and not gain < self.limbs.gain
+        )
 
 
 def _cost(finalist: Finalist) -> float:
