@@ -22,12 +22,14 @@ class Finalist:
         result: Its registration.
         energy: Energy of its pose, bound to the frame at this pose, in the method's own units.
         misfit: Its two-sided misfit, dimensionless.
+        unlikely: Cost of the pose without regard to the data, dimensionless.
     """
 
     body: Body
     result: RegistrationResult
     energy: float
     misfit: float
+    unlikely: float = 0.0
 
     @classmethod
     def of(
@@ -67,5 +69,5 @@ class Finalist:
 
     @property
     def cost(self) -> float:
-        """Energy plus misfit; lower is better."""
-        return self.energy + self.misfit
+        """Energy, misfit and prior; lower is better."""
+        return self.energy + self.misfit + self.unlikely

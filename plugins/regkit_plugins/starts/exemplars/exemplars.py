@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
 from typing import Annotated, Literal
 
 import numpy as np
@@ -24,6 +26,9 @@ Roll = Annotated[float, Field(ge=-180.0, le=180.0)]
 
 ROLLS = 24
 """Number of rolls in a full turn."""
+
+CUT = 4
+"""Factor of the number of exemplars of a body that is cut off; their borders fix their rolls."""
 
 
 class Exemplars(StartSearch):
@@ -73,9 +78,12 @@ class Exemplars(StartSearch):
         sizes = template.candidate_sizes()
         usual = template.body(sizes[len(sizes) // 2])
         low, high = np.radians(self.elevation_deg)
+        whole = AtlasSettings(self.exemplars, (float(low), float(high)))
+        cut = replace(whole, count=CUT * self.exemplars, cut=True)
         return Search(
             template=template,
-            atlas=atlas_of(usual, AtlasSettings(self.exemplars, (float(low), float(high)))),
+            atlas=atlas_of(usual, whole),
+            cut_atlas=partial(atlas_of, usual, cut),
             comparison=Comparison(self.method, usual.size),
             rolls=self._rolls(),
             looked_up=self.looked_up,

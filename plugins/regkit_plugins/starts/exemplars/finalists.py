@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from regkit.body import Body
 from regkit.interfaces import Method
@@ -10,6 +10,7 @@ from regkit.observation import Observation
 from regkit.search.limb_recovery import LimbRecovery
 from regkit.skeleton import Pose
 from regkit.start import Finalist, Scan
+from regkit_plugins.starts.exemplars.prior import unlikely
 
 SAMPLES, TRIED, GAIN = 500, 2, 0.01
 """Configurations of each limb that are sampled and registered, and what one must gain."""
@@ -38,7 +39,9 @@ class Comparison:
             observation: The frame.
             scan: Its cloud.
         """
-        return Finalist.of(self._limbs(body), pose, observation, scan, self.usual)
+        found = Finalist.of(self._limbs(body), pose, observation, scan, self.usual)
+        prior = unlikely(body, found.pose, observation.camera is not None)
+        return replace(found, unlikely=prior)
 
     def _limbs(self, body: Body) -> LimbRecovery:
         if body.size not in self.bound:

@@ -47,7 +47,7 @@ class Stances(StartSearch):
         if rigid is not None:
             return rigid
         with one_blas_thread():
-            return _found(template, [Scan(one.points) for one in observations])
+            return _found(template, [Scan.of(one) for one in observations])
 
 
 def _found(template: Template, scans: list[Scan]) -> Start:

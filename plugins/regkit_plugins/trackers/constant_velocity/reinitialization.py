@@ -93,7 +93,7 @@ class BoundReinitialization:
         points = len(observation.points)
         if points < FEWEST_POINTS or not self._due(points, past, excess):
             return found
-        scan, size = Scan(observation.points), self.limbs.registrar.body.size
+        scan, size = Scan.of(observation), self.limbs.registrar.body.size
         tracked = Finalist.registered(self.limbs, found, observation, scan, size)
         rivals = self._finalists(observation, scan)
         best = min(rivals, key=_cost, default=tracked)
