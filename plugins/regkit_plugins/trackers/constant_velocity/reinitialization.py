@@ -14,6 +14,7 @@ from regkit.interfaces.tracker import SEARCHES
 from regkit.observation import Observation
 from regkit.search.exemplars import AtlasSettings, Finder, Pictures, atlas_of
 from regkit.search.limb_recovery import LimbRecovery
+from regkit.skeleton import Pose
 from regkit.start import Finalist, Scan
 
 ROLLS = np.linspace(-np.pi, np.pi, 24, endpoint=False)
@@ -27,6 +28,9 @@ LEAST_AGES = tuple(4 * (2**k - 1) for k in range(1, SEARCHES + 1))
 
 SPAN = 100
 """In so many frames there are at most ``SEARCHES`` searches, whatever the reason."""
+
+VIEWS = 300
+"""Number of sides from which the last pose is looked up too."""
 
 GROWN = 1.5
 """A body that enters the picture is sought again when it has this many times the points."""
@@ -95,7 +99,7 @@ class BoundReinitialization:
             return found
         scan, size = Scan.of(observation), self.limbs.registrar.body.size
         tracked = Finalist.registered(self.limbs, found, observation, scan, size)
-        rivals = self._finalists(observation, scan)
+        rivals = self._finalists(observation, scan, past.last.pose)
         best = min(rivals, key=_cost, default=tracked)
         if self._better(best, tracked):
             found = best.result
@@ -115,9 +119,10 @@ class BoundReinitialization:
         rested = all(one.age >= least for one, least in zip(last, LEAST_AGES, strict=False))
         return (grown or rested) and excess > self.settings.alarm
 
-    def _finalists(self, observation: Observation, scan: Scan) -> list[Finalist]:
+    def _finalists(self, observation: Observation, scan: Scan, last: Pose) -> list[Finalist]:
         settings, body = self.settings, self.limbs.registrar.body
-        atlas = atlas_of(body, AtlasSettings(settings.exemplars))
+        # A body that was turned meanwhile may have kept its pose.
+        atlas = atlas_of(body, AtlasSettings(settings.exemplars)).with_pose(body, last, VIEWS)
         finder = Finder([body], atlas, ROLLS, settings.looked_up, settings.refined)
         candidates = finder.candidates(Pictures.of(observation, body.size))
         return [
