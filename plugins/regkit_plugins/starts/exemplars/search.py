@@ -13,10 +13,10 @@ from regkit.interfaces import Template
 from regkit.observation import Observation
 from regkit.search.exemplars import Atlas, Exemplar, Finder, Pictures
 from regkit.skeleton import Mirroring, Pose
-from regkit.start import Candidate, Scan
+from regkit.start import Candidate, Finalist, Scan
 from regkit.start.sizes import fit, resized
 from regkit.system.arrays import Array
-from regkit_plugins.starts.exemplars.finalists import Comparison, Finalist
+from regkit_plugins.starts.exemplars.finalists import Comparison
 
 MORE = 2
 """Factor of the numbers of exemplars that are looked up and refined over all sizes together."""
