@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from regkit.api.choices import Choice, load_template, name_of
+from regkit.api.choices import Choice, Choices, load_template, name_of, segmenters_of
 from regkit.api.frame import Intrinsics, Measured, frame_of
 from regkit.api.frame_files import load_frame
 from regkit.api.recordings import Frames, GivenFrames, recording_of
@@ -14,7 +14,7 @@ from regkit.api.registration import Registration
 from regkit.api.tracking import Tracking, TrackingError
 from regkit.clouds import spacing, voxel_for
 from regkit.config.document import Document
-from regkit.interfaces import Method, Preprocessor, Recording, Template, Tracker
+from regkit.interfaces import Method, Preprocessor, Recording, Segmenter, Template, Tracker
 from regkit.observation import Frame
 from regkit.skeleton import Pose, PoseDescription
 from regkit.start import Start
@@ -45,6 +45,7 @@ def register(
     method: Choice[Method] | None = None,
     *,
     camera: Intrinsics | None = None,
+    segmentation: Choices[Segmenter] | None = None,
     preprocessor: Choice[Preprocessor] | None = None,
     start: Beginning | None = None,
 ) -> Registration:
@@ -53,14 +54,17 @@ def register(
     Args:
         cloud: Points (N, 3) [m] in the camera's frame (x right, y down, z forward), or a depth
             image (H, W) [m] with 0 for pixels without a measurement; or a file, as ``load_frame``
-            reads it: a cloud, a mesh, or a depth image with its ``camera.json``. It must show the
-            body alone, unless ``preprocessor`` crops the surroundings.
+            reads it: a cloud, a mesh, or a depth image with its ``camera.json``. It may show the
+            body in a room; see ``segmentation``.
         template: The body: ``"human"``, ``"hand"``, a file, or a result of ``load_template``.
         method: A preset such as ``"best"``, ``"spheres"``, ``"icp"`` or ``"paper"``, a mapping as
             in an experiment's YAML, or a method; by default regkit's best.
         camera: Camera of a depth image: a ``Camera``, a ``camera.json``, or its matrix K (3, 3)
             [px]. With a ``Camera``, points are treated as the surface visible to it; without one,
             as the whole surface.
+        segmentation: Segmenters that take the body out of the scene, in order: a name such as
+            ``"background"``, a list such as ``["planes", {"kind": "pieces", "choose": "nearest"}]``,
+            or ``[]`` for none. By default a body alone is left as it is, and a room is removed.
         preprocessor: Preprocessing of points; by default they are downsampled to about 900.
         start: Initial pose: a pose, or a mapping like an experiment's ``start``, which requires
             the template's size. By default pose and size are estimated from the frame.
@@ -77,7 +81,8 @@ def register(
         cloud = load_frame(cloud)
     frame = frame_of(cloud, camera, place="cloud")
     recording = GivenFrames(name=frame.place or "cloud", fps=1.0, length=1, given=(frame,))
-    return _tracked(recording, template, method, preprocessor, None, start, "regkit.register")[0]
+    chosen = (template, method, segmentation, preprocessor, None, start)
+    return _tracked(recording, *chosen, "regkit.register")[0]
 
 
 @renamed_arguments(observer="preprocessor")
@@ -88,6 +93,7 @@ def track(
     *,
     camera: Intrinsics | None = None,
     fps: float = 30.0,
+    segmentation: Choices[Segmenter] | None = None,
     preprocessor: Choice[Preprocessor] | None = None,
     tracker: Choice[Tracker] | None = None,
     start: Beginning | None = None,
@@ -102,6 +108,7 @@ def track(
         method: As in ``register``.
         camera: Camera of depth images, as in ``register``.
         fps: Frames per second of arrays; recordings have their own.
+        segmentation: As in ``register``.
         preprocessor: As in ``register``.
         tracker: Tracker from frame to frame, if the method has none of its own.
         start: As in ``register``, for the first frame.
@@ -115,13 +122,15 @@ def track(
         RegkitError: If an argument is invalid, or the first frame cannot be registered.
     """
     recording = recording_of(frames, camera, fps)
-    return _tracked(recording, template, method, preprocessor, tracker, start, "regkit.track")
+    chosen = (template, method, segmentation, preprocessor, tracker, start)
+    return _tracked(recording, *chosen, "regkit.track")
 
 
 def _tracked(
     recording: Recording,
     template: Choice[Template],
     method: Choice[Method] | None,
+    segmentation: Choices[Segmenter] | None,
     preprocessor: Choice[Preprocessor] | None,
     tracker: Choice[Tracker] | None,
     start: Beginning | None,
@@ -138,8 +147,13 @@ def _tracked(
     recording.prepare()
     first = _first(recording)
     check_unit(first.points, loaded, place=first.place or recording.name)
-    observes = preprocessor or _preprocessor_for(first)
-    session = Session(recording, loaded, observes, _described(start, place))
+    session = Session(
+        recording,
+        loaded,
+        preprocessor or _preprocessor_for,
+        _described(start, place),
+        segmentation=segmenters_of(segmentation, place=place),
+    )
     with one_thread():
         begin = _begin(session)
         registrar = chosen.bind(begin.body)

@@ -11,8 +11,16 @@ from pydantic import AfterValidator, Field, ValidationInfo, WithJsonSchema, fiel
 
 from regkit.config.document import Document
 from regkit.config.model import Model
-from regkit.config.plugin import slot_default
-from regkit.interfaces import Dataset, Method, Preprocessor, Recording, Template, Tracker
+from regkit.config.plugin import slot_default, slot_defaults
+from regkit.interfaces import (
+    Dataset,
+    Method,
+    Preprocessor,
+    Recording,
+    Segmenter,
+    Template,
+    Tracker,
+)
 from regkit.skeleton import PoseDescription
 from regkit.start import given_start
 from regkit.system.errors import ConfigError
@@ -69,6 +77,9 @@ class Experiment(Model):
     """The body to register."""
     subjects: dict[str, Template] = Field(default_factory=dict)
     """Templates of individual subjects by the dataset's names; all others use ``template``."""
+    segmentation: tuple[Segmenter, ...] = slot_defaults(Segmenter)
+    """Segmenters that take the body out of the scene, applied in order before the preprocessor; an
+    empty list takes the frames as they are."""
     preprocessor: Preprocessor = slot_default(Preprocessor)
     """Preprocessing of frames."""
     tracker: Tracker = slot_default(Tracker)
@@ -120,4 +131,6 @@ class Experiment(Model):
     def session(self, recording: Recording) -> Session:
         """Returns a recording to track, with the template of its subject."""
         template = self.subjects.get(recording.subject or "", self.template)
-        return Session(recording, template, self.preprocessor, self.start)
+        return Session(
+            recording, template, self.preprocessor, self.start, segmentation=self.segmentation
+        )

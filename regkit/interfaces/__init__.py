@@ -1,10 +1,12 @@
 """The interfaces of plug-ins, as abstract base classes, and the types that pass between them."""
 
 from regkit.interfaces.dataset import Dataset, Recording
+from regkit.interfaces.expected import Expected
 from regkit.interfaces.kernel import Kernel, Response, Similarity
 from regkit.interfaces.method import Method
 from regkit.interfaces.preprocessor import Preprocessor
 from regkit.interfaces.registrar import Evaluation, Registrar, RegistrationResult
+from regkit.interfaces.segmenter import BoundSegmenter, Chain, SegmentedRecording, Segmenter
 from regkit.interfaces.shape import ShapeModel
 from regkit.interfaces.solver import (
     Constraints,
@@ -18,15 +20,20 @@ from regkit.interfaces.template import Template
 from regkit.interfaces.term import JointEnergy, JointResponse, Scene, Term, VisibilityWeights
 from regkit.interfaces.tracker import BoundTracker, Past, Tracker
 
-SLOTS = (Dataset, Template, Preprocessor, ShapeModel, Kernel, Term, Solver, Tracker, Method)
+SLOTS = (
+    Dataset, Template, Segmenter, Preprocessor, ShapeModel, Kernel, Term, Solver, Tracker, Method,
+)  # fmt: skip
 """All groups of plug-ins, in the order of the data flow."""
 
 __all__ = [
     "SLOTS",
+    "BoundSegmenter",
     "BoundTracker",
+    "Chain",
     "Constraints",
     "Dataset",
     "Evaluation",
+    "Expected",
     "JointEnergy",
     "JointResponse",
     "Kernel",
@@ -41,6 +48,8 @@ __all__ = [
     "RegistrationResult",
     "Response",
     "Scene",
+    "SegmentedRecording",
+    "Segmenter",
     "ShapeModel",
     "Similarity",
     "Solution",

@@ -23,12 +23,14 @@ class Past:
         before: Result of the frame before the last, if there is one.
         frames: Number of registered frames.
         inlier_shares: Inlier shares of up to ``WINDOW`` last frames, the latest last.
+        missed: Number of frames without data since the last registered one.
     """
 
     last: RegistrationResult
     before: RegistrationResult | None = None
     frames: int = 0
     inlier_shares: tuple[float, ...] = ()
+    missed: int = 0
 
     @classmethod
     def start(cls, pose: Pose) -> Past:
@@ -46,7 +48,7 @@ class Past:
 
     def interrupted(self) -> Past:
         """Returns the past after a frame without data, in which the motion is unknown."""
-        return replace(self, before=None)
+        return replace(self, before=None, missed=self.missed + 1)
 
 
 class BoundTracker(ABC):

@@ -20,15 +20,19 @@ class Silhouette:
 
     Args:
         camera: Intrinsics of the image.
-        depth: Depth image, (H, W) [m]; zero marks an invalid pixel, which counts as free space.
+        depth: Depth image, (H, W) [m]; zero marks an invalid pixel, which counts as free space. NaN
+            marks an unknown pixel; a block with one and without depth is neither free nor occupied.
     """
 
     def __init__(self, camera: Camera, depth: Array) -> None:
         side = max(1, round(camera.width / COLUMNS))
         rows, columns = camera.height // side, camera.width // side
-        measured = np.where(depth > 0.0, depth, np.inf)[: rows * side, : columns * side]
-        strips = measured.reshape(rows, side, -1).min(axis=1)
-        self._nearest = strips.T.reshape(columns, side, rows).min(axis=1)
+        depth = depth[: rows * side, : columns * side]
+        self._nearest = _block_minima(np.where(depth > 0.0, depth, np.inf), side)
+        if (unknown := np.isnan(depth)).any():
+            # Everything is behind an unknown block, as if it had the depth zero.
+            hiding = np.isfinite(_block_minima(np.where(unknown, 0.0, np.inf), side))
+            self._nearest[hiding & np.isinf(self._nearest)] = 0.0
         self._half = HALF * side / camera.fx
         self._scale = np.array([camera.fx, camera.fy]) / side
         middle = 0.5 * (side - 1)
@@ -49,3 +53,10 @@ class Silhouette:
         return free_space_distances(
             points, margins, self._nearest, self._shown, self._scale, self._offset, self._half
         )
+
+
+def _block_minima(image: Array, side: int) -> Array:
+    """Returns the minima of the blocks of an image, (columns, rows)."""
+    rows, columns = image.shape[0] // side, image.shape[1] // side
+    strips = image.reshape(rows, side, -1).min(axis=1)
+    return np.asarray(strips.T.reshape(columns, side, rows).min(axis=1))

@@ -1,14 +1,24 @@
-"""A tracking session: recording, template, preprocessor and start."""
+"""A tracking session: recording, template, segmentation, preprocessor and start."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
-from regkit.interfaces import Preprocessor, Recording, Registrar, Template, Tracker
+from regkit.interfaces import (
+    Chain,
+    Expected,
+    Preprocessor,
+    Recording,
+    Registrar,
+    Segmenter,
+    Template,
+    Tracker,
+)
 from regkit.observation import Frame, Observation
 from regkit.skeleton import Pose, PoseDescription
 from regkit.start import Start, found_start, given_start
@@ -24,17 +34,39 @@ class Session:
     Attributes:
         recording: Source of the frames.
         template: Template of the body.
-        preprocessor: Preprocessor of the frames.
+        preprocessor: Preprocessor of the frames, or a function that chooses one for the first frame
+            with data, after segmentation.
         start: Pose in the first frame, which requires the template's size; without it, pose and
             size are searched for.
         sized_in: Number of frames, spread over the recording, that determine an unknown size.
+        segmentation: Segmenters that take the body out of the scene, applied in order before the
+            preprocessor.
     """
 
     recording: Recording
     template: Template
-    preprocessor: Preprocessor
+    preprocessor: Preprocessor | Callable[[Frame], Preprocessor]
     start: Pose | PoseDescription | None = None
     sized_in: int = 3
+    segmentation: tuple[Segmenter, ...] = ()
+
+    @cached_property
+    def segmenter(self) -> Chain:
+        """The segmenters, bound to the recording when they are first needed."""
+        return Chain.of(self.segmentation, self.recording, self.template)
+
+    @cached_property
+    def observes(self) -> Preprocessor:
+        """The preprocessor; one to choose is chosen when it is first needed."""
+        if isinstance(self.preprocessor, Preprocessor):
+            return self.preprocessor
+        for frame in self.recording.frames():
+            left = self.segmenter.segmented(frame, None)
+            if len(left.points):
+                return self.preprocessor(left)
+        raise NoDataError(
+            "no frame has a measurement that may be the body's", place=self.recording.name
+        )
 
     def begin(self) -> Start:
         """Returns the body at its size, and its pose in the first frame.
@@ -64,16 +96,22 @@ class Session:
         Raises:
             RegkitError: If a frame cannot be read or registered; the error names it.
         """
-        return tracked(self.recording, self.preprocessor, registrar, tracker, pose)
+        return tracked(
+            self.recording, self.segmenter, self.observes, registrar, tracker, pose
+        )
 
-    def observation(self, index: int) -> Observation:
+    def observation(self, index: int, expected: Expected | None = None) -> Observation:
         """Returns the data of a frame.
+
+        Args:
+            index: Number of the frame.
+            expected: What is known of the body in the frame before.
 
         Raises:
             RegkitError: If the frame cannot be read.
         """
         ((_, frame),) = self.recording.some([index])
-        return self._preprocessed(index, frame)
+        return self._preprocessed(index, frame, expected)
 
     def _later(self, first: int) -> Iterator[Observation]:
         """Yields usable frames after the first one, if the size is unknown."""
@@ -99,9 +137,11 @@ class Session:
                 missing = missing if index else error
         raise missing
 
-    def _preprocessed(self, index: int, frame: Frame) -> Observation:
+    def _preprocessed(
+        self, index: int, frame: Frame, expected: Expected | None = None
+    ) -> Observation:
         try:
-            return self.preprocessor.preprocess(frame)
+            return self.observes.preprocess(self.segmenter.segmented(frame, expected))
         except RegkitError as error:
             raise error.at(frame.place or f"{self.recording.name}: frame {index}") from None
 

@@ -1,0 +1,89 @@
+"""The plane segmenter: removes floor and walls."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field
+
+from regkit.interfaces import BoundSegmenter, Expected, Recording, Segmenter, Template
+from regkit.observation import Frame
+from regkit.system.arrays import Array
+from regkit_plugins.segmenters.planes.plane import Plane
+from regkit_plugins.segmenters.planes.search import bounding_planes
+from regkit_plugins.segmenters.sampling import sampled
+
+FRAMES = 3
+"""Number of frames, spread over the recording, in which the planes are sought."""
+
+LEVEL = np.cos(np.radians(45.0))
+"""A plane is taken as the floor if its normal is within this cosine of the image's upright."""
+
+
+class Planes(Segmenter):
+    """Removes the large planes that bound the scene: floor, walls and ceiling.
+
+    They are found in any orientation of the camera, as planes that are larger than the body's flat
+    parts and have hardly anything behind them. Feet on the floor keep what is above its noise.
+    """
+
+    kind: Literal["planes"] = "planes"
+
+    least: Annotated[float, Field(ge=0.05, le=100.0)] = 0.6
+    """Least extent of a plane along both of its axes, in sizes of the body."""
+    most: Annotated[int, Field(ge=1, le=100)] = 6
+    """Largest number of planes."""
+    moving_camera: bool = False
+    """Whether the camera moves, so that the planes are sought in every frame."""
+
+    def bind(self, recording: Recording, template: Template) -> BoundPlanes:
+        """Finds the planes in a few frames, unless the camera moves."""
+        size = float(np.median(template.candidate_sizes()))
+        bound = BoundPlanes(self, size, ())
+        if self.moving_camera:
+            return bound
+        points = [frame.points for frame in sampled(recording, FRAMES)]
+        return BoundPlanes(self, size, bound.found(np.concatenate(points) if points else None))
+
+
+@dataclass(frozen=True)
+class BoundPlanes(BoundSegmenter):
+    """``Planes`` bound to a recording.
+
+    Attributes:
+        settings: The segmenter.
+        size: Usual size of the body [m].
+        planes: The planes of a camera that does not move, the largest first.
+    """
+
+    settings: Planes
+    size: float
+    planes: tuple[Plane, ...]
+
+    def found(self, points: Array | None) -> tuple[Plane, ...]:
+        """Returns the planes that bound points (N, 3)."""
+        if points is None:
+            return ()
+        return tuple(bounding_planes(points, self.size, self.settings.least, self.settings.most))
+
+    @property
+    def floor(self) -> Plane | None:
+        """The plane whose normal is nearest to the image's upright, within 45 degrees, or None.
+
+        Its normal is a hint where gravity is; for a camera that is rolled further, a wall may be
+        taken for the floor.
+        """
+        upright = [plane for plane in self.planes if -plane.normal[1] >= LEVEL]
+        return min(upright, key=lambda plane: float(plane.normal[1]), default=None)
+
+    def segmented(self, frame: Frame, expected: Expected | None) -> Frame:
+        """Returns the frame without the points of the planes, which are free space."""
+        planes = self.planes
+        if self.settings.moving_camera and len(frame.points):
+            planes = self.found(frame.points)
+        removed = np.zeros(len(frame.points), dtype=bool)
+        for plane in planes:
+            removed |= plane.holds(frame.points)
+        return frame.only(~removed, free=removed)
