@@ -9,6 +9,7 @@ The rooms, from the ground up:
 - ``bodies``: rigged bodies and hands, and how they follow a motion.
 - ``cameras``: intrinsics, viewpoints, and what a camera sees of a mesh.
 - ``noise``: what a depth camera makes of that.
+- ``rooms``: what stands around a body.
 - ``recordings``: takes, scenes, and the depth recordings that are rendered of them.
 - ``templates``: the makers of the templates that ship.
 - ``samples``: the makers of the sample recordings that ship.

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from regkit.config.changes import with_changes
@@ -25,8 +26,9 @@ from regkit_synthesis.noise import NOISES, DepthNoise, NoiseChoice, noise_of
 from regkit_synthesis.recordings.cache import RecordingCache
 from regkit_synthesis.recordings.digest import digest
 from regkit_synthesis.recordings.recording import DepthRecording
-from regkit_synthesis.recordings.scene import Scene, Sensor
+from regkit_synthesis.recordings.scene import BODY, Scene, Sensor
 from regkit_synthesis.recordings.take import Take
+from regkit_synthesis.rooms import RoomChoice, room_of
 
 Name = Annotated[str, Field(pattern=r"^\w[\w. -]*$")]
 
@@ -50,6 +52,9 @@ class Synthetic(Dataset):
     """Seed of the noise, which changes nothing else."""
     fps: Rate = 30.0
     """Frames per second."""
+    room: RoomChoice = "none"
+    """The room of the takes that name none: a known one by its name, ``none``, or its parts by
+    their names."""
     defaults: Take = Take()
     """Fields that all takes share."""
     takes: dict[Name, Take] = Field(min_length=1)
@@ -78,6 +83,9 @@ class Synthetic(Dataset):
                 raise misplaced(type(self), message, "takes", name)
             if isinstance(take.body, ShippedHand) != isinstance(take.motion, GesturesConfig):
                 message = "gestures are motions of a hand only"
+                raise misplaced(type(self), message, "takes", name)
+            if take.empty and not room_of(self.room if take.room is None else take.room):
+                message = "it is empty and has no room either; give it a room"
                 raise misplaced(type(self), message, "takes", name)
         return self
 
@@ -140,10 +148,23 @@ class SyntheticRecording(Recording):
         """Returns the digest of the scene, under which its images are cached."""
         return self._key
 
-    def truth(self) -> Truth:
-        """Returns the exact positions of joints and markers."""
+    def truth(self) -> Truth | None:
+        """Returns the exact positions of joints and markers; None if the body is left out."""
+        if self.take.empty:
+            return None
         scene = self._scene()
         return Truth(scene.joints, scene.truth())
+
+    def labels(self) -> Iterator[NDArray[np.uint8]]:
+        """Yields what each pixel of every frame shows, (H, W): an index in ``label_names``.
+
+        Labels are exact: where noise moves depths between pixels, they differ at outlines.
+        """
+        return self._scene().labels()
+
+    def label_names(self) -> tuple[str, ...]:
+        """Returns the names of the labels: nothing, the body, and the parts of the room."""
+        return ("nothing", "body", *self._scene().room)
 
     def folder(self) -> Path:
         """Returns the depth folder in the cache, rendered on first use."""
@@ -163,7 +184,7 @@ class SyntheticRecording(Recording):
             sensor = self.dataset.sensor()
             if self.take.noise is not None:
                 sensor = replace(sensor, noise=noise_of(self.take.noise))
-            return self.take.scene(self.name, sensor, self.fps, self.length)
+            return self.take.scene(self.name, sensor, self.fps, self.length, self.dataset.room)
         except RegkitError as error:
             raise self._located(error) from None
 
@@ -171,13 +192,23 @@ class SyntheticRecording(Recording):
         """Returns the rendered scene.
 
         Raises:
-            DataError: If a frame does not show the body.
+            DataError: If a frame does not show the body, or in a room no frame does.
         """
+        if (
+            scene.room
+            and not scene.empty
+            and not any((seen == BODY).any() for seen in scene.labels())
+        ):
+            raise DataError(
+                "the room hides the body in every frame; change the room, or the view: below "
+                "elevation_deg 0 a camera may look at the floor from beneath"
+            )
         recording = scene.rendered(self.take.random(self.name, self.dataset.seed))
         empty = np.flatnonzero(~recording.depth.any(axis=(1, 2)))
         if len(empty):
+            what = "room" if scene.empty else "body"
             raise DataError(
-                f"the image of frame {empty[0]} does not show the body; change view.distance, or "
+                f"the image of frame {empty[0]} does not show the {what}; change view.distance, or "
                 "leave it out",
             )
         return recording

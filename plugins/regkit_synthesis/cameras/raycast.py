@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -27,6 +28,31 @@ class View:
 
     depth: Array
     cosines: Array
+
+    @classmethod
+    def of_nothing(cls, shape: tuple[int, int]) -> View:
+        """Returns the view (H, W) in which no ray meets anything."""
+        return cls(np.zeros(shape), np.ones(shape))
+
+
+def nearest(views: Sequence[View]) -> tuple[View, NDArray[np.intp]]:
+    """Returns the view of several opaque surfaces, and which of them each pixel shows.
+
+    Each surface is cast alone, so that what it shows does not depend on the others, to the last
+    bit; of those at the same depth the first is seen.
+
+    Args:
+        views: The view (H, W) of each surface.
+
+    Returns:
+        The common view, and the index (H, W) of the surface; -1 for none.
+    """
+    depths = np.array([view.depth for view in views])
+    index = np.where(depths > 0.0, depths, np.inf).argmin(axis=0)[None]
+    cosines = np.array([view.cosines for view in views])
+    depth = np.take_along_axis(depths, index, axis=0)[0]
+    common = View(depth, np.take_along_axis(cosines, index, axis=0)[0])
+    return common, np.where(depth > 0.0, index[0], -1)
 
 
 @dataclass(frozen=True)
@@ -64,7 +90,7 @@ class RayCaster:
         depth[hit] = (normals * a).sum(axis=1) / along
         lengths = np.linalg.norm(normals, axis=1) * np.linalg.norm(rays[hit], axis=1)
         cosines[hit] = np.abs(along) / lengths
-        whole = View(np.zeros(self._rays.shape[:2]), np.ones(self._rays.shape[:2]))
+        whole = View.of_nothing((self.camera.height, self.camera.width))
         whole.depth[rows, columns] = depth.reshape(whole.depth[rows, columns].shape)
         whole.cosines[rows, columns] = cosines.reshape(whole.depth[rows, columns].shape)
         return whole

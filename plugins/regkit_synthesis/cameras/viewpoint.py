@@ -29,14 +29,17 @@ class Viewpoint(Model):
 
     heading_deg: Angle = 0.0
     """Rotation of the motion from the direction to the camera, to the right of the image [deg]."""
-    elevation_deg: Annotated[float, Field(ge=-89.0, le=89.0)] = 0.0
-    """Downward pitch of the camera [deg]."""
+    elevation_deg: Annotated[float, Field(ge=-90.0, le=90.0)] = 0.0
+    """Downward pitch of the camera [deg]; at 90 it looks straight down."""
+    roll_deg: Angle = 0.0
+    """Clockwise rotation of the camera about its optical axis [deg]; the image turns
+    counter-clockwise."""
     distance: Length | None = None
     """Distance from the camera to the centre of the motion [m]; by default the shortest at which
     the whole body stays in the image."""
     place: tuple[Coordinate, Coordinate, Coordinate] | None = None
     """Position of the motion's origin, instead of a ``distance``: right of, below and in front of
-    the camera, in the axes of a level camera [m]; pitch rotates the camera in place."""
+    the camera, in the axes of a level camera [m]; pitch and roll rotate the camera in place."""
 
     @model_validator(mode="after")
     def _one_of_them(self) -> Viewpoint:
@@ -55,8 +58,7 @@ class Viewpoint(Model):
         Raises:
             ConfigError: If no distance is given, and the body does not fit in the image.
         """
-        tilt = vector_to_matrix(np.array([radians(self.elevation_deg), 0.0, 0.0]))
-        turn = vector_to_matrix(np.array([0.0, 0.0, radians(self.heading_deg)]))
+        tilt, turn = self._tilt(), self._turn()
         if self.place is not None:
             level = rigid(_R_CAMERA_GROUND @ turn, np.array(self.place))
             return np.asarray(rigid(tilt, np.zeros(3)) @ level)
@@ -64,6 +66,23 @@ class Viewpoint(Model):
         middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
         distance = self.distance or _shortest(camera, (points - middle) @ rotation.T)
         return rigid(rotation, np.array([0.0, 0.0, distance]) - rotation @ middle)
+
+    def turned(self) -> Array:
+        """Returns ``T_room_ground`` (4, 4), from the motion's ground axes to level ones.
+
+        The latter face the camera: x to the right of the image, y away from the camera, z up.
+        """
+        return rigid(self._turn(), np.zeros(3))
+
+    def _turn(self) -> Array:
+        """Returns the rotation (3, 3) of the motion about the vertical."""
+        return vector_to_matrix(np.array([0.0, 0.0, radians(self.heading_deg)]))
+
+    def _tilt(self) -> Array:
+        """Returns the rotation (3, 3) from a level camera's axes to those of this one."""
+        tilt = vector_to_matrix(np.array([radians(self.elevation_deg), 0.0, 0.0]))
+        roll = vector_to_matrix(np.array([0.0, 0.0, -radians(self.roll_deg)]))
+        return np.asarray(roll @ tilt)
 
 
 def _shortest(camera: Camera, points: Array) -> float:

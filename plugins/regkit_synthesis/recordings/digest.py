@@ -28,9 +28,14 @@ def digest(scene: Scene, seed: int, noise_stream: str | None = None) -> str:
     told += [scene.joints, dict(scene.markers), [mark.bone for mark in landmarks]]
     if noise_stream is not None:
         told.append(noise_stream)
+    if scene.room:
+        told += [list(scene.room), scene.empty]
     mesh = scene.mesh
     arrays = [mesh.vertices, mesh.faces, mesh.rest, mesh.indices, mesh.weights]
     arrays += [np.array([mark.position for mark in landmarks]), np.array(scene.poses())]
+    for part in scene.room.values():
+        times = range(1 if part.still else scene.frames)
+        arrays += [part.faces, *(part.vertices(frame / scene.fps) for frame in times)]
     whole = hashlib.sha256(json.dumps(told).encode())
     for array in arrays:
         whole.update(str(array.shape).encode())

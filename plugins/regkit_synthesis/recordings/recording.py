@@ -86,7 +86,8 @@ class DepthRecording:
         images.mkdir(parents=True)
         (folder / _HEADER).write_text(self._header(), encoding="utf-8", newline="\n")
         (folder / "camera.json").write_text(self.camera.to_json(), encoding="utf-8", newline="\n")
-        (folder / "truth.csv").write_text(self._table(), encoding="utf-8", newline="\n")
+        if self.joints:
+            (folder / "truth.csv").write_text(self._table(), encoding="utf-8", newline="\n")
         for frame, image in enumerate(self.depth):
             Image.fromarray(image).save(
                 images / f"{frame:06d}.png", compress_level=9, compress_type=_RUN_LENGTHS

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from regkit.geometry.camera import Camera
 from regkit.geometry.skinned_mesh import SkinnedMesh
@@ -13,11 +14,15 @@ from regkit.system.arrays import Array
 from regkit.system.progress import steps
 from regkit_synthesis.bodies.landmarks import Landmark, placed, some_vertices
 from regkit_synthesis.cameras.cameras import CAMERAS
-from regkit_synthesis.cameras.raycast import RayCaster, View, stored
+from regkit_synthesis.cameras.raycast import RayCaster, View, nearest, stored
 from regkit_synthesis.noise import DepthNoise, noise_of
 from regkit_synthesis.recordings.recording import DepthRecording
+from regkit_synthesis.rooms.surface import Surface
 
 FPS = 30.0
+
+BODY = 1
+"""Label of the pixels that show the body."""
 
 
 @dataclass(frozen=True)
@@ -57,6 +62,8 @@ class Scene:
         frames: Number of frames.
         fps: Frames per second.
         markers: Additional markers, by name: vertices of the mesh with recorded positions.
+        room: The parts of the room in camera axes, by name.
+        empty: Whether the body is left out.
     """
 
     name: str
@@ -69,14 +76,18 @@ class Scene:
     frames: int
     fps: float = FPS
     markers: Mapping[str, int] = field(default_factory=dict)
+    room: Mapping[str, Surface] = field(default_factory=dict)
+    empty: bool = False
 
     @property
     def joints(self) -> tuple[str, ...]:
-        """Returns the names of the joints and markers."""
-        return (*self.landmarks, *self.markers)
+        """Returns the names of the joints and markers; none if the body is left out."""
+        return () if self.empty else (*self.landmarks, *self.markers)
 
     def truth(self) -> Array:
         """Returns positions (T, L, 3) [m] of joints and markers in every frame, in camera axes."""
+        if self.empty:
+            return np.zeros((self.frames, 0, 3))
         skin = some_vertices(self.mesh, np.array([*self.markers.values()], dtype=np.intp))
         return np.array([
             np.concatenate([placed(self.landmarks, self.mesh, pose), skin.posed(pose)])
@@ -89,9 +100,34 @@ class Scene:
         Raises:
             DependencyError: If Open3D cannot be loaded.
         """
-        caster = RayCaster(self.sensor.camera)
-        for pose in self.poses():
-            yield caster.view(self.mesh.posed(pose), self.mesh.faces)
+        for layers in self._layers():
+            yield nearest(layers)[0]
+
+    def labels(self) -> Iterator[NDArray[np.uint8]]:
+        """Yields what each pixel of every frame shows, (H, W), before noise.
+
+        0 is nothing, ``BODY`` the body, and the numbers from there on the parts of the room in
+        their order.
+
+        Raises:
+            DependencyError: If Open3D cannot be loaded.
+        """
+        for layers in self._layers():
+            yield (nearest(layers)[1] + BODY).astype(np.uint8)
+
+    def _layers(self) -> Iterator[list[View]]:
+        """Yields the views of the body and of each part of the room in every frame."""
+        camera = self.sensor.camera
+        caster, absent = RayCaster(camera), View.of_nothing((camera.height, camera.width))
+
+        def seen(part: Surface, frame: int) -> View:
+            return caster.view(part.vertices(frame / self.fps), part.faces)
+
+        still = {name: seen(part, 0) for name, part in self.room.items() if part.still}
+        for frame, pose in enumerate(self.poses()):
+            body = absent if self.empty else caster.view(self.mesh.posed(pose), self.mesh.faces)
+            parts = (still.get(name) or seen(part, frame) for name, part in self.room.items())
+            yield [body, *parts]
 
     def rendered(self, random: Callable[[int], np.random.Generator]) -> DepthRecording:
         """Returns the recording as measured by the sensor.

@@ -3,62 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Annotated, Any
+from typing import Annotated
 
 import numpy as np
-from pydantic import AfterValidator, Discriminator, Field, Tag
+from pydantic import Field
 
 from regkit.config.model import Model
+from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError
-from regkit_synthesis.bodies.bodies import AnyBody, BodyName, ShippedBody
+from regkit_synthesis.bodies.bodies import ShippedBody
+from regkit_synthesis.bodies.choice import Body, Motion, chosen_body, chosen_motion
 from regkit_synthesis.bodies.hand import ShippedHand
 from regkit_synthesis.bodies.landmarks import Landmark, some_vertices
-from regkit_synthesis.bodies.movable import BodyConfig
 from regkit_synthesis.cameras.viewpoint import Viewpoint
-from regkit_synthesis.hands.config import GesturesConfig
-from regkit_synthesis.motion.config import (
-    BvhConfig,
-    ClipConfig,
-    GltfConfig,
-    KeyframesConfig,
-    MotionConfig,
-)
-from regkit_synthesis.motion.shipped import CLIPS
 from regkit_synthesis.noise import NoiseChoice
 from regkit_synthesis.recordings.scene import Scene, Sensor
+from regkit_synthesis.rooms import Part, Region, RoomChoice, RoomName, Surface, room_of
 
 _SPARSE = 8
 """Stride of the vertices that sample the body's extent, some centimetres apart."""
-
-
-def _form(value: Any) -> str:
-    """Returns the tag of a body's or motion's form: name or configuration."""
-    return "name" if isinstance(value, str) else "config"
-
-
-Body = Annotated[
-    Annotated[BodyName, Tag("name")] | Annotated[AnyBody, Tag("config")], Discriminator(_form)
-]
-"""A shipped body by its name, or any body by its ``kind``."""
-
-
-def _clip(name: str) -> str:
-    """Validates the name of a shipped clip."""
-    CLIPS.check_choice(name, None)
-    return name
-
-
-_AnyMotion = Annotated[
-    ClipConfig | BvhConfig | GltfConfig | KeyframesConfig | GesturesConfig,
-    Field(discriminator="kind"),
-]
-
-Motion = Annotated[
-    Annotated[str, AfterValidator(_clip), Tag("name")] | Annotated[_AnyMotion, Tag("config")],
-    Discriminator(_form),
-]
-"""A shipped clip by its name, or any motion by its ``kind``."""
 
 
 class Take(Model):
@@ -82,6 +46,12 @@ class Take(Model):
     noise_stream: str | None = None
     """Name of one random stream for the noise of all frames; by default each frame has its own
     stream, derived from the take's name."""
+    room: RoomChoice | None = None
+    """The room around the body: a known one by its name, ``none``, or its parts by their names; by
+    default that of the dataset."""
+    empty: bool = False
+    """Whether to leave the body out. Camera and room are as they would be with it, so this renders
+    the background of a take."""
     difficulty: str = ""
     """A note on the difficulty of the take."""
 
@@ -102,7 +72,14 @@ class Take(Model):
         stream = np.random.default_rng([seed, *self.noise_stream.encode()])
         return lambda frame: stream
 
-    def scene(self, name: str, sensor: Sensor, fps: float, frames: int) -> Scene:
+    def scene(
+        self,
+        name: str,
+        sensor: Sensor,
+        fps: float,
+        frames: int,
+        room: RoomName | Mapping[str, Part] = "none",
+    ) -> Scene:
         """Returns the scene to render.
 
         Args:
@@ -110,11 +87,14 @@ class Take(Model):
             sensor: The depth camera.
             fps: Frames per second.
             frames: Number of frames; the camera's pose is that for all frames of the take.
+            room: The room of a take that names none.
 
         Raises:
             RegkitError: If a file is missing or invalid, or the motion does not fit the body.
         """
-        body_config, motion_config = _body(self.body), _motion(self.motion)
+        if self.motion is None:
+            raise ConfigError("it has no motion")
+        body_config, motion_config = chosen_body(self.body), chosen_motion(self.motion)
         body = body_config.body()
         for marker, vertex in self.markers.items():
             _check_marker(marker, vertex, body.landmarks, len(body.mesh.vertices))
@@ -125,6 +105,7 @@ class Take(Model):
             return np.concatenate([skin.posed(moved(frame / fps)) for frame in range(self.frames)])
 
         T_camera_ground = self.view.placed(sensor.camera, surface)
+        parts = room_of(room if self.room is None else self.room)
         return Scene(
             name=name,
             source=f"Rendered by regkit: {_told(body_config)}, moved by {_told(motion_config)}",
@@ -136,17 +117,27 @@ class Take(Model):
             frames=frames,
             fps=fps,
             markers=self.markers,
+            room=self._surroundings(parts, body.mesh, moved, fps, T_camera_ground),
+            empty=self.empty,
         )
 
-
-def _body(choice: BodyName | BodyConfig) -> BodyConfig:
-    return ShippedBody(name=choice) if isinstance(choice, str) else choice
-
-
-def _motion(choice: str | MotionConfig | GesturesConfig | None) -> MotionConfig | GesturesConfig:
-    if choice is None:
-        raise ConfigError("it has no motion")
-    return ClipConfig(name=choice) if isinstance(choice, str) else choice
+    def _surroundings(
+        self,
+        parts: Mapping[str, Part],
+        mesh: SkinnedMesh,
+        moved: Callable[[float], Array],
+        fps: float,
+        T_camera_ground: Array,
+    ) -> dict[str, Surface]:
+        """Returns the parts of a room in camera axes, placed beside the region of the motion."""
+        if not parts:
+            return {}
+        T_room_ground, times = self.view.turned(), np.arange(self.frames) / fps
+        T_camera_room = T_camera_ground @ np.linalg.inv(T_room_ground)
+        region = Region.around(mesh.posed(T_room_ground @ moved(time)) for time in times)
+        return {
+            name: part.surface(region, times).moved(T_camera_room) for name, part in parts.items()
+        }
 
 
 def _told(config: Model) -> str:

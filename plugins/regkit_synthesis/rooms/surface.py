@@ -1,0 +1,60 @@
+"""Surfaces: the triangles of a part of a room, still or moving."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from regkit.geometry.rigid import transformed
+from regkit.system.arrays import Array, Indices
+
+_QUAD = np.array([[0, 1, 2], [0, 2, 3]])
+
+_BOX = np.array([
+    [0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6], [0, 1, 5], [0, 5, 4],
+    [2, 6, 7], [2, 7, 3], [0, 4, 6], [0, 6, 2], [1, 3, 7], [1, 7, 5],
+])  # fmt: skip
+"""Triangles of a box, counter-clockwise seen from outside; bits of a corner's number: x, y, z."""
+
+
+@dataclass(frozen=True)
+class Surface:
+    """Triangles whose vertices may move.
+
+    Attributes:
+        faces: Vertex indices of the triangles, (F, 3).
+        vertices: Function from a time [s] to the vertices, (V, 3) [m].
+        still: Whether the vertices are the same at all times.
+    """
+
+    faces: Indices
+    vertices: Callable[[float], Array]
+    still: bool
+
+    @classmethod
+    def at_rest(cls, vertices: Array, faces: Indices) -> Surface:
+        """Returns a surface that does not move."""
+        return cls(faces, lambda time: vertices, still=True)
+
+    def moved(self, T_a_b: Array) -> Surface:
+        """Returns the surface in frame a, by ``T_a_b`` (4, 4)."""
+        return replace(self, vertices=lambda time: transformed(T_a_b, self.vertices(time)))
+
+
+def quad(corners: Array) -> Surface:
+    """Returns the surface of four corners (4, 3) [m] in their order around it."""
+    return Surface.at_rest(corners, _QUAD)
+
+
+def boxes(ends: Array) -> tuple[Array, Indices]:
+    """Returns vertices (8 B, 3) [m] and faces (12 B, 3) of boxes.
+
+    Args:
+        ends: The least and the largest coordinates of each box, (B, 2, 3) [m].
+    """
+    bits = np.array([[corner >> axis & 1 for axis in range(3)] for corner in range(8)])
+    vertices = ends[:, bits, np.arange(3)].reshape(-1, 3)
+    faces = (8 * np.arange(len(ends))[:, None, None] + _BOX).reshape(-1, 3)
+    return vertices, faces
