@@ -63,8 +63,8 @@ def register(
             [px]. With a ``Camera``, points are treated as the surface visible to it; without one,
             as the whole surface.
         segmentation: Segmenters that take the body out of the scene, in order: a name such as
-            ``"background"``, a list such as ``["planes", {"kind": "pieces", "choose": "nearest"}]``,
-            or ``[]`` for none. By default a body alone is left as it is, and a room is removed.
+            ``"background"``, a list such as ``["planes", {"kind": "pieces", "choose": 1}]``, or
+            ``[]`` for none. By default a body alone is left as it is, and a room is removed.
         preprocessor: Preprocessing of points; by default they are downsampled to about 900.
         start: Initial pose: a pose, or a mapping like an experiment's ``start``, which requires
             the template's size. By default pose and size are estimated from the frame.

@@ -9,8 +9,9 @@ from regkit.calibration import Calibration
 from regkit.cli.choices import template_named
 from regkit.cli.options import options
 from regkit.config.model import Model
+from regkit.config.plugin import slot_defaults
 from regkit.experiment import Experiment
-from regkit.interfaces import Dataset, Preprocessor, Recording, Template
+from regkit.interfaces import Dataset, Preprocessor, Recording, Segmenter, Template
 from regkit.skeleton import PoseDescription
 from regkit.system.errors import ConfigError, DataError
 
@@ -22,6 +23,8 @@ class Source(Model):
     """The recordings."""
     template: Template
     """The template to calibrate."""
+    segmentation: tuple[Segmenter, ...] = slot_defaults(Segmenter)
+    """Segmenters that take the body out of the scene."""
     preprocessor: Preprocessor | None = None
     """Preprocessing of the frames."""
     start: PoseDescription | None = None
@@ -51,6 +54,7 @@ class Source(Model):
             return cls(
                 dataset=experiment.dataset,
                 template=experiment.template if template is None else template_named(template),
+                segmentation=experiment.segmentation,
                 preprocessor=experiment.preprocessor,
                 start=experiment.start if template is None else None,
             )
@@ -76,5 +80,9 @@ class Source(Model):
     def calibration(self, frames: int) -> Calibration:
         """Returns the calibration of the subject in ``frames`` frames."""
         return Calibration(
-            template=self.template, preprocessor=self.preprocessor, start=self.start, frames=frames
+            template=self.template,
+            segmentation=self.segmentation,
+            preprocessor=self.preprocessor,
+            start=self.start,
+            frames=frames,
         )

@@ -16,6 +16,7 @@ from regkit.cli.options import (
     MethodName,
     PluginFiles,
     PreprocessorName,
+    Segmentation,
     Settings,
     Strict,
     TemplateName,
@@ -38,6 +39,7 @@ def track(
     ],
     template: TemplateName = None,
     method: MethodName = None,
+    segmentation: Segmentation = None,
     preprocessor: PreprocessorName = None,
     tracker: Annotated[
         str | None,
@@ -73,7 +75,9 @@ def track(
     """Track a template through a recording; the first frame's pose is found automatically."""
     run_plugin_files(plugin)
     named = {"template": template, "method": method, "preprocessor": preprocessor}
-    choices, name = Choices.of({**named, "tracker": tracker}, settings or ())
+    choices, name = Choices.of(
+        {**named, "segmentation": segmentation, "tracker": tracker}, settings or ()
+    )
     data = Dataset.in_folder(folder, frames=frames)
     with options(**{"dataset.recordings": "--recording"}):
         chosen = Dataset.parse(data, place="FOLDER", field="dataset").only(recording)
@@ -84,6 +88,7 @@ def track(
             chosen,
             choices.template,
             choices.method,
+            segmentation=choices.segmentation,
             preprocessor=choices.preprocessor,
             tracker=choices.tracker,
             start=choices.start,

@@ -58,9 +58,7 @@ class Chain(BoundSegmenter):
     steps: tuple[BoundSegmenter, ...]
 
     @classmethod
-    def of(
-        cls, segmenters: Sequence[Segmenter], recording: Recording, template: Template
-    ) -> Chain:
+    def of(cls, segmenters: Sequence[Segmenter], recording: Recording, template: Template) -> Chain:
         """Binds segmenters to a recording, each to what those before it leave.
 
         Raises:
@@ -94,9 +92,7 @@ class SegmentedRecording(Recording):
     @classmethod
     def of(cls, whole: Recording, segmenter: BoundSegmenter) -> SegmentedRecording:
         """Returns the segmented frames of a recording."""
-        return cls(
-            whole.name, whole.fps, whole.length, whole, segmenter, subject=whole.subject
-        )
+        return cls(whole.name, whole.fps, whole.length, whole, segmenter, subject=whole.subject)
 
     def frames(self) -> Iterator[Frame]:
         """Yields all frames, segmented."""

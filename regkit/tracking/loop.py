@@ -8,7 +8,6 @@ from dataclasses import dataclass
 
 from regkit.interfaces import (
     BoundSegmenter,
-    BoundTracker,
     Expected,
     Past,
     Preprocessor,
@@ -21,6 +20,7 @@ from regkit.observation import Frame, Observation
 from regkit.skeleton import Pose
 from regkit.system.compiled import loaded_loops
 from regkit.system.errors import NoDataError, RegkitError
+from regkit.tracking.segmented import segmented
 
 
 @dataclass(frozen=True)
@@ -70,7 +70,7 @@ def tracked(
     def step(frame: Frame) -> TrackedFrame:
         begun = time.perf_counter()
         try:
-            left = segmenter.segmented(frame, Expected.of(registrar.body, past))
+            left = segmented(segmenter, frame, Expected.of(registrar.body, past))
             observation = preprocessor.preprocess(left)
         except NoDataError as error:
             seconds = time.perf_counter() - begun
@@ -94,4 +94,3 @@ def tracked(
         else:
             past = past.followed_by(found.registered)
         yield found
-

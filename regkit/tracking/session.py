@@ -25,6 +25,7 @@ from regkit.start import Start, found_start, given_start
 from regkit.system.errors import ConfigError, NoDataError, RegkitError
 from regkit.tracking.extent import check_extent, tell_bound
 from regkit.tracking.loop import TrackedFrame, tracked
+from regkit.tracking.segmented import segmented
 
 
 @dataclass(frozen=True)
@@ -65,7 +66,8 @@ class Session:
             if len(left.points):
                 return self.preprocessor(left)
         raise NoDataError(
-            "no frame has a measurement that may be the body's", place=self.recording.name
+            "no frame has a measurement that may be the body's (segmentation)",
+            place=self.recording.name,
         )
 
     def begin(self) -> Start:
@@ -96,9 +98,7 @@ class Session:
         Raises:
             RegkitError: If a frame cannot be read or registered; the error names it.
         """
-        return tracked(
-            self.recording, self.segmenter, self.observes, registrar, tracker, pose
-        )
+        return tracked(self.recording, self.segmenter, self.observes, registrar, tracker, pose)
 
     def observation(self, index: int, expected: Expected | None = None) -> Observation:
         """Returns the data of a frame.
@@ -141,7 +141,7 @@ class Session:
         self, index: int, frame: Frame, expected: Expected | None = None
     ) -> Observation:
         try:
-            return self.observes.preprocess(self.segmenter.segmented(frame, expected))
+            return self.observes.preprocess(segmented(self.segmenter, frame, expected))
         except RegkitError as error:
             raise error.at(frame.place or f"{self.recording.name}: frame {index}") from None
 

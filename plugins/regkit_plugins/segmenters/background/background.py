@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Annotated, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field
 from scipy.ndimage import minimum_filter
 
@@ -64,7 +65,7 @@ class Background(Segmenter):
         images = list(_images(learned_from, self.frames))
         if len(images) < least:
             raise DataError(
-                f"{len(images)} frames do not show what is static; at least {FEWEST} do, or give an "
+                f"{len(images)} frames do not show what is static; at least {FEWEST} do, or an "
                 "empty recording (segmentation.background.empty)",
                 place=recording.name,
             )
@@ -89,7 +90,7 @@ class BoundBackground(BoundSegmenter):
         return frame.only(in_front(frame, self.static, self.margin))
 
 
-def in_front(frame: Frame, static: StaticDepth, margin: float) -> Array:
+def in_front(frame: Frame, static: StaticDepth, margin: float) -> NDArray[np.bool_]:
     """Returns a mask (N,) of the points of a frame that are in front of the background.
 
     Raises:

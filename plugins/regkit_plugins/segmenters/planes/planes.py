@@ -31,8 +31,8 @@ class Planes(Segmenter):
 
     kind: Literal["planes"] = "planes"
 
-    least: Annotated[float, Field(ge=0.05, le=100.0)] = 0.6
-    """Least extent of a plane along both of its axes, in sizes of the body."""
+    least: Annotated[float, Field(ge=0.01, le=1e4)] = 0.3
+    """Least area of a plane, in squares of the body's size; a body shows about 0.2 at most."""
     most: Annotated[int, Field(ge=1, le=100)] = 6
     """Largest number of planes."""
     moving_camera: bool = False

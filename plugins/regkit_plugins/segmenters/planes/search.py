@@ -30,6 +30,9 @@ ROUNDS = 12
 BEYOND = 0.05
 """Largest share of the points behind a plane that bounds the scene."""
 
+NARROWEST = 0.35
+"""Least extent of a plane across its longest axis, in sizes of the body: a trunk is narrower."""
+
 PERCENTILES = (5.0, 95.0)
 """Percentiles between which a plane's extent is measured, without stray points."""
 
@@ -44,12 +47,14 @@ def bounding_planes(points: Array, size: float, least: float, most: int) -> Iter
     Args:
         points: Points in the camera frame, (N, 3) [m].
         size: Size of the body [m].
-        least: Least extent of a plane along both of its axes, in sizes of the body.
+        least: Least area of a plane, in squares of the body's size.
         most: Largest number of planes.
     """
     random = np.random.default_rng(0)
     points = voxel_downsampled(points, VOXEL * size)
+    each = (VOXEL * size) ** 2
     if len(points) > MOST_POINTS:
+        each *= len(points) / MOST_POINTS
         points = points[random.choice(len(points), MOST_POINTS, replace=False)]
     margin, found, rest = 0.5 * VOXEL * size, 0, points
     for _ in range(ROUNDS):
@@ -59,7 +64,8 @@ def bounding_planes(points: Array, size: float, least: float, most: int) -> Iter
         if plane is None:
             return
         inside = plane.holds(rest)
-        if _is_large(rest[inside], least * size) and _bounds(plane, points):
+        large = inside.sum() * each >= least * size**2
+        if large and _is_wide(rest[inside], NARROWEST * size) and _bounds(plane, points):
             found += 1
             yield plane
         rest = rest[~inside]
@@ -68,7 +74,7 @@ def bounding_planes(points: Array, size: float, least: float, most: int) -> Iter
 def _largest(points: Array, margin: float, random: np.random.Generator) -> Plane | None:
     """Returns the plane with the most points (N, 3), or None if all candidates are degenerate."""
     seeds = random.choice(len(points), TRIALS)
-    around = KDTree(points).query(points[seeds], k=NEIGHBOURS)[1]
+    around = np.asarray(KDTree(points).query(points[seeds], k=NEIGHBOURS)[1])
     chosen = random.integers(1, NEIGHBOURS, (2, TRIALS))
     first, second = (points[around[np.arange(TRIALS), one]] - points[seeds] for one in chosen)
     normals = np.cross(first, second)
@@ -104,7 +110,7 @@ def _fitted(points: Array, margin: float, weights: Array) -> Plane:
     return Plane(normal, offset, margin, min(noise, NOISE))
 
 
-def _is_large(points: Array, least: float) -> bool:
+def _is_wide(points: Array, least: float) -> bool:
     """Returns whether points (N, 3) of a plane extend over ``least`` [m] along both of its axes."""
     if len(points) < 3:
         return False
