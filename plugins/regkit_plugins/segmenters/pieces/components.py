@@ -2,15 +2,24 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 import numpy as np
 from scipy.ndimage import label
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
+from regkit.clouds import spacing
 from regkit.observation import Frame
 from regkit.system.arrays import Array, Indices
 
 NOISE = 0.003
 """Step between neighbouring pixels that is allowed at a depth of 1 m, beside the gap [m]; steps of
 a depth camera grow with the square of the depth."""
+
+
+SPARSE = 2.0
+"""Sides of the cubes of a cloud are at least this many times its spacing."""
 
 
 def components(frame: Frame, gap: float) -> Indices:
@@ -54,8 +63,25 @@ def _bonded(first: Array, second: Array, gap: float) -> Array:
 
 def _of_cloud(points: Array, gap: float) -> Indices:
     """Returns the component of each point, (N,), of a cloud (N, 3) [m]."""
-    cells = np.floor(points / gap).astype(np.int64)
-    cells -= cells.min(axis=0)
-    occupied = np.zeros(cells.max(axis=0) + 1, dtype=bool)
-    occupied[tuple(cells.T)] = True
-    return np.asarray(label(occupied, structure=np.ones((3, 3, 3)))[0][tuple(cells.T)])
+    # Points in neighbouring cubes may be two sides apart.
+    side = max(0.5 * gap, SPARSE * spacing(points))
+    cells = np.floor(points / side).astype(np.int64)
+    cells -= cells.min(axis=0) - 1
+    _, height, depth = cells.max(axis=0) + 2
+    steps = np.array([height * depth, depth, 1])
+    # A scene may be large and mostly empty: only occupied cubes are held, by their numbers.
+    occupied, cell = np.unique(cells @ steps, return_inverse=True)
+    firsts, seconds = [], []
+    for step in HALF_AROUND @ steps:
+        at = np.searchsorted(occupied, occupied + step)
+        at[at == len(occupied)] = 0
+        first = np.flatnonzero(occupied[at] == occupied + step)
+        firsts.append(first)
+        seconds.append(at[first])
+    first, second = np.concatenate(firsts), np.concatenate(seconds)
+    bonds = coo_array((np.ones(len(first), dtype=bool), (first, second)), 2 * (len(occupied),))
+    return np.asarray(connected_components(bonds, directed=False)[1][cell.ravel()])
+
+
+HALF_AROUND = np.array([step for step in product((-1, 0, 1), repeat=3) if step > (0, 0, 0)])
+"""Steps (13, 3) to one of each two opposite neighbours of a cube."""

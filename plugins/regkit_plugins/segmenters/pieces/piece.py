@@ -89,11 +89,14 @@ class Piece:
 
     @cached_property
     def cut(self) -> bool:
-        """Whether the piece touches the border of the image, beyond which it may continue."""
-        camera, pixels = self.frame.camera, self.frame.pixels
-        if camera is None or pixels is None:
-            return False
-        rows, columns = np.divmod(pixels[self.at], camera.width)
+        """Whether the piece may continue beyond the border of the image.
+
+        The border of a cloud without a camera is unknown.
+        """
+        camera = self.frame.camera
+        if camera is None:
+            return True
+        columns, rows = camera.projected(self.frame.points[self.at]).T
         edge = (rows < BORDER) | (rows >= camera.height - BORDER)
         edge |= (columns < BORDER) | (columns >= camera.width - BORDER)
         return bool(edge.sum() >= FEWEST)
