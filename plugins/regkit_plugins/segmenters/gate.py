@@ -9,21 +9,22 @@ from regkit.config.quantities import Length
 from regkit.interfaces import BoundSegmenter, Expected, Recording, Segmenter, Template
 from regkit.observation import Frame
 
-DISTANCE = 0.12
+DISTANCE = 0.15
 """Default distance, as a fraction of the body's size: a fast arm's way in a frame."""
 
 
 class Gate(Segmenter):
     """Removes points farther from the last body than it may have moved.
 
-    It has no effect before the start. In each frame without data the distance grows, and the last
-    motion adds to it.
+    It has no effect before the start and where the last motion is unknown: in the first two frames,
+    in which a tracker may still correct a limb of the start, and after frames without data. The
+    last motion adds to the distance.
     """
 
     kind: Literal["gate"] = "gate"
 
     distance: Length | None = None
-    """Largest distance from the last body [m]; by default 12 % of the body's size."""
+    """Largest distance from the last body [m]; by default 15 % of the body's size."""
 
     def bind(self, recording: Recording, template: Template) -> BoundGate:
         """Binds the gate, which reads no frame."""
@@ -42,8 +43,7 @@ class BoundGate(BoundSegmenter):
 
     def segmented(self, frame: Frame, expected: Expected | None) -> Frame:
         """Returns the frame with the points near the last body."""
-        if expected is None:
+        if expected is None or expected.before is None:
             return frame
         distance = self.distance or DISTANCE * expected.body.size
-        reach = distance * (1 + expected.missed) + expected.motion
-        return frame.only(expected.within(frame.points, reach))
+        return frame.only(expected.within(frame.points, distance + expected.motion))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from scipy.ndimage import binary_dilation
@@ -17,6 +18,10 @@ the way, such as a table, and to a part that another part of the body hides."""
 
 LIMBS = 0.02
 """Least area of a piece that is added, as a part of the body's."""
+
+FRAGMENT, CLOSE = 0.15, 0.06
+"""Largest area of a fragment, as a part of the body's, and its largest distance, in sizes of the
+body."""
 
 FLAT = 0.4
 """A piece of this flatness is no limb."""
@@ -47,11 +52,13 @@ def grown(seed: Piece, pieces: Sequence[Piece], figure: Figure) -> tuple[Piece, 
         figure: The body.
     """
     cost = figure.cost(seed)
-    rest = [piece for piece in pieces if piece is not seed and piece.area >= LIMBS * figure.area]
+    rest = [piece for piece in pieces if piece is not seed]
     grows = True
     while grows:
         grows = False
         for piece in rest:
+            if piece.area < LIMBS * figure.area:
+                continue
             grace = _grace(seed, piece, figure)
             if grace is None:
                 continue
@@ -61,7 +68,18 @@ def grown(seed: Piece, pieces: Sequence[Piece], figure: Figure) -> tuple[Piece, 
                 seed, cost, grows = both, larger, True
                 rest = [other for other in rest if other is not piece]
                 break
-    return seed, cost
+    return with_fragments(seed, rest, figure), cost
+
+
+def with_fragments(body: Piece, others: Sequence[Piece], figure: Figure) -> Piece:
+    """Returns a body with the others that are as small as a part of a limb and close to it.
+
+    Noise cuts off hands, which a tracker that lost them does not expect there.
+    """
+    small = [piece for piece in others if piece.area <= FRAGMENT * figure.area]
+    tree, close = KDTree(body.sample), CLOSE * figure.size
+    near = [piece.at for piece in small if np.min(tree.query(piece.sample)[0]) <= close]
+    return replace(body, at=np.sort(np.concatenate([body.at, *near])))
 
 
 def _grace(first: Piece, second: Piece, figure: Figure) -> float | None:

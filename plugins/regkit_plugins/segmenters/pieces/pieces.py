@@ -15,7 +15,7 @@ from regkit.observation import Frame
 from regkit.system.errors import DataError
 from regkit_plugins.segmenters.pieces.components import components
 from regkit_plugins.segmenters.pieces.figure import LEAST_FIT, Figure
-from regkit_plugins.segmenters.pieces.growth import grown
+from regkit_plugins.segmenters.pieces.growth import grown, with_fragments
 from regkit_plugins.segmenters.pieces.motion import Motion
 from regkit_plugins.segmenters.pieces.piece import Piece
 
@@ -146,14 +146,9 @@ class BoundPieces(BoundSegmenter):
             return None
         reach = NEAR * expected.body.size * (1 + expected.missed) + expected.motion
         near = expected.within(pieces[0].frame.points, reach)
-        found = [piece.at for piece in pieces if near[piece.at].mean() >= 0.5]
-        if not found:
+        found = [piece for piece in pieces if near[piece.at].mean() >= 0.5]
+        if sum(piece.area for piece in found) < self.settings.least * self.figure.area:
             return None
-        whole = replace(pieces[0], at=np.sort(np.concatenate(found)))
-        return whole if whole.area >= self.settings.least * self.figure.area else None
-
-
-def _with_distance(fit: tuple[Piece, float]) -> float:
-    """Returns the cost of a piece and of its depth, but for a constant."""
-    piece, cost = fit
-    return cost + FARTHER * float(np.log(piece.depth))
+        others = [piece for piece in pieces if all(piece is not one for one in found)]
+        whole = replace(found[0], at=np.sort(np.concatenate([piece.at for piece in found])))
+        return with_fragments(whole, others, self.figure)

@@ -44,7 +44,12 @@ class Plane:
         """Returns the half thickness (N,) [m] of the plane where points (N, 3) are."""
         return np.asarray(np.maximum(self.margin, DEVIATIONS * self.noise * points[:, 2] ** 2))
 
-    def holds(self, points: Array) -> NDArray[np.bool_]:
-        """Returns a mask (N,) of the points (N, 3) [m] in the plane, or a little behind it."""
+    def holds(self, points: Array, part: float = 1.0) -> NDArray[np.bool_]:
+        """Returns a mask (N,) of the points in the plane, or a little behind it.
+
+        Args:
+            points: Points, (N, 3) [m].
+            part: Part of the plane's thickness that counts, on the camera's side.
+        """
         heights, half = self.heights(points), self.thickness(points)
-        return np.asarray((heights < half) & (heights > -BELOW * half))
+        return np.asarray((heights < part * half) & (heights > -BELOW * half))

@@ -6,7 +6,9 @@ from dataclasses import dataclass
 from typing import Annotated, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field
+from scipy.ndimage import uniform_filter
 
 from regkit.interfaces import BoundSegmenter, Expected, Recording, Segmenter, Template
 from regkit.observation import Frame
@@ -17,6 +19,13 @@ from regkit_plugins.segmenters.sampling import sampled
 
 FRAMES = 3
 """Number of frames, spread over the recording, in which the planes are sought."""
+
+SURE = 0.5
+"""Points within this part of a plane's thickness are the plane's, even beside a foot."""
+
+BESIDE, MANY = 5, 0.4
+"""Width of the neighbourhood of a pixel [px], and the share of it that has to be kept, for a point
+in the outer part of a plane to be taken as a foot's. The noise of a floor is nowhere as dense."""
 
 LEVEL = np.cos(np.radians(45.0))
 """A plane is taken as the floor if its normal is within this cosine of the image's upright."""
@@ -83,7 +92,24 @@ class BoundPlanes(BoundSegmenter):
         planes = self.planes
         if self.settings.moving_camera and len(frame.points):
             planes = self.found(frame.points)
-        removed = np.zeros(len(frame.points), dtype=bool)
+        removed, sure = np.zeros((2, len(frame.points)), dtype=bool)
         for plane in planes:
             removed |= plane.holds(frame.points)
-        return frame.only(~removed, free=removed)
+            sure |= plane.holds(frame.points, SURE)
+        kept = ~removed | (_beside(frame, ~removed) & ~sure)
+        return frame.only(kept, free=removed)
+
+
+def _beside(frame: Frame, kept: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Returns a mask (N,) of the points of an image that are beside many that are kept.
+
+    Args:
+        frame: The frame.
+        kept: Mask (N,) of the points that are kept.
+    """
+    pixels = frame.pixels
+    if pixels is None or frame.depth is None:
+        return np.zeros_like(kept)
+    image = np.zeros(frame.depth.shape)
+    image.flat[pixels[kept]] = 1.0
+    return np.asarray(uniform_filter(image, BESIDE).flat[pixels] >= MANY)
