@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from regkit.api import (
         Camera,
         CloudAlignment,
+        Preview,
         Registration,
         RegkitError,
         RegkitWarning,
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
         load_frame,
         load_recording,
         load_template,
+        preview,
         register,
         track,
     )
@@ -33,6 +35,7 @@ __version__ = "0.2.0"
 __all__ = [
     "Camera",
     "CloudAlignment",
+    "Preview",
     "Registration",
     "RegkitError",
     "RegkitWarning",
@@ -45,6 +48,7 @@ __all__ = [
     "load_frame",
     "load_recording",
     "load_template",
+    "preview",
     "register",
     "track",
 ]

@@ -3,6 +3,7 @@
 from regkit.api.aligning import CloudAlignment, align
 from regkit.api.choices import load_template
 from regkit.api.frame_files import load_frame
+from regkit.api.previewing import Preview, preview
 from regkit.api.recordings import load_recording
 from regkit.api.registering import register, track
 from regkit.api.registration import Registration
@@ -16,6 +17,7 @@ from regkit.tracking import Verdict
 __all__ = [
     "Camera",
     "CloudAlignment",
+    "Preview",
     "Registration",
     "RegkitError",
     "RegkitWarning",
@@ -27,6 +29,7 @@ __all__ = [
     "load_frame",
     "load_recording",
     "load_template",
+    "preview",
     "register",
     "track",
 ]

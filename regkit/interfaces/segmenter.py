@@ -53,9 +53,11 @@ class Chain(BoundSegmenter):
 
     Attributes:
         steps: The segmenters.
+        names: Their kinds.
     """
 
-    steps: tuple[BoundSegmenter, ...]
+    steps: tuple[BoundSegmenter, ...] = ()
+    names: tuple[str, ...] = ()
 
     @classmethod
     def of(cls, segmenters: Sequence[Segmenter], recording: Recording, template: Template) -> Chain:
@@ -64,11 +66,20 @@ class Chain(BoundSegmenter):
         Raises:
             RegkitError: If a frame cannot be read, or the recording does not suit a segmenter.
         """
-        chain = cls(())
+        chain = cls()
         for segmenter in segmenters:
             left = SegmentedRecording.of(recording, chain) if chain.steps else recording
-            chain = cls((*chain.steps, segmenter.bind(left, template)))
+            steps = (*chain.steps, segmenter.bind(left, template))
+            chain = cls(steps, (*chain.names, segmenter.kind))
         return chain
+
+    def named_steps(self) -> Iterator[tuple[str, BoundSegmenter]]:
+        """Yields the names and segmenters of all steps, with those of chains within the chain."""
+        for name, step in zip(self.names, self.steps, strict=True):
+            if isinstance(step, Chain):
+                yield from step.named_steps()
+            else:
+                yield name, step
 
     def segmented(self, frame: Frame, expected: Expected | None) -> Frame:
         """Returns the frame after all steps."""

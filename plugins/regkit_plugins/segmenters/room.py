@@ -49,7 +49,7 @@ class Room(Segmenter):
         """Compares a few frames with the template, and binds what is needed."""
         frames = list(sampled(recording, FRAMES))
         if not any(_is_larger(frame, template) for frame in frames):
-            return Chain(())
+            return Chain()
         extent = max(extent_of(frame.points) for frame in frames)
         steps = (self.planes, self.gate, self.pieces)
         chain = Chain.of(steps, recording, template)
