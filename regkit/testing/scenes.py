@@ -44,7 +44,7 @@ class SceneTemplate(Template):
 
 
 @dataclass(frozen=True)
-class Scene(Recording):
+class WallScene(Recording):
     """Depth images, or clouds, of a body that moves to the right before a wall.
 
     Attributes:

@@ -14,7 +14,7 @@ from regkit.observation import Frame
 from regkit.system.errors import RegkitError
 from regkit.system.notes import RegkitWarning
 from regkit.testing.laws import Laws
-from regkit.testing.scenes import Scene, SceneTemplate
+from regkit.testing.scenes import SceneTemplate, WallScene
 from regkit.testing.verdict import copied, require, same
 
 LENGTH = 8
@@ -28,23 +28,27 @@ class SegmenterLaws(Laws):
     """Laws of segmenters."""
 
     @pytest.fixture
-    def scene(self) -> Scene:
+    def wall_scene(self) -> WallScene:
         """Returns a body that moves before a wall."""
         return _scene(images=True)
 
     @pytest.fixture
-    def shots(self, scene: Scene) -> tuple[Frame, ...]:
+    def wall_frames(self, wall_scene: WallScene) -> tuple[Frame, ...]:
         """Returns the frames of the scene."""
-        return scene.shots
+        return wall_scene.shots
 
     @pytest.mark.parametrize("known", [False, True], ids=["at the start", "in tracking"])
     def test_segmenter_keeps_some_of_the_points(
-        self, segmenter: Segmenter, scene: Scene, shots: tuple[Frame, ...], known: bool
+        self,
+        segmenter: Segmenter,
+        wall_scene: WallScene,
+        wall_frames: tuple[Frame, ...],
+        known: bool,
     ) -> None:
         """Points stay as they are, and the image holds them; other pixels are 0 or NaN."""
-        bound = _bound(segmenter, scene)
-        frame, at = shots[-1], type(bound).segmented
-        left = bound.segmented(frame, _expected(scene) if known else None)
+        bound = _bound(segmenter, wall_scene)
+        frame, at = wall_frames[-1], type(bound).segmented
+        left = bound.segmented(frame, _expected(wall_scene) if known else None)
         rows = {point.tobytes() for point in frame.points}
         require(
             all(point.tobytes() in rows for point in left.points), segmenter,
@@ -68,12 +72,12 @@ class SegmenterLaws(Laws):
         )  # fmt: skip
 
     def test_segmenter_keeps_the_body(
-        self, segmenter: Segmenter, scene: Scene, shots: tuple[Frame, ...]
+        self, segmenter: Segmenter, wall_scene: WallScene, wall_frames: tuple[Frame, ...]
     ) -> None:
         """Of a body that moves before a wall, at least half is kept where it was expected."""
-        bound = _bound(segmenter, scene)
-        left = bound.segmented(shots[-1], _expected(scene))
-        body = scene.shown(LENGTH - 1)
+        bound = _bound(segmenter, wall_scene)
+        left = bound.segmented(wall_frames[-1], _expected(wall_scene))
+        body = wall_scene.shown(LENGTH - 1)
         assert left.depth is not None
         share = float((left.depth > 0.0)[body].mean())
         require(
@@ -82,15 +86,15 @@ class SegmenterLaws(Laws):
         )  # fmt: skip
 
     def test_segmenter_has_no_state(
-        self, segmenter: Segmenter, scene: Scene, shots: tuple[Frame, ...]
+        self, segmenter: Segmenter, wall_scene: WallScene, wall_frames: tuple[Frame, ...]
     ) -> None:
         """A frame gives the same after others, and is not modified."""
-        bound = _bound(segmenter, scene)
-        frame, at = shots[2], type(bound).segmented
+        bound = _bound(segmenter, wall_scene)
+        frame, at = wall_frames[2], type(bound).segmented
         before = copied((frame.points, frame.depth))
         first = bound.segmented(frame, None)
-        for other in shots[5:]:
-            bound.segmented(other, _expected(scene))
+        for other in wall_frames[5:]:
+            bound.segmented(other, _expected(wall_scene))
         again = bound.segmented(frame, None)
         require(
             same((first.points, first.depth), (again.points, again.depth)), segmenter,
@@ -101,13 +105,13 @@ class SegmenterLaws(Laws):
         )
 
     def test_segmenter_passes_an_empty_frame(
-        self, segmenter: Segmenter, scene: Scene, shots: tuple[Frame, ...]
+        self, segmenter: Segmenter, wall_scene: WallScene, wall_frames: tuple[Frame, ...]
     ) -> None:
         """A frame without points stays one without points."""
-        bound = _bound(segmenter, scene)
-        depth = np.zeros_like(shots[0].depth)
-        empty = replace(shots[0], points=np.zeros((0, 3)), depth=depth)
-        left = bound.segmented(empty, _expected(scene))
+        bound = _bound(segmenter, wall_scene)
+        depth = np.zeros_like(wall_frames[0].depth)
+        empty = replace(wall_frames[0], points=np.zeros((0, 3)), depth=depth)
+        left = bound.segmented(empty, _expected(wall_scene))
         require(
             not len(left.points), segmenter, "makes points of an empty frame",
             look_at=type(bound).segmented,
@@ -128,16 +132,16 @@ class SegmenterLaws(Laws):
 
 
 @lru_cache
-def _scene(images: bool) -> Scene:
+def _scene(images: bool) -> WallScene:
     """Returns the scene, made once for all laws."""
-    return Scene("scene", 30.0, LENGTH, images=images)
+    return WallScene("scene", 30.0, LENGTH, images=images)
 
 
-def _bound(segmenter: Segmenter, scene: Scene) -> BoundSegmenter:
+def _bound(segmenter: Segmenter, scene: WallScene) -> BoundSegmenter:
     with warnings.catch_warnings(action="ignore", category=RegkitWarning):
         return segmenter.bind(scene, SceneTemplate())
 
 
-def _expected(scene: Scene) -> Expected:
+def _expected(scene: WallScene) -> Expected:
     """Returns the body in the last frame but one."""
     return Expected(scene.body, scene.pose(LENGTH - 2), scene.pose(LENGTH - 3))
