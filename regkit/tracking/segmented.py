@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from regkit.interfaces import BoundSegmenter, Expected
 from regkit.observation import Frame
+from regkit.system.arrays import checked_points
 from regkit.system.errors import NoDataError
 
 
@@ -11,8 +12,10 @@ def segmented(segmenter: BoundSegmenter, frame: Frame, expected: Expected | None
     """Returns what a segmenter leaves of a frame.
 
     Raises:
+        DataError: If a coordinate is not finite.
         NoDataError: If it leaves no point of a frame that has some.
     """
+    checked_points(frame.points, place=frame.place)
     left = segmenter.segmented(frame, expected)
     if len(frame.points) and not len(left.points):
         raise NoDataError(

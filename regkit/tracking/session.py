@@ -23,7 +23,7 @@ from regkit.observation import Frame, Observation
 from regkit.skeleton import Pose, PoseDescription
 from regkit.start import Start, found_start, given_start
 from regkit.system.errors import ConfigError, NoDataError, RegkitError
-from regkit.tracking.extent import check_extent, tell_bound
+from regkit.tracking.extent import check_extent, check_unit, tell_bound
 from regkit.tracking.loop import TrackedFrame, tracked
 from regkit.tracking.segmented import segmented
 
@@ -53,7 +53,15 @@ class Session:
 
     @cached_property
     def segmenter(self) -> Chain:
-        """The segmenters, bound to the recording when they are first needed."""
+        """The segmenters, bound to the recording when they are first needed.
+
+        Raises:
+            RegkitError: If the data have another unit than the template, or suit no segmenter.
+        """
+        for frame in self.recording.frames() if self.segmentation else ():
+            if len(frame.points):
+                check_unit(frame.points, self.template, place=self.recording.name)
+                break
         return Chain.of(self.segmentation, self.recording, self.template)
 
     @cached_property

@@ -12,7 +12,7 @@ from regkit.system.notes import note
 from regkit.tracking.extent import LARGE, extent_of
 from regkit_plugins.segmenters.gate import Gate
 from regkit_plugins.segmenters.pieces import Pieces
-from regkit_plugins.segmenters.pieces.figure import Figure
+from regkit_plugins.segmenters.pieces.figure import Figure, has_surface
 from regkit_plugins.segmenters.pieces.piece import Piece
 from regkit_plugins.segmenters.pieces.pieces import BoundPieces
 from regkit_plugins.segmenters.planes import Planes
@@ -47,7 +47,9 @@ class Room(Segmenter):
 
     def bind(self, recording: Recording, template: Template) -> Chain:
         """Compares a few frames with the template, and binds what is needed."""
-        frames = list(sampled(recording, FRAMES))
+        # A body without a surface shows no area, and nothing can be told from it.
+        known = has_surface(template.body(template.candidate_sizes()[0]))
+        frames = list(sampled(recording, FRAMES)) if known else []
         if not any(_is_larger(frame, template) for frame in frames):
             return Chain()
         extent = max(extent_of(frame.points) for frame in frames)

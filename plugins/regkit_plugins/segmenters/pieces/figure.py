@@ -10,6 +10,7 @@ import numpy as np
 from regkit.body import Body
 from regkit.interfaces import Template
 from regkit.system.arrays import Array
+from regkit.system.errors import ConfigError
 from regkit_plugins.segmenters.pieces.piece import Piece, roundness
 
 CELLS = 50
@@ -56,9 +57,19 @@ class Figure:
 
     @classmethod
     def of(cls, template: Template) -> Self:
-        """Returns the medians of a template over its stances, seen from front, side and top."""
+        """Returns the medians of a template over its stances, seen from front, side and top.
+
+        Raises:
+            ConfigError: If the template has no surface.
+        """
         size = float(np.median(template.candidate_sizes()))
-        clouds = _clouds(template.body(size))
+        body = template.body(size)
+        if not has_surface(body):
+            raise ConfigError(
+                f"the template '{template.name()}' has no capsules and no surface, to which a "
+                "piece of the scene would fit; leave out the segmenters pieces and room"
+            )
+        clouds = _clouds(body)
         views = [_visible(cloud, axis, size / CELLS) for cloud in clouds for axis in range(3)]
         areas = [len(points) * (size / CELLS) ** 2 for points in views]
         return cls(
@@ -88,15 +99,17 @@ class Figure:
         return max(0.0, 1.0 - roundness(piece.sample, self.size) / max(self.roundness, 1e-9))
 
 
+def has_surface(body: Body) -> bool:
+    """Returns whether a body has capsules or a surface, which show an area."""
+    return bool(len(body.capsules)) or body.surface is not None
+
+
 def _clouds(body: Body) -> list[Array]:
     """Returns points (N, 3) [m] in the body, or on its surface, in each stance."""
     poses = [stance.pose for stance in body.stances] or [body.skeleton.rest()]
     places = [body.place(pose).transforms for pose in poses]
-    if not len(body.capsules):
-        return [
-            transforms[:, :3, 3] if body.surface is None else body.surface.place(transforms)
-            for transforms in places
-        ]
+    if body.surface is not None and not len(body.capsules):
+        return [body.surface.place(transforms) for transforms in places]
     axes = body.capsules.axis_points(body.size / CELLS)
     around = axes.radii[:, None, None] * _sphere(POINTS)
     return [(axes.place(at)[:, None] + around).reshape(-1, 3) for at in places]
