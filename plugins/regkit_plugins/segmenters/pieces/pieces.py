@@ -96,6 +96,8 @@ class BoundPieces(BoundSegmenter):
 
     def pieces(self, frame: Frame) -> list[Piece]:
         """Returns all pieces of a frame from the nearest to the farthest."""
+        if not len(frame.points):
+            return []
         gap = self.settings.gap or GAP * float(np.median(self.template.candidate_sizes()))
         labels = components(frame, gap)
         ends = np.cumsum(np.bincount(labels))[:-1]

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
-from scipy.ndimage import uniform_filter
+from scipy.ndimage import minimum_filter, uniform_filter
 
 from regkit.interfaces import BoundSegmenter, Expected, Recording, Segmenter, Template
 from regkit.observation import Frame
@@ -26,6 +26,9 @@ SURE = 0.5
 BESIDE, MANY = 5, 0.4
 """Width of the neighbourhood of a pixel [px], and the share of it that has to be kept, for a point
 in the outer part of a plane to be taken as a foot's. The noise of a floor is nowhere as dense."""
+
+CONTACT = 0.06
+"""Points of a plane within this depth of others beside them may be a sole's, in body sizes."""
 
 LEVEL = np.cos(np.radians(45.0))
 """A plane is taken as the floor if its normal is within this cosine of the image's upright."""
@@ -97,7 +100,7 @@ class BoundPlanes(BoundSegmenter):
             removed |= plane.holds(frame.points)
             sure |= plane.holds(frame.points, SURE)
         kept = ~removed | (_beside(frame, ~removed) & ~sure)
-        return frame.only(kept, free=removed)
+        return frame.only(kept, free=removed & ~_touching(frame, kept, CONTACT * self.size))
 
 
 def _beside(frame: Frame, kept: NDArray[np.bool_]) -> NDArray[np.bool_]:
@@ -113,3 +116,22 @@ def _beside(frame: Frame, kept: NDArray[np.bool_]) -> NDArray[np.bool_]:
     image = np.zeros(frame.depth.shape)
     image.flat[pixels[kept]] = 1.0
     return np.asarray(uniform_filter(image, BESIDE).flat[pixels] >= MANY)
+
+
+def _touching(frame: Frame, kept: NDArray[np.bool_], distance: float) -> NDArray[np.bool_]:
+    """Returns a mask (N,) of the points of an image that are close to some that are kept.
+
+    A sole within the noise of the floor is removed with it, and is not free space.
+
+    Args:
+        frame: The frame.
+        kept: Mask (N,) of the points that are kept.
+        distance: Largest difference of depths [m].
+    """
+    pixels = frame.pixels
+    if pixels is None or frame.depth is None:
+        return np.zeros_like(kept)
+    image = np.full(frame.depth.shape, np.inf)
+    image.flat[pixels[kept]] = frame.points[kept, 2]
+    near = minimum_filter(image, BESIDE).flat[pixels]
+    return np.asarray(np.abs(near - frame.points[:, 2]) <= distance)
