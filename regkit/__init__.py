@@ -28,6 +28,7 @@ if TYPE_CHECKING:
         preview,
         register,
         track,
+        track_each,
     )
 
 __version__ = "0.2.0"
@@ -51,6 +52,7 @@ __all__ = [
     "preview",
     "register",
     "track",
+    "track_each",
 ]
 
 

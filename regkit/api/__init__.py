@@ -7,6 +7,7 @@ from regkit.api.previewing import Preview, preview
 from regkit.api.recordings import load_recording
 from regkit.api.registering import register, track
 from regkit.api.registration import Registration
+from regkit.api.several import track_each
 from regkit.api.tracking import Tracking, TrackingError
 from regkit.geometry.camera import Camera
 from regkit.observation import Truth
@@ -32,4 +33,5 @@ __all__ = [
     "preview",
     "register",
     "track",
+    "track_each",
 ]

@@ -82,7 +82,7 @@ def register(
     frame = frame_of(cloud, camera, place="cloud")
     recording = GivenFrames(name=frame.place or "cloud", fps=1.0, length=1, given=(frame,))
     chosen = (template, method, segmentation, preprocessor, None, start)
-    return _tracked(recording, *chosen, "regkit.register")[0]
+    return tracked_through(recording, *chosen, "regkit.register")[0]
 
 
 @renamed_arguments(observer="preprocessor")
@@ -123,10 +123,10 @@ def track(
     """
     recording = recording_of(frames, camera, fps)
     chosen = (template, method, segmentation, preprocessor, tracker, start)
-    return _tracked(recording, *chosen, "regkit.track")
+    return tracked_through(recording, *chosen, "regkit.track")
 
 
-def _tracked(
+def tracked_through(
     recording: Recording,
     template: Choice[Template],
     method: Choice[Method] | None,
@@ -135,7 +135,22 @@ def _tracked(
     tracker: Choice[Tracker] | None,
     start: Beginning | None,
     place: str,
+    *,
+    sized_in: int = 3,
 ) -> Tracking:
+    """Returns the track of a body; the arguments are those of ``track``.
+
+    Args:
+        recording: The recording.
+        template: The body.
+        method: The method.
+        segmentation: The segmenters.
+        preprocessor: The preprocessor.
+        tracker: The tracker.
+        start: The pose in the first frame.
+        place: Name of the calling function in messages.
+        sized_in: Number of frames that determine an unknown size.
+    """
     loaded = load_template(template)
     method = Method.default() if method is None else method
     chosen = Method.parse(method, place=place, field="method")
@@ -152,6 +167,7 @@ def _tracked(
         loaded,
         preprocessor or _preprocessor_for,
         _described(start, place),
+        sized_in=sized_in,
         segmentation=segmenters_of(segmentation, place=place),
     )
     with one_thread():

@@ -6,7 +6,13 @@ from regkit.interfaces.kernel import Kernel, Response, Similarity
 from regkit.interfaces.method import Method
 from regkit.interfaces.preprocessor import Preprocessor
 from regkit.interfaces.registrar import Evaluation, Registrar, RegistrationResult
-from regkit.interfaces.segmenter import BoundSegmenter, Chain, SegmentedRecording, Segmenter
+from regkit.interfaces.segmenter import (
+    BoundSegmenter,
+    Chain,
+    SegmentedRecording,
+    Segmenter,
+    each_body,
+)
 from regkit.interfaces.shape import ShapeModel
 from regkit.interfaces.solver import (
     Constraints,
@@ -58,4 +64,5 @@ __all__ = [
     "Term",
     "Tracker",
     "VisibilityWeights",
+    "each_body",
 ]

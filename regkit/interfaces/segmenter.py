@@ -46,6 +46,39 @@ class Segmenter(Plugin, ABC):
             RegkitError: If a frame cannot be read, or the recording does not suit the segmenter.
         """
 
+    def each(self, recording: Recording, template: Template) -> tuple[Segmenter, ...]:
+        """Returns a segmenter for each body in the recording's first frame.
+
+        By default it is this one: it cannot tell bodies apart.
+
+        Args:
+            recording: The recording, after the segmenters before this one.
+            template: Template of the bodies.
+        """
+        return (self,)
+
+
+def each_body(
+    segmenters: Sequence[Segmenter], recording: Recording, template: Template
+) -> tuple[tuple[Segmenter, ...], ...]:
+    """Returns the segmentation of each body in the recording's first frame.
+
+    Args:
+        segmenters: Segmenters, the first of which that tells bodies apart is replaced.
+        recording: The recording.
+        template: Template of the bodies.
+
+    Raises:
+        RegkitError: If a frame cannot be read, or the recording does not suit a segmenter.
+    """
+    for at, segmenter in enumerate(segmenters):
+        before = Chain.of(segmenters[:at], recording, template)
+        left = SegmentedRecording.of(recording, before) if at else recording
+        found = segmenter.each(left, template)
+        if found != (segmenter,):
+            return tuple((*segmenters[:at], one, *segmenters[at + 1 :]) for one in found)
+    return (tuple(segmenters),)
+
 
 @dataclass(frozen=True)
 class Chain(BoundSegmenter):

@@ -6,7 +6,7 @@ from typing import Literal
 
 import numpy as np
 
-from regkit.interfaces import Chain, Recording, Segmenter, Template
+from regkit.interfaces import Chain, Recording, SegmentedRecording, Segmenter, Template
 from regkit.observation import Frame
 from regkit.system.notes import note
 from regkit.tracking.extent import LARGE, extent_of
@@ -57,6 +57,12 @@ class Room(Segmenter):
         chain = Chain.of(steps, recording, template)
         note(_told(frames[0], chain, extent), place=recording.name)
         return chain
+
+    def each(self, recording: Recording, template: Template) -> tuple[Room, ...]:
+        """Returns a room for each piece of the first frame that fits."""
+        left = SegmentedRecording.of(recording, self.planes.bind(recording, template))
+        pieces = self.pieces.each(left, template)
+        return tuple(self.model_copy(update={"pieces": one}) for one in pieces)
 
 
 def _is_larger(frame: Frame, template: Template) -> bool:

@@ -8,14 +8,13 @@ from scenes import recording, write_recording
 import regkit
 from regkit.config.document import Document
 from regkit.experiment import Experiment
-from regkit.interfaces import Segmenter
+from regkit.interfaces import Chain, Segmenter, each_body
 from regkit.system.errors import NoDataError
-from regkit.testing.scenes import SIZE, SceneTemplate, WallScene
+from regkit.testing.scenes import WALL, SceneTemplate, WallScene
 from regkit_plugins.segmenters.room import Room
 
 TEMPLATE = SceneTemplate()
 WALLED = WallScene("scene", 30.0, 4)
-START = {"root": {"position": [-0.4, 0.1, 2.0], "rotation_deg": [180, 0, 0]}}
 
 
 def test_room_is_the_default():
@@ -40,16 +39,6 @@ def test_body_before_a_wall_is_taken_out_and_told():
     for index, frame in enumerate(WALLED.frames()):
         seen = bound.segmented(frame, None).depth > 0.0
         np.testing.assert_array_equal(seen, WALLED.shown(index))
-
-
-@pytest.fixture(scope="module")
-def template_file(tmp_path_factory):
-    from regkit.testing.samples import LINKAGE
-
-    text = LINKAGE.read_text().replace("value: 1.0, range: [0.5, 2.0]", f"value: {SIZE}")
-    file = tmp_path_factory.mktemp("template") / "linkage.yaml"
-    file.write_text(text.replace(f"value: {SIZE}", f"value: {SIZE}, range: [{SIZE}, {SIZE}]"))
-    return file
 
 
 def test_track_in_a_room_is_that_of_the_body_alone():
@@ -106,3 +95,20 @@ def test_preview_shows_what_each_step_removes(regkit, tmp_path):
     ended = regkit("preview", nothing, "--template", told, "--segmentation", "planes", "--out", out)
     assert ended.code == 3
     assert "no point is left" in ended.err
+
+
+def test_each_body_has_its_own_segmentation():
+    """Two bodies beside each other before a wall; a board is none."""
+    one, two = WALLED.shots[0].depth, np.roll(WALLED.shots[0].depth, 70, axis=1) + 0.3
+    depth = np.minimum(one, np.minimum(two, WALL))
+    depth[125:143, 100:170] = 2.5
+    frames = recording(depth)
+    (frame,) = frames.frames()
+    each = each_body((Room(),), frames, TEMPLATE)
+    assert len(each) == 2
+    with pytest.warns(regkit.RegkitWarning, match="took the body out"):
+        lefts = [Chain.of(one, frames, TEMPLATE).segmented(frame, None) for one in each]
+    for left, shown in zip(lefts, (one < WALL, two < WALL), strict=True):
+        np.testing.assert_array_equal(left.depth > 0.0, shown)
+    gate = Segmenter.parse("gate", place="a test", field="segmentation")
+    assert each_body((gate,), frames, TEMPLATE) == ((gate,),)

@@ -18,12 +18,17 @@ from regkit_plugins.segmenters.pieces.figure import LEAST_FIT, Figure
 from regkit_plugins.segmenters.pieces.growth import grown, with_fragments
 from regkit_plugins.segmenters.pieces.motion import Motion
 from regkit_plugins.segmenters.pieces.piece import Piece
+from regkit_plugins.segmenters.sampling import sampled
 
 GAP = 0.03
 """Default distance of pieces, as a fraction of the body's size: less than the depth of a limb."""
 
 NEAR = 0.06
 """A piece that was within this distance of the last body, in sizes of the body, is a part of it."""
+
+CERTAIN, CERTAINLY_ROUND = 2.0, 0.3
+"""Of several pieces, those with a smaller cost and a smaller flatness are bodies, since furniture
+seldom is as like one."""
 
 LIKELY = 4
 """Number of pieces, those most like the body, that are compared with all that belongs to them."""
@@ -62,6 +67,22 @@ class Pieces(Segmenter):
         """
         motion = Motion.of(recording, template) if self.choose == "moving" else None
         return BoundPieces(self, template, motion)
+
+    def each(self, recording: Recording, template: Template) -> tuple[Pieces, ...]:
+        """Returns a segmenter for each piece of the first frame that fits, from near to far."""
+        frame = next(sampled(recording, 1), None)
+        bound = BoundPieces(self, template, None)
+        pieces = [] if frame is None else bound.pieces(frame)
+        numbers: list[int] = []
+        seen = np.zeros(0 if frame is None else len(frame.points), dtype=bool)
+        for number, piece in enumerate(bound.candidates(pieces)):
+            whole, cost = grown(piece, pieces, bound.figure)
+            # The part of a body that was found is no other body.
+            certain = cost < CERTAIN and bound.figure.flatness(whole) < CERTAINLY_ROUND
+            if certain and not seen[piece.at].any():
+                numbers.append(number)
+                seen[whole.at] = True
+        return tuple(self.model_copy(update={"choose": number}) for number in numbers) or (self,)
 
 
 @dataclass(frozen=True)
