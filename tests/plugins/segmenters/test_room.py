@@ -109,6 +109,8 @@ def test_each_body_has_its_own_segmentation():
     with pytest.warns(regkit.RegkitWarning, match="took the body out"):
         lefts = [Chain.of(one, frames, TEMPLATE).segmented(frame, None) for one in each]
     for left, shown in zip(lefts, (one < WALL, two < WALL), strict=True):
-        np.testing.assert_array_equal(left.depth > 0.0, shown)
+        seen = left.depth > 0.0
+        assert not (seen & ~shown).any()
+        assert seen[shown].mean() > 0.99
     gate = Segmenter.parse("gate", place="a test", field="segmentation")
     assert each_body((gate,), frames, TEMPLATE) == ((gate,),)
