@@ -12,7 +12,7 @@ from regkit.interfaces import Method
 from regkit.observation import Observation
 from regkit.search.limb_recovery import LimbRecovery
 from regkit.skeleton import Pose
-from regkit.start import Finalist, Scan
+from regkit.start import Finalist
 from regkit.system.arrays import Array
 from regkit_plugins.starts.exemplars.prior import unlikely
 
@@ -38,16 +38,15 @@ class Comparison:
     usual: float
     bound: dict[float, LimbRecovery] = field(default_factory=dict)
 
-    def finalist(self, body: Body, pose: Pose, observation: Observation, scan: Scan) -> Finalist:
+    def finalist(self, body: Body, pose: Pose, observation: Observation) -> Finalist:
         """Returns the pose after registration and a search of all limbs.
 
         Args:
             body: The body at a size.
             pose: The pose.
             observation: The frame.
-            scan: Its cloud.
         """
-        found = Finalist.of(self._limbs(body), pose, observation, scan, self.usual)
+        found = Finalist.of(self._limbs(body), pose, observation, self.usual)
         prior = unlikely(body, found.pose, observation.camera is not None)
         return replace(found, unlikely=prior)
 
