@@ -103,7 +103,7 @@ class Search:
         candidates = finder.candidates(pictures)
         chosen: list[Exemplar] = []
         for body in bodies:
-            chosen += [one for one in candidates if one.body is body][:each]
+            chosen += [one for one in candidates if one.body.size == body.size][:each]
         finalists = [self.comparison.finalist(one.body, one.pose, observation) for one in chosen]
         finalists.sort(key=_cost)
         mirroring = Mirroring.of(bodies[0].skeleton)
