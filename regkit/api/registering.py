@@ -156,6 +156,7 @@ def _tracked(
         name=recording.name,
         method=name_of(method),
         fps=recording.fps,
+        start=begin,
         registrar=registrar,
         recorder=recorder,
         indices=range(len(recorder)),

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
 from regkit.geometry.capsules import AxisPoints, Capsules
@@ -28,6 +29,7 @@ class SurfaceDistances:
         segments: Segment of each sphere, (R,).
         capsules: Capsule of each sphere, (R,).
         along: Position of the centre on the capsule's axis, from 0 to 1, (R,).
+        count: Number of distances that are known; the others are zero.
     """
 
     lengths: Array
@@ -36,6 +38,7 @@ class SurfaceDistances:
     segments: Indices
     capsules: Indices
     along: Array
+    count: int
 
     def rows(self, placement: Placement) -> Array:
         """Returns the derivative (R, n) of the distances to the degrees of freedom."""
@@ -73,13 +76,25 @@ def data_to_model(
         segments=capsules.segments[nearest],
         capsules=nearest,
         along=along,
+        count=len(points),
     )
 
 
-def model_to_data(axes: AxisPoints, cloud: KDTree) -> SurfaceDistances:
-    """Returns the distances of spheres on a body's axes, in the world, to the nearest points."""
+def model_to_data(
+    axes: AxisPoints, cloud: KDTree, observable: NDArray[np.bool_] | None = None
+) -> SurfaceDistances:
+    """Returns the distances of spheres on a body's axes, in the world, to the nearest points.
+
+    Args:
+        axes: The spheres.
+        cloud: The data.
+        observable: Mask of the spheres that the data would show, (R,); the others have the distance
+            zero. By default all of them.
+    """
     distances, nearest = cloud.query(axes.points)
     lengths = np.maximum(distances - axes.radii, 0.0)
+    if observable is not None:
+        lengths = np.where(observable, lengths, 0.0)
     offsets = np.asarray(cloud.data)[nearest] - axes.points
     return SurfaceDistances(
         lengths=lengths,
@@ -88,4 +103,5 @@ def model_to_data(axes: AxisPoints, cloud: KDTree) -> SurfaceDistances:
         segments=axes.segments,
         capsules=axes.capsules,
         along=axes.along,
+        count=len(axes.points) if observable is None else int(observable.sum()),
     )

@@ -39,7 +39,10 @@ def free_space_distances(
         x, y = points[k, 0] / z, points[k, 1] / z
         column = int(np.rint(x * scale[0] + offset[0]))
         row = int(np.rint(y * scale[1] + offset[1]))
-        if 0 <= column < columns and 0 <= row < rows and np.isfinite(nearest[column, row]):
+        if not (0 <= column < columns and 0 <= row < rows):
+            # Nothing is known beyond the picture.
+            continue
+        if np.isfinite(nearest[column, row]):
             before = nearest[column, row] - margins[k] - points[k, 2]
             if before > 0.0:
                 distances[k] = before

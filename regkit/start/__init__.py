@@ -4,10 +4,12 @@
 - ``fit``: fits of a posed body to a cloud, annealed from far to near.
 - ``sizes``: fits that are comparable between sizes.
 - ``rigid``, ``cloud``: starts of rigid surfaces.
+- ``verdict``: whether a start was found.
 """
 
 from regkit.start.candidate import Candidate
 from regkit.start.rigid import rigid_start
 from regkit.start.scan import Scan
+from regkit.start.verdict import judged
 
-__all__ = ["Candidate", "Scan", "rigid_start"]
+__all__ = ["Candidate", "Scan", "judged", "rigid_start"]

@@ -95,7 +95,7 @@ class _ResidualsAt:
         placement = self._body.place(self._coordinates.pose(x))
         sides = self._scan.distances(self._body, placement)
         # Both sides have the same total weight, whatever their numbers of distances.
-        scales = [np.sqrt(1.0 / len(side.lengths)) / self._cutoff for side in sides]
+        scales = [np.sqrt(1.0 / max(side.count, 1)) / self._cutoff for side in sides]
         residuals = [scale * side.lengths for scale, side in zip(scales, sides, strict=True)]
         rows = [scale * side.rows(placement) for scale, side in zip(scales, sides, strict=True)]
         jacobian = self._coordinates.jacobian(x)

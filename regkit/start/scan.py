@@ -7,6 +7,8 @@ from scipy.spatial import KDTree
 
 from regkit.body import Body
 from regkit.body.distance import SurfaceDistances, data_to_model, model_to_data
+from regkit.observation import Observation
+from regkit.observation.silhouette import Silhouette
 from regkit.skeleton import Placement
 from regkit.system.arrays import Array
 
@@ -20,15 +22,25 @@ SPACING = 0.05
 class Scan:
     """A cloud and its two-sided distance to posed bodies.
 
+    Parts of a body that the camera cannot show are not absent: what is beyond the picture, or on
+    unknown pixels, has no distance to the data.
+
     Args:
         points: The cloud, (N, 3) [m].
+        silhouette: What the camera shows; None if everything is seen.
     """
 
-    def __init__(self, points: Array) -> None:
+    def __init__(self, points: Array, silhouette: Silhouette | None = None) -> None:
         step = max(1, len(points) // MOST_POINTS)
         self._centre = points.mean(axis=0)
         self._points = points[::step]
         self._tree = KDTree(points)
+        self._silhouette = silhouette
+
+    @classmethod
+    def of(cls, observation: Observation) -> Scan:
+        """Returns the cloud of a frame."""
+        return cls(observation.points, observation.silhouette)
 
     def centres(self, size: float) -> list[Array]:
         """Returns possible centres (3,) of a body of this size [m].
@@ -50,7 +62,8 @@ class Scan:
         """Returns the distances of the data to the body, and of the body to the data."""
         capsules = body.capsules.place(placement.transforms)
         axes = capsules.axis_points(SPACING * body.size)
-        return data_to_model(capsules, self._points), model_to_data(axes, self._tree)
+        seen = None if self._silhouette is None else self._silhouette.observable(axes.points)
+        return data_to_model(capsules, self._points), model_to_data(axes, self._tree, seen)
 
     def misfit(self, body: Body, placement: Placement, cutoff: float) -> float:
         """Returns the sum of both sides' mean distances in units of the cutoff, from 0 to 2.
@@ -61,6 +74,6 @@ class Scan:
             cutoff: Upper bound of each distance [m].
         """
         return sum(
-            float(np.minimum(np.abs(side.lengths), cutoff).mean()) / cutoff
+            float(np.minimum(np.abs(side.lengths), cutoff).sum()) / max(side.count, 1) / cutoff
             for side in self.distances(body, placement)
         )

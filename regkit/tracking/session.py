@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from regkit.body.verdict import Verdict
 from regkit.interfaces import (
     Preprocessor,
     Recording,
@@ -20,6 +21,7 @@ from regkit.interfaces import (
 from regkit.observation import Frame, Observation
 from regkit.skeleton import Pose
 from regkit.system.errors import ConfigError, NoDataError, RegkitError
+from regkit.system.notes import note
 from regkit.tracking.extent import check_extent, tell_bound
 from regkit.tracking.loop import TrackedFrame, tracked
 
@@ -61,6 +63,10 @@ class Session:
             return _posed(self.template, self.start)
         start = self.start.find(self.template, [first, *self._later(index)])
         tell_bound(start.body.size, self.template, place=self.recording.name)
+        if start.verdict is not Verdict.FOUND:
+            missed = start.verdict is Verdict.LOST
+            told = "the body was not found" if missed else "the start is doubtful"
+            note(f"{told}: {start.reason}", place=self.recording.name)
         return start
 
     def tracked(self, registrar: Registrar, tracker: Tracker, pose: Pose) -> Iterator[TrackedFrame]:

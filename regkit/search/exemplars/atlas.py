@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
+from functools import cached_property
 
 import numpy as np
 
 from regkit.body import Body
 from regkit.search.exemplars.descriptors import exemplar_descriptors
-from regkit.search.exemplars.poses import sampled_poses, sampled_views
+from regkit.search.exemplars.poses import rolled, sampled_poses, sampled_views
 from regkit.skeleton import Placement, Pose
 from regkit.system.arrays import Array, Singles
 
@@ -24,6 +25,12 @@ SPACING = 0.04
 BATCH = 1000
 """Number of poses that are placed at once."""
 
+IN_VIEW = (0.3, 0.97)
+"""Range of the share of a body that is in view beside the first line of a cut picture."""
+
+TWICE, STILL_IN_VIEW = 0.4, (0.6, 0.97)
+"""Probability of a second line, and what it leaves of that share."""
+
 
 @dataclass(frozen=True)
 class AtlasSettings:
@@ -32,13 +39,13 @@ class AtlasSettings:
     Attributes:
         count: Number N of exemplars.
         elevation: Least and greatest angle of the camera above the body's horizon [rad].
-        cropped: Fraction of the exemplars of which the picture shows only a part.
+        cut: Whether the picture shows only a part of each; it ends below, and may end elsewhere.
         seed: Seed of the poses and views.
     """
 
     count: int = 30_000
     elevation: tuple[float, float] = (-np.pi / 2, np.pi / 2)
-    cropped: float = 0.0
+    cut: bool = False
     seed: int = 0
 
 
@@ -53,7 +60,7 @@ class Atlas:
         centres: Centres of the images in the view's axes, from the body's root, (N, 3) [size].
         mean: Mean descriptor, (D,).
         basis: Principal components, (D, d).
-        codes: Singless on these components, (N, d).
+        codes: Coordinates on these components, (N, d).
     """
 
     balls: Singles
@@ -70,7 +77,10 @@ class Atlas:
         random = np.random.default_rng(settings.seed)
         balls, hinges = sampled_poses(body, random, settings.count)
         views = sampled_views(random, settings.count, settings.elevation)
-        cuts = _sampled_cuts(random, settings.count, settings.cropped)
+        cuts = np.zeros((settings.count, 0, 3))
+        if settings.cut:
+            views = rolled(views, random.uniform(0.0, 2.0 * np.pi, settings.count))
+            cuts = _sampled_cuts(random, settings.count)
         axes = body.capsules.axis_points(SPACING * body.size)
         parts = []
         for first in range(0, settings.count, BATCH):
@@ -98,14 +108,26 @@ class Atlas:
         """Number N of exemplars."""
         return len(self.codes)
 
+    @cached_property
+    def norms(self) -> Singles:
+        """Squared lengths of the codes, (N,)."""
+        return np.asarray((self.codes**2).sum(axis=1))
+
     def arrays(self) -> dict[str, Singles]:
         """Returns the arrays by name, for a file."""
         return asdict(self)
 
 
-def _sampled_cuts(random: np.random.Generator, count: int, share: float) -> Array:
-    """Returns lines (count, 3) at which pictures end; infinitely far for whole bodies."""
-    angle = random.uniform(0.0, 2.0 * np.pi, count)
-    offset = random.uniform(-0.15, 0.35, count)
-    offset[random.uniform(size=count) >= share] = np.inf
-    return np.column_stack([np.cos(angle), np.sin(angle), offset])
+def _sampled_cuts(random: np.random.Generator, count: int) -> Array:
+    """Returns lines (count, 2, 3) at which pictures end: direction, and the share in view.
+
+    The first one is below. The second one is at another side, or nowhere.
+    """
+    turn = np.radians(90.0) * (1 + random.integers(1, 4, size=count))
+    shares = random.uniform(*IN_VIEW, count)
+    others = np.where(
+        random.uniform(size=count) < TWICE, random.uniform(*STILL_IN_VIEW, count), 1.0
+    )
+    below = np.column_stack([np.zeros(count), np.ones(count), shares])
+    beside = np.column_stack([np.cos(turn), np.sin(turn), others])
+    return np.stack([below, beside], axis=1)

@@ -10,6 +10,7 @@ from regkit.search.exemplars.images import (
     cut_image,
     described,
     image_centre,
+    offset_of_share,
     points_image,
     spheres_image,
 )
@@ -36,8 +37,8 @@ def exemplar_descriptors(
         places: Centres of spheres on the bodies' axes, (N, P, 3) [size].
         radii: Radii of the spheres, (P,) [size].
         views: R_view_body, (N, 3, 3).
-        cuts: Lines at which the picture ends: direction and distance from the image's centre
-            (N, 3) [size]; infinite for a whole body.
+        cuts: Lines at which the picture ends: outward direction, and share of the remaining image
+            that is in view, (N, C, 3). A line with the share 1 cuts nothing off.
     """
     count = len(places)
     descriptors = np.empty((count, 2 * (SIDE // POOLING) ** 2), dtype=np.float32)
@@ -54,17 +55,20 @@ def exemplar_descriptors(
                 )
             middle += seen[sphere] / len(radii)
         image = spheres_image(seen - middle, radii, WIDE, SIDE)
-        whole = middle + image_centre(image, WIDE)
-        centre = whole
-        normal, offset = cuts[index, :2], cuts[index, 2]
-        if np.isfinite(offset):
-            shift = normal[0] * (whole[0] - middle[0]) + normal[1] * (whole[1] - middle[1])
-            cut_image(image, WIDE, normal, offset + shift)
-            centre = middle + image_centre(image, WIDE)
+        offsets = np.full(cuts.shape[1], np.inf)
+        for line in range(len(offsets)):
+            direction, share = cuts[index, line, :2], cuts[index, line, 2]
+            if share < 1.0:
+                offsets[line] = offset_of_share(image, WIDE, direction, share)
+                cut_image(image, WIDE, direction, offsets[line])
+        shift = image_centre(image, WIDE)
+        centre = middle + shift
         image = spheres_image(seen - centre, radii, HALF, SIDE)
-        if np.isfinite(offset):
-            shift = normal[0] * (whole[0] - centre[0]) + normal[1] * (whole[1] - centre[1])
-            cut_image(image, HALF, normal, offset + shift)
+        for line in range(len(offsets)):
+            direction = cuts[index, line, :2]
+            if np.isfinite(offsets[line]):
+                beside = direction[0] * shift[0] + direction[1] * shift[1]
+                cut_image(image, HALF, direction, offsets[line] - beside)
         descriptors[index] = described(image, POOLING, DEEPEST)
         centres[index] = centre
     return descriptors, centres

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from regkit.body import Body
 from regkit.search.exemplars.atlas import SPACING, Atlas
-from regkit.search.exemplars.lookup import Matches, matches
+from regkit.search.exemplars.lookup import Matches, cut_matches, matches
 from regkit.search.exemplars.model import Bones, Hull, Spheres
 from regkit.search.exemplars.pictures import Pictures
 from regkit.search.exemplars.refinement import refined
@@ -25,6 +26,9 @@ SAME = 0.06
 
 POINTS = 220
 """Number of points that refine a pose."""
+
+CUT = 2
+"""Factor of the number of exemplars that are looked up at each border that cuts the data off."""
 
 SCALES = np.array([0.08] * 3 + [0.05] * 3 + [0.03] * 4)
 """Scale of the robust distances in each step of the refinement [size]."""
@@ -57,25 +61,28 @@ class Finder:
         atlas: The atlas of the template.
         rolls: Rolls of the body against its exemplars that are tried, (R,) [rad].
         looked_up: Number of exemplars that are rendered.
-        refined: Number of these that are refined.
+        kept: Number of these that are refined.
+        cut_atlas: The atlas of bodies that a picture shows in part; None if none is sought.
     """
 
     bodies: Sequence[Body]
     atlas: Atlas
     rolls: Array
     looked_up: int
-    refined: int
+    kept: int
+    cut_atlas: Atlas | None = None
 
     def candidates(self, pictures: Pictures) -> list[Exemplar]:
         """Returns the refined poses, the one that agrees best with the data first."""
         sizes = [body.size for body in self.bodies]
         count = -(-self.looked_up // (len(sizes) * len(pictures.pictures)))
         found = matches(self.atlas, pictures, sizes, self.rolls, count)
+        if self.cut_atlas is not None and pictures.cut:
+            cut = cut_matches(self.cut_atlas, pictures, sizes, CUT * count)
+            found = Matches.joined([found, cut])
         scores = self._scores(found, pictures)
-        points = pictures.points
-        some = np.ascontiguousarray(points[:: max(1, len(points) // POINTS)])
         candidates = [
-            self._refined(self.bodies[found.sizes[index]], self._pose(found, index), some, pictures)
+            self.refined(self.bodies[found.sizes[index]], self._pose(found, index), pictures)
             for index in self._distinct(found, scores)
         ]
         return sorted(candidates, key=lambda candidate: candidate.disagreement)
@@ -83,18 +90,14 @@ class Finder:
     def disagreement(self, body: Body, pose: Pose, pictures: Pictures) -> float:
         """Returns the disagreement of a pose with the data, from 0 to 1."""
         links = body.place(pose).links[None]
-        return float(_rendered(body, links, pictures, SHARP)[0])
+        return float(_rendered(body, links, self._spheres(body), pictures, SHARP)[0])
 
     def _pose(self, found: Matches, index: int) -> Pose:
-        exemplar = found.exemplars[index]
-        balls, hinges = self.atlas.balls[exemplar], self.atlas.hinges[exemplar]
-        return Pose(found.roots[index], balls.astype(float), hinges.astype(float))
+        return Pose(found.roots[index], found.balls[index], found.hinges[index])
 
     def _placed(self, found: Matches, some: Indices, body: Body) -> Array:
         """Returns T_world_link (K, L, 4, 4) of some matches of one size."""
-        chosen = found.exemplars[some]
-        balls, hinges = self.atlas.balls[chosen], self.atlas.hinges[chosen]
-        pose = Pose(np.eye(4), balls.astype(float), hinges.astype(float))
+        pose = Pose(np.eye(4), found.balls[some], found.hinges[some])
         return np.asarray(found.roots[some][:, None] @ Placement.of(body.skeleton, pose).links)
 
     def _scores(self, found: Matches, pictures: Pictures) -> Array:
@@ -104,12 +107,12 @@ class Finder:
             some = np.flatnonzero(found.sizes == index)
             if len(some):
                 links = self._placed(found, some, body)
-                scores[some] = _rendered(body, links, pictures, ROUGH)
+                scores[some] = _rendered(body, links, self._spheres(body), pictures, ROUGH)
         return scores
 
     def _distinct(self, found: Matches, scores: Array) -> list[int]:
         """Returns the best matches that differ from each other, equally many of each size."""
-        most = -(-self.refined // len(self.bodies))
+        most = -(-self.kept // len(self.bodies))
         chosen: list[int] = []
         for index, body in enumerate(self.bodies):
             some = np.flatnonzero(found.sizes == index)
@@ -125,17 +128,26 @@ class Finder:
                     left &= gaps >= SAME * body.size
                     chosen.append(int(some[row]))
                     most -= 1
-            most = -(-self.refined // len(self.bodies))
+            most = -(-self.kept // len(self.bodies))
         return chosen
 
-    def _refined(self, body: Body, pose: Pose, points: Array, pictures: Pictures) -> Exemplar:
+    def refined(self, body: Body, pose: Pose, pictures: Pictures) -> Exemplar:
+        """Returns a pose after a few steps towards the data.
+
+        Args:
+            body: One of the bodies.
+            pose: The pose.
+            pictures: The data.
+        """
+        points = pictures.points
+        points = np.ascontiguousarray(points[:: max(1, len(points) // POINTS)])
         root, balls, hinges = refined(
             pose.root,
             pose.balls,
             pose.hinges,
             Bones.of(body),
             Hull.of(body),
-            _spheres(body),
+            self._spheres(body),
             points,
             pictures.pictures[0].grid,
             SCALES * body.size,
@@ -146,14 +158,22 @@ class Finder:
         found = body.skeleton.limits.hinged(Pose(root, balls, hinges))
         return Exemplar(body, found, self.disagreement(body, found, pictures))
 
+    def _spheres(self, body: Body) -> Spheres:
+        return next(own for known, own in self._all_spheres if known is body)
 
-def _spheres(body: Body) -> Spheres:
-    return Spheres.of(body.capsules.axis_points(SPACING * body.size))
+    @cached_property
+    def _all_spheres(self) -> list[tuple[Body, Spheres]]:
+        return [
+            (body, Spheres.of(body.capsules.axis_points(SPACING * body.size)))
+            for body in self.bodies
+        ]
 
 
-def _rendered(body: Body, links: Array, pictures: Pictures, tolerance: float) -> Array:
+def _rendered(
+    body: Body, links: Array, spheres: Spheres, pictures: Pictures, tolerance: float
+) -> Array:
     """Returns the mean disagreement (K,) over all pictures for T_world_link (K, L, 4, 4)."""
-    total, spheres = np.zeros(len(links)), _spheres(body)
+    total = np.zeros(len(links))
     for picture in pictures.pictures:
         placed = picture.T_camera_world @ links
         total += disagreements(

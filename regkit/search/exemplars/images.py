@@ -104,6 +104,30 @@ def image_centre(image: Array, half: float) -> Array:
 
 
 @compiled
+def offset_of_share(image: Array, half: float, normal: Array, share: float) -> float:
+    """Returns the distance from the centre of the line that leaves a share of the cells shown.
+
+    Args:
+        image: The image.
+        half: Half the width of the image.
+        normal: Outward unit vector of the line in the image, (2,).
+        share: Share of the cells that show something, from 0 to 1.
+    """
+    side = len(image)
+    cell = 2.0 * half / side
+    heights, count = np.empty(side * side), 0
+    for row in range(side):
+        for column in range(side):
+            if np.isfinite(image[row, column]):
+                x, y = (column + 0.5) * cell - half, (row + 0.5) * cell - half
+                heights[count] = normal[0] * x + normal[1] * y
+                count += 1
+    if not count:
+        return 0.0
+    return float(np.quantile(heights[:count], share))
+
+
+@compiled
 def cut_image(image: Array, half: float, normal: Array, offset: float) -> None:
     """Empties the cells beyond the line ``normal . (x, y) = offset``, in place.
 

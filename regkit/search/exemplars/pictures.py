@@ -12,6 +12,7 @@ from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import rotation_between
 from regkit.observation import Observation
 from regkit.search.exemplars.blocks import grid_around, nearest_shown
+from regkit.search.exemplars.borders import cutting_borders
 from regkit.search.exemplars.images import points_image
 from regkit.search.exemplars.model import Grid
 from regkit.system.arrays import Array
@@ -37,11 +38,14 @@ class Picture:
         T_camera_world: Pose of the camera, (4, 4).
         grid: The data as the camera sees them.
         rotation: R_view_world, whose z axis is the direction in which the data are seen, (3, 3).
+        borders: Outward unit normals in the world of the picture's borders that cut the data off,
+            (B, 3), the one of the longest contact first.
     """
 
     T_camera_world: Array
     grid: Grid
     rotation: Array
+    borders: Array
 
 
 @dataclass(frozen=True)
@@ -71,11 +75,17 @@ class Pictures:
         if camera is not None and depth is not None:
             towards = rotation_between(middle / np.linalg.norm(middle), np.array([0.0, 0.0, 1.0]))
             grid = grid_around(camera, depth, points)
-            return cls(points, (Picture(np.eye(4), grid, towards),), one_sided=True)
+            borders = cutting_borders(camera, depth, points)
+            return cls(points, (Picture(np.eye(4), grid, towards, borders),), one_sided=True)
         views = [np.roll(np.eye(3), turn, axis=0) for turn in range(3)]
         spread = 0.75 * _spacing(points)
         pictures = [_virtual(points - middle, middle, view, size, spread) for view in views]
         return cls(points, tuple(pictures), one_sided=False)
+
+    @property
+    def cut(self) -> bool:
+        """Whether a border of a picture cuts the data off."""
+        return any(len(picture.borders) for picture in self.pictures)
 
     @cached_property
     def spread(self) -> float:
@@ -91,7 +101,9 @@ def _virtual(around: Array, middle: Array, view: Array, size: float, spread: flo
     focal = distance / cell
     intrinsics = np.array([focal, focal, centre, centre])
     grid = Grid(image + distance, nearest_shown(image + distance), intrinsics)
-    return Picture(rigid(view, np.array([0.0, 0.0, distance]) - view @ middle), grid, view)
+    return Picture(
+        rigid(view, np.array([0.0, 0.0, distance]) - view @ middle), grid, view, np.zeros((0, 3))
+    )
 
 
 def _spacing(points: Array) -> float:

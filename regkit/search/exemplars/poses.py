@@ -70,3 +70,12 @@ def sampled_views(random: np.random.Generator, count: int, elevation: tuple[floa
     facing = np.diag([1.0, -1.0, -1.0])
     turned = facing @ (tilt.reshape(count, 3, 3) @ turn.reshape(count, 3, 3))
     return np.asarray(turned)
+
+
+def rolled(views: Array, rolls: Array) -> Array:
+    """Returns rotations R_view_body (N, 3, 3) after rolls (N,) [rad] about the view's z axis."""
+    turns = np.tile(np.eye(3), (len(rolls), 1, 1))
+    turns[:, 0, 0] = turns[:, 1, 1] = np.cos(rolls)
+    turns[:, 1, 0] = np.sin(rolls)
+    turns[:, 0, 1] = -turns[:, 1, 0]
+    return np.asarray(turns @ views)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
 from typing import Annotated, Literal
 
 import numpy as np
@@ -13,10 +15,10 @@ from regkit.interfaces import Method, Start, StartSearch, Template
 from regkit.observation import Observation
 from regkit.search.exemplars import AtlasSettings, atlas_of
 from regkit.skeleton.joints import in_order
-from regkit.start import rigid_start
+from regkit.start import judged, rigid_start
 from regkit.system.arrays import Array
 from regkit.system.optional import one_blas_thread
-from regkit_plugins.starts.exemplars.finalists import Comparison
+from regkit_plugins.starts.exemplars.finalists import Comparison, margin
 from regkit_plugins.starts.exemplars.search import Search
 
 Elevation = Annotated[float, Field(ge=-90.0, le=90.0)]
@@ -24,6 +26,9 @@ Roll = Annotated[float, Field(ge=-180.0, le=180.0)]
 
 ROLLS = 24
 """Number of rolls in a full turn."""
+
+CUT = 4
+"""Factor of the number of exemplars of a body that is cut off; their borders fix their rolls."""
 
 
 class Exemplars(StartSearch):
@@ -67,15 +72,19 @@ class Exemplars(StartSearch):
                 finalists = search.unsized(observations)
             else:
                 finalists = search.sized(template.body(sizes[0]), observations[0])
-        return Start(finalists[0].body, finalists[0].pose)
+            best = finalists[0]
+            return judged(best.body, best.pose, observations[0], margin(finalists))
 
     def _search(self, template: Template) -> Search:
         sizes = template.candidate_sizes()
         usual = template.body(sizes[len(sizes) // 2])
         low, high = np.radians(self.elevation_deg)
+        whole = AtlasSettings(self.exemplars, (float(low), float(high)))
+        cut = replace(whole, count=CUT * self.exemplars, cut=True)
         return Search(
             template=template,
-            atlas=atlas_of(usual, AtlasSettings(self.exemplars, (float(low), float(high)))),
+            atlas=atlas_of(usual, whole),
+            cut_atlas=partial(atlas_of, usual, cut),
             comparison=Comparison(self.method, usual.size),
             rolls=self._rolls(),
             looked_up=self.looked_up,

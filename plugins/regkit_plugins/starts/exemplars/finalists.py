@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+
+import numpy as np
 
 from regkit.body import Body
 from regkit.interfaces import Method, Registrar
@@ -11,9 +14,15 @@ from regkit.search.limb_recovery import LimbRecovery
 from regkit.skeleton import Pose
 from regkit.start import Scan
 from regkit.start.sizes import misfit
+from regkit.system.arrays import Array
+from regkit_plugins.starts.exemplars.prior import unlikely
 
 SAMPLES, TRIED, GAIN = 500, 2, 0.01
 """Configurations of each limb that are sampled and registered, and what one must gain."""
+
+
+OTHER = 0.12
+"""Poses whose markers differ more than this on average are other ones [size]: 20 cm of a person."""
 
 
 @dataclass(frozen=True)
@@ -25,17 +34,19 @@ class Finalist:
         pose: Its pose.
         energy: Its energy, in the method's own units.
         misfit: Its two-sided misfit, dimensionless.
+        unlikely: Cost of the pose without regard to the data, dimensionless.
     """
 
     body: Body
     pose: Pose
     energy: float
     misfit: float
+    unlikely: float
 
     @property
     def cost(self) -> float:
-        """Energy plus misfit; lower is better."""
-        return self.energy + self.misfit
+        """Energy, misfit and prior; lower is better."""
+        return self.energy + self.misfit + self.unlikely
 
 
 @dataclass(frozen=True)
@@ -66,10 +77,30 @@ class Comparison:
         found = limbs.recovered(observation, found)
         energy = registrar.evaluate(observation, found.pose).energy
         gap = misfit(scan, body, found.pose, self.usual)
-        return Finalist(body, found.pose, energy, gap)
+        prior = unlikely(body, found.pose, observation.camera is not None)
+        return Finalist(body, found.pose, energy, gap, prior)
 
     def _bound(self, body: Body) -> tuple[Registrar, LimbRecovery]:
         if body.size not in self.bound:
             registrar = self.method.bind(body)
             self.bound[body.size] = registrar, LimbRecovery.of(registrar, SAMPLES, TRIED, GAIN)
         return self.bound[body.size]
+
+
+def margin(finalists: Sequence[Finalist]) -> float:
+    """Returns the cost of the best other pose less that of the best one; NaN without another.
+
+    Args:
+        finalists: The finalists, the best first.
+    """
+    best, *rivals = finalists
+    places = _markers(best)
+    for rival in rivals:
+        apart = float(np.linalg.norm(_markers(rival) - places, axis=1).mean())
+        if apart > OTHER * best.body.size:
+            return rival.cost - best.cost
+    return float("nan")
+
+
+def _markers(finalist: Finalist) -> Array:
+    return finalist.body.markers.place(finalist.body.place(finalist.pose).transforms)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -12,6 +12,7 @@ from regkit.body import Body
 from regkit.interfaces import Template
 from regkit.observation import Observation
 from regkit.search.exemplars import Atlas, Exemplar, Finder, Pictures
+from regkit.skeleton import Mirroring, Pose
 from regkit.start import Candidate, Scan
 from regkit.start.sizes import fit, resized
 from regkit.system.arrays import Array
@@ -19,6 +20,10 @@ from regkit_plugins.starts.exemplars.finalists import Comparison, Finalist
 
 MORE = 2
 """Factor of the numbers of exemplars that are looked up and refined over all sizes together."""
+
+MIRRORED = 2
+"""Number of finalists whose mirror images are registered too: from the front and from behind a
+body looks alike."""
 
 PER_SIZE = 2
 """Least number of finalists of each candidate size."""
@@ -31,6 +36,7 @@ class Search:
     Attributes:
         template: The template.
         atlas: Its atlas.
+        cut_atlas: Function that returns the atlas of bodies that a picture shows in part.
         comparison: Registers the finalists.
         rolls: Rolls that are tried, (R,) [rad].
         looked_up: Number of similar exemplars that are rendered.
@@ -40,6 +46,7 @@ class Search:
 
     template: Template
     atlas: Atlas
+    cut_atlas: Callable[[], Atlas]
     comparison: Comparison
     rolls: Array
     looked_up: int
@@ -82,10 +89,17 @@ class Search:
             observation: The frame.
             each: Number of finalists of each size.
         """
-        pictures, scan = Pictures.of(observation, self._usual), Scan(observation.points)
+        pictures, scan = Pictures.of(observation, self._usual), Scan.of(observation)
         # A size between the candidates resembles fewer exemplars.
         more = 1 if len(bodies) == 1 else MORE
-        finder = Finder(bodies, self.atlas, self.rolls, more * self.looked_up, more * self.refined)
+        finder = Finder(
+            bodies,
+            self.atlas,
+            self.rolls,
+            more * self.looked_up,
+            more * self.refined,
+            self.cut_atlas() if pictures.cut else None,
+        )
         candidates = finder.candidates(pictures)
         chosen: list[Exemplar] = []
         for body in bodies:
@@ -93,6 +107,14 @@ class Search:
         finalists = [
             self.comparison.finalist(one.body, one.pose, observation, scan) for one in chosen
         ]
+        finalists.sort(key=_cost)
+        mirroring = Mirroring.of(bodies[0].skeleton)
+        if len(bodies) == 1 and mirroring is not None and pictures.one_sided:
+            for one in finalists[:MIRRORED]:
+                mirrored = finder.refined(one.body, _mirrored(one, mirroring), pictures)
+                finalists.append(
+                    self.comparison.finalist(mirrored.body, mirrored.pose, observation, scan)
+                )
         return sorted(finalists, key=_cost)
 
     def _resized(self, observation: Observation, finalists: Sequence[Finalist]) -> Finalist:
@@ -102,11 +124,18 @@ class Search:
             observation: The frame.
             finalists: Finalists of all sizes, the best first.
         """
-        scan = Scan(observation.points)
+        scan = Scan.of(observation)
         bests = {one.body.size: one for one in reversed(finalists)}
         fits = [fit(scan, one.body, one.pose, self._usual) for one in bests.values()]
         best = resized(scan, self.template, min(fits, key=_misfit), self._sizes)
         return self.comparison.finalist(best.body, best.pose, observation, scan)
+
+
+def _mirrored(finalist: Finalist, mirroring: Mirroring) -> Pose:
+    """Returns the pose that looks the same with near and far exchanged, seen by the camera."""
+    placed = finalist.body.capsules.place(finalist.body.place(finalist.pose).transforms)
+    middle = placed.ends.reshape(-1, 3).mean(axis=0)
+    return mirroring.mirrored(finalist.pose, middle / np.linalg.norm(middle), middle)
 
 
 def _misfit(candidate: Candidate) -> float:
