@@ -9,7 +9,7 @@ from sys import intern
 import numpy as np
 
 from regkit.body import BodyFit
-from regkit.interfaces import Registrar
+from regkit.interfaces import Expected, Registrar
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit.system.brief import Brief
@@ -123,5 +123,8 @@ class TrackRecorder:
         for kept in self._snapshots.values():
             if kept.frame == index:
                 return kept
-        points = self._session.observation(index).points
-        return Snapshot(index, points, self.track().pose(index))
+        track, body = self.track(), self.registrar.body
+        # A segmenter follows the body, from the start on.
+        expected = Expected(body, track.pose(max(index - 1, 0)))
+        points = self._session.observation(index, expected).points
+        return Snapshot(index, points, track.pose(index))

@@ -13,10 +13,10 @@ from regkit.interfaces import Template
 from regkit.observation import Observation
 from regkit.search.exemplars import Atlas, Exemplar, Finder, Pictures
 from regkit.skeleton import Mirroring, Pose
-from regkit.start import Candidate, Scan
+from regkit.start import Candidate, Finalist, Scan
 from regkit.start.sizes import fit, resized
 from regkit.system.arrays import Array
-from regkit_plugins.starts.exemplars.finalists import Comparison, Finalist
+from regkit_plugins.starts.exemplars.finalists import Comparison
 
 MORE = 2
 """Factor of the numbers of exemplars that are looked up and refined over all sizes together."""
@@ -89,7 +89,7 @@ class Search:
             observation: The frame.
             each: Number of finalists of each size.
         """
-        pictures, scan = Pictures.of(observation, self._usual), Scan.of(observation)
+        pictures = Pictures.of(observation, self._usual)
         # A size between the candidates resembles fewer exemplars.
         more = 1 if len(bodies) == 1 else MORE
         finder = Finder(
@@ -103,17 +103,15 @@ class Search:
         candidates = finder.candidates(pictures)
         chosen: list[Exemplar] = []
         for body in bodies:
-            chosen += [one for one in candidates if one.body is body][:each]
-        finalists = [
-            self.comparison.finalist(one.body, one.pose, observation, scan) for one in chosen
-        ]
+            chosen += [one for one in candidates if one.body.size == body.size][:each]
+        finalists = [self.comparison.finalist(one.body, one.pose, observation) for one in chosen]
         finalists.sort(key=_cost)
         mirroring = Mirroring.of(bodies[0].skeleton)
         if len(bodies) == 1 and mirroring is not None and pictures.one_sided:
             for one in finalists[:MIRRORED]:
                 mirrored = finder.refined(one.body, _mirrored(one, mirroring), pictures)
                 finalists.append(
-                    self.comparison.finalist(mirrored.body, mirrored.pose, observation, scan)
+                    self.comparison.finalist(mirrored.body, mirrored.pose, observation)
                 )
         return sorted(finalists, key=_cost)
 
@@ -128,7 +126,7 @@ class Search:
         bests = {one.body.size: one for one in reversed(finalists)}
         fits = [fit(scan, one.body, one.pose, self._usual) for one in bests.values()]
         best = resized(scan, self.template, min(fits, key=_misfit), self._sizes)
-        return self.comparison.finalist(best.body, best.pose, observation, scan)
+        return self.comparison.finalist(best.body, best.pose, observation)
 
 
 def _mirrored(finalist: Finalist, mirroring: Mirroring) -> Pose:
