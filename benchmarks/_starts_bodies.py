@@ -133,7 +133,12 @@ class Moving:
 
 @cache
 def moving(subject: str, motif: str) -> Moving:
-    """Returns a body that follows a motion, both by name."""
+    """Returns a body that follows a motion of the sets, both by name."""
     bodies = {one.name: one for group in SUBJECTS.values() for one in group}
-    body = HumanBody(bodies[subject].mesh(), body_map("anny_cmu"))
-    return Moving(body, body.moved_by(motif_named(motif).motion))
+    return moved_by(bodies[subject], motif_named(motif).motion)
+
+
+def moved_by(subject: Subject, motion: MotionConfig) -> Moving:
+    """Returns a person that follows a motion."""
+    body = HumanBody(subject.mesh(), body_map("anny_cmu"))
+    return Moving(body, body.moved_by(motion))

@@ -13,6 +13,7 @@ from _starts_shots import Shots
 
 from regkit.interfaces import Preprocessor
 from regkit.observation import Observation
+from regkit.system.arrays import Indices
 
 
 @dataclass(frozen=True)
@@ -36,6 +37,10 @@ class Case(ABC):
     @abstractmethod
     def shots(self) -> Shots:
         """Returns the frames, made on first use; the start is sought in the first one."""
+
+    def judged_joints(self) -> Indices:
+        """Returns the joints whose errors count; by default all."""
+        return np.arange(len(self.shots().joints))
 
     def observations(self) -> list[Observation]:
         """Returns the preprocessed frames."""

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
 from _starts_bodies import Set, Subject
 from _starts_case import Case, subset
+from _starts_judge import judged
+from _starts_options import Options
 from _starts_shots import Shots, kept
+from _starts_table import header, row
 from _starts_views import random_rotations, seen
 
 from regkit.geometry.rigid import rigid
@@ -28,6 +32,9 @@ ORIENTATIONS = 60
 
 AWAY = 0.4
 """Distance of the hand's middle to the camera [m]."""
+
+WITHIN, FAR = 0.01, 0.03
+"""A start is right below the first mean joint error, and far off beyond the second [m]."""
 
 _CURLED = {"opened": 0.12, "thumb_lift_deg": 20}
 """Without these the mesh's fingertips go into its palm, as the shipped gestures say."""
@@ -124,3 +131,22 @@ def cases(chosen: Set, some: int | None = None, seed: int = 0) -> list[HandCase]
         for orientation in range(ORIENTATIONS)
     ]
     return subset(every, some, seed)
+
+
+def figures(options: Options) -> dict[str, object]:
+    """Prints the table of hands, and returns its figures."""
+    every = cases(options.chosen, options.some, options.seed)
+    header("hands")
+    outcomes = options.mapped("hands", partial(judged, options.start), every)
+    known = row("size known", outcomes, WITHIN, FAR)
+    for number in range(len(GESTURES[options.chosen])):
+        of_gesture = [
+            one for case, one in zip(every, outcomes, strict=True) if case.gesture == number
+        ]
+        if of_gesture:
+            poses = " to ".join(one["pose"] for one in GESTURES[options.chosen][number])
+            row(poses, of_gesture, WITHIN, FAR)
+    found: dict[str, object] = {"within_1cm_percent": known.percent, "seconds": known.seconds}
+    if known.doubted is not None:
+        found |= {"silent_over_3cm": known.silent, "doubted_right_percent": known.doubted}
+    return {"hands": found}

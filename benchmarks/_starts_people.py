@@ -3,17 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from itertools import product
 
 from _starts_bodies import MOTIFS, SUBJECTS, Set, motif_named, moving
 from _starts_case import Case, subset
+from _starts_judge import judged
+from _starts_options import Options
 from _starts_shots import Shots, kept
+from _starts_table import header, parts, row
 from _starts_views import seen, surface, view
 
 from regkit_synthesis.recordings.scene import SR4000
 
 HEADINGS, ELEVATIONS, ROLLS = range(0, 360, 30), (0, 30, 60), (0, 90, 180)
 """Directions of the camera [deg]: 108 views."""
+
+WITHIN, FAR = 0.10, 0.25
+"""A start is right below the first mean joint error, and far off beyond the second [m]."""
 
 
 @dataclass(frozen=True)
@@ -24,7 +31,7 @@ class PersonCase(Case):
         motif: Name of the motion.
         heading: Rotation of the body from the direction to the camera [deg].
         elevation: Downward pitch of the camera [deg].
-        roll: Rotation of the camera about its optical axis [deg].
+        roll: Counter-clockwise rotation of the camera about its optical axis [deg].
     """
 
     motif: str
@@ -62,3 +69,25 @@ def cases(chosen: Set, some: int | None = None, seed: int = 0) -> list[PersonCas
         some,
         seed,
     )
+
+
+def figures(options: Options) -> dict[str, object]:
+    """Prints the table of people, and returns its figures."""
+    every = cases(options.chosen, options.some, options.seed)
+    judge, unsized = partial(judged, options.start), partial(judged, options.start, sized=False)
+    header("people")
+    outcomes = options.mapped("people of known size", judge, every)
+    known = row("size known", outcomes, WITHIN, FAR)
+    unknown = row(
+        "size unknown", options.mapped("people of unknown size", unsized, every), WITHIN, FAR
+    )
+    parts(outcomes, WITHIN)
+    found: dict[str, object] = {
+        "known_size_percent": known.percent,
+        "unknown_size_percent": unknown.percent,
+        "seconds": known.seconds,
+        "seconds_unknown_size": unknown.seconds,
+    }
+    if known.doubted is not None:
+        found |= {"silent_over_25cm": known.silent, "doubted_right_percent": known.doubted}
+    return {"people": found}

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from itertools import product
 
 import numpy as np
 from _starts_bodies import MOTIFS, SUBJECTS, Set, motif_named, moving
 from _starts_case import Case, subset
+from _starts_judge import judged
+from _starts_options import Options
+from _starts_people import FAR, WITHIN
 from _starts_shots import Shots, kept
+from _starts_table import header, row
 from _starts_views import random_rotations
 
 from regkit.geometry.rigid import rigid
@@ -66,7 +71,7 @@ class ScanCase(Case):
         if not self.orientation:
             return _UPRIGHT
         seed = {"development": 0, "test": 1}[self.chosen]
-        return random_rotations(ORIENTATIONS, seed)[self.orientation] @ _UPRIGHT
+        return np.asarray(random_rotations(ORIENTATIONS, seed)[self.orientation] @ _UPRIGHT)
 
 
 def _surface_points(vertices: Array, faces: Indices, random: np.random.Generator) -> Array:
@@ -101,3 +106,12 @@ def _moment(motif: str, quarter: int) -> float:
     times = motif_named(motif).times
     first, last = min(times), max(times)
     return first + quarter / 3.0 * (last - first)
+
+
+def figures(options: Options) -> dict[str, object]:
+    """Prints the table of scans, and returns its figure."""
+    every = cases(options.chosen, options.some, options.seed)
+    header("full scans")
+    outcomes = options.mapped("full scans", partial(judged, options.start), every)
+    found = row("size known", outcomes, WITHIN, FAR)
+    return {"scans_percent": found.percent}

@@ -7,6 +7,7 @@ import os
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -75,7 +76,11 @@ def kept(name: str, make: Callable[[], Shots]) -> Shots:
 
 
 def _write(shots: Shots, file: Path) -> None:
-    arrays = {"joints": np.array(shots.joints), "truth": shots.truth, "scale": shots.scale}
+    arrays: dict[str, Any] = {
+        "joints": np.array(shots.joints),
+        "truth": shots.truth,
+        "scale": shots.scale,
+    }
     if (camera := shots.camera) is not None:
         arrays["size"] = np.array([camera.width, camera.height])
         arrays["lens"] = np.array([camera.fx, camera.fy, camera.cx, camera.cy])
@@ -95,7 +100,7 @@ def _read(file: Path) -> Shots:
             tuple(map(str, arrays["joints"])),
             arrays["truth"],
             camera,
-            arrays["depth"] if "depth" in arrays else None,
+            arrays.get("depth"),
             float(arrays["scale"]),
-            arrays["clouds"] if "clouds" in arrays else None,
+            arrays.get("clouds"),
         )

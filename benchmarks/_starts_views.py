@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from math import radians
 
 import numpy as np
 from _starts_shots import Shots
 
-from regkit.geometry.rigid import rigid
-from regkit.geometry.rotation import to_matrix, vector_to_matrix
+from regkit.geometry.rotation import to_matrix
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.system.arrays import Array
 from regkit_synthesis.bodies.landmarks import Landmark, some_vertices
@@ -24,15 +22,14 @@ def view(heading: float, elevation: float, roll: float, surface: Array) -> Array
     Args:
         heading: Rotation of the body from the direction to the camera [deg].
         elevation: Downward pitch of the camera [deg].
-        roll: Rotation of the camera about its optical axis [deg].
+        roll: Counter-clockwise rotation of the camera about its optical axis [deg].
         surface: Points of the body over time, in ground axes, (N, 3) [m].
     """
     # In a square image with the real one's height a body stays whole under all rolls.
     camera, side = SR4000.camera, SR4000.camera.height
     square = replace(camera, width=side, cx=camera.cy)
-    level = Viewpoint(heading_deg=heading, elevation_deg=elevation)
-    rolled = vector_to_matrix(np.array([0.0, 0.0, radians(roll)]))
-    return np.asarray(rigid(rolled, np.zeros(3)) @ level.placed(square, lambda: surface))
+    viewpoint = Viewpoint(heading_deg=heading, elevation_deg=elevation, roll_deg=-roll)
+    return viewpoint.placed(square, lambda: surface)
 
 
 def surface(mesh: SkinnedMesh, poses: Sequence[Array]) -> Array:

@@ -13,7 +13,7 @@ from regkit.api.reference import Reference, truth_of
 from regkit.api.registration import Registration
 from regkit.api.tables import Summary
 from regkit.body import Body
-from regkit.interfaces import Registrar
+from regkit.interfaces import Registrar, Start
 from regkit.metrics import JointErrors, Measure, joint_errors, measured
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
@@ -51,6 +51,7 @@ class Tracking(Summary):
         name: Name of the recording.
         method: Name of the method.
         fps: Frame rate of the recording [1/s].
+        start: The pose and size in the first frame, with their verdict.
         registrar: The registrar of the frames.
         recorder: Frames recorded during tracking.
         indices: Frame numbers in the recording.
@@ -61,6 +62,7 @@ class Tracking(Summary):
     name: str
     method: str
     fps: float
+    start: Start
     registrar: Registrar
     recorder: TrackRecorder
     indices: range
@@ -99,7 +101,7 @@ class Tracking(Summary):
     @cached_property
     def judged(self) -> TrackVerdict:
         """Whether the body was found in these frames, and the reason if not."""
-        return TrackVerdict.of(self.track, self.indices)
+        return TrackVerdict.of(self.track, self.indices, self.start)
 
     @property
     def verdict(self) -> Verdict:
@@ -130,7 +132,7 @@ class Tracking(Summary):
         Raises:
             RegkitError: If they do not match the frames or the markers.
         """
-        return measured(self.track, self.body, self._errors(truth), self.fps)
+        return measured(self.track, self.body, self._errors(truth), self.fps, self.start)
 
     def error(self, truth: Reference) -> float:
         """Returns the mean distance [m] of the markers to the visible reference joints.

@@ -9,6 +9,7 @@ from typing import Self
 import numpy as np
 from pydantic import TypeAdapter
 
+from regkit.body.verdict import Verdict
 from regkit.interfaces import Start, StartSearch, Template
 from regkit.skeleton import Pose
 from regkit.system.digests import data_digest
@@ -34,6 +35,9 @@ class StoredStart:
         root: T_camera_root (4, 4) [m].
         balls: Unit quaternions of the ball joints (n_ball, 4).
         hinges: Hinge angles (n_hinge,) [rad].
+        verdict: Whether the body was found.
+        reason: Why it is not surely found.
+        margin: Advantage over the best other pose; None if there was none.
         checksum: Digest of the other fields.
     """
 
@@ -42,6 +46,9 @@ class StoredStart:
     root: list[list[float]]
     balls: list[list[float]]
     hinges: list[float]
+    verdict: Verdict
+    reason: str
+    margin: float | None
     checksum: str = ""
 
     @classmethod
@@ -49,7 +56,9 @@ class StoredStart:
         """Returns a start in the form in which it is stored."""
         pose = start.pose
         arrays = (pose.root.tolist(), pose.balls.tolist(), pose.hinges.tolist())
-        plain = cls(inputs, float(start.body.size), *arrays)
+        margin = float(start.margin) if np.isfinite(start.margin) else None
+        judged = (start.verdict, start.reason, margin)
+        plain = cls(inputs, float(start.body.size), *arrays, *judged)
         return cls(**asdict(plain) | {"checksum": plain.digest()})
 
     @classmethod
@@ -78,7 +87,8 @@ class StoredStart:
             np.array(self.balls, dtype=float).reshape(rest.balls.shape),
             np.array(self.hinges, dtype=float).reshape(rest.hinges.shape),
         )
-        return Start(body, pose)
+        margin = float("nan") if self.margin is None else self.margin
+        return Start(body, pose, self.verdict, self.reason, margin)
 
 
 def kept_start(session: Session, folder: Path, inputs: str) -> Start:

@@ -13,7 +13,7 @@ from regkit.experiment.provenance.recording import RecordingInputs, kept_inputs,
 from regkit.experiment.provenance.setup import Setup
 from regkit.experiment.results import Results
 from regkit.experiment.starts import kept_start, start_file
-from regkit.interfaces import Registrar
+from regkit.interfaces import Start
 from regkit.metrics import Measure, check_reference_unit, joint_errors, measured, tell_unmatched
 from regkit.observation import Truth
 from regkit.report import Record
@@ -112,7 +112,7 @@ class Task:
         for frame in session.tracked(registrar, tracker, start.pose):
             recorder.add(frame)
             each_frame()
-        return self._recorded(results, name, session, inputs, registrar, recorder)
+        return self._recorded(results, name, session, inputs, start, recorder)
 
     def _recorded(
         self,
@@ -120,7 +120,7 @@ class Task:
         name: str,
         session: Session,
         inputs: RecordingInputs,
-        registrar: Registrar,
+        start: Start,
         recorder: TrackRecorder,
     ) -> Measure:
         """Computes the metrics of a track, draws its overlay and writes its files.
@@ -128,13 +128,13 @@ class Task:
         Raises:
             RegkitError: If the data or the setup have changed while the recording was tracked.
         """
-        track, body, truth = recorder.track(), registrar.body, self._truth(session)
+        track, body, truth = recorder.track(), start.body, self._truth(session)
         errors = None
         if truth is not None:
             errors = joint_errors(track, body, truth, self.experiment.dataset.joints)
         fps = session.recording.fps
-        measure = measured(track, body, errors, fps)
-        record = Record.of(track, recorder.snapshot, registrar, errors, truth, fps)
+        measure = measured(track, body, errors, fps, start)
+        record = Record.of(track, recorder.snapshot, recorder.registrar, errors, truth, fps)
         Setup.of(self.experiment).check(self.folder, part=True)
         inputs.check(session.recording, self.experiment.dataset)
         results.write(name, self.recording, inputs.digest, track, body, measure, record)

@@ -30,6 +30,7 @@ class RegistrationResult:
         evaluations: Number of energy evaluations.
         message: Reason why the solver ended.
         multipliers: Multipliers of the limits, if the solver computes them.
+        searched: Number of points in which the tracker sought the whole body anew; 0 if it did not.
     """
 
     pose: Pose
@@ -40,6 +41,7 @@ class RegistrationResult:
     evaluations: int
     message: str
     multipliers: Multipliers | None = None
+    searched: int = 0
 
     @classmethod
     def given(cls, pose: Pose) -> RegistrationResult:

@@ -13,6 +13,22 @@ from regkit.skeleton import Pose
 WINDOW = 1000
 """Number of stored inlier shares, enough to determine the usual share in a recording."""
 
+SEARCHES = 8
+"""Number of stored searches, enough to make them rare while they are in vain."""
+
+
+@dataclass(frozen=True)
+class BodySearch:
+    """A search for the whole body in an earlier frame.
+
+    Attributes:
+        age: Number of frames since, also without data; 1 for the last frame.
+        points: Number of points in which the body was sought.
+    """
+
+    age: int
+    points: int
+
 
 @dataclass(frozen=True)
 class Past:
@@ -23,12 +39,16 @@ class Past:
         before: Result of the frame before the last, if there is one.
         frames: Number of registered frames.
         inlier_shares: Inlier shares of up to ``WINDOW`` last frames, the latest last.
+        missed: Number of frames without data since the last registered one.
+        searches: Up to ``SEARCHES`` last searches for the whole body, the latest last.
     """
 
     last: RegistrationResult
     before: RegistrationResult | None = None
     frames: int = 0
     inlier_shares: tuple[float, ...] = ()
+    missed: int = 0
+    searches: tuple[BodySearch, ...] = ()
 
     @classmethod
     def start(cls, pose: Pose) -> Past:
@@ -37,16 +57,23 @@ class Past:
 
     def followed_by(self, result: RegistrationResult) -> Past:
         """Returns the past after one more frame."""
+        new = (BodySearch(0, result.searched),) if result.searched else ()
         return Past(
             last=result,
             before=self.last if self.frames else None,
             frames=self.frames + 1,
             inlier_shares=(*self.inlier_shares[1 - WINDOW :], result.inlier_share),
+            searches=_older((*self.searches, *new)),
         )
 
     def interrupted(self) -> Past:
         """Returns the past after a frame without data, in which the motion is unknown."""
-        return replace(self, before=None)
+        return replace(self, before=None, missed=self.missed + 1, searches=_older(self.searches))
+
+
+def _older(searches: tuple[BodySearch, ...]) -> tuple[BodySearch, ...]:
+    """Returns the last searches, one frame later."""
+    return tuple(BodySearch(one.age + 1, one.points) for one in searches[-SEARCHES:])
 
 
 class BoundTracker(ABC):

@@ -10,6 +10,7 @@ import numpy as np
 from pydantic import Field, Strict
 
 from regkit.body import Body
+from regkit.interfaces import Start
 from regkit.metrics.joints import JointErrors
 from regkit.metrics.losses import Losses
 from regkit.metrics.thresholds import auc, fraction_within
@@ -111,7 +112,13 @@ ONLY_WHERE_LOST = ("recovery_s",)
 """Metrics that are defined only for recordings in which the body was lost."""
 
 
-def measured(track: Track, body: Body, errors: JointErrors | None, fps: float) -> Measure:
+def measured(
+    track: Track,
+    body: Body,
+    errors: JointErrors | None,
+    fps: float,
+    start: Start | None = None,
+) -> Measure:
     """Computes the metrics of a track.
 
     Args:
@@ -119,6 +126,7 @@ def measured(track: Track, body: Body, errors: JointErrors | None, fps: float) -
         body: The tracked body.
         errors: Joint errors, if there are reference joints.
         fps: Frames per second of the recording.
+        start: The start, whose doubts are those of the track.
     """
     raw, adjusted = (None, None) if errors is None else (errors.raw, errors.adjusted)
     frames = len(track.seconds)
@@ -126,7 +134,7 @@ def measured(track: Track, body: Body, errors: JointErrors | None, fps: float) -
     violations = [limits.violation(track.pose(index)).max(initial=0.0) for index in range(frames)]
     threshold, largest = PCK_FRACTION * body.size, AUC_FRACTION * body.size
     losses = None if raw is None else Losses.of(raw, threshold)
-    judged, seen = TrackVerdict.of(track), track.seen
+    judged, seen = TrackVerdict.of(track, start=start), track.seen
     found = np.array(track.verdicts)[seen] == Verdict.FOUND
     return Measure(
         joint_error_raw_cm=_mean(raw, 100.0),

@@ -8,6 +8,7 @@
 from regkit.skeleton.couplings import Couplings
 from regkit.skeleton.description import SegmentDescription, SkeletonDescription
 from regkit.skeleton.limits import Limits
+from regkit.skeleton.mirroring import Mirroring
 from regkit.skeleton.placement import Placement
 from regkit.skeleton.pose import Pose, PoseDescription
 from regkit.skeleton.skeleton import Skeleton
@@ -15,6 +16,7 @@ from regkit.skeleton.skeleton import Skeleton
 __all__ = [
     "Couplings",
     "Limits",
+    "Mirroring",
     "Placement",
     "Pose",
     "PoseDescription",

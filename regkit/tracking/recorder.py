@@ -9,7 +9,7 @@ from sys import intern
 import numpy as np
 
 from regkit.body import BodyFit
-from regkit.interfaces import Registrar
+from regkit.interfaces import Expected, Registrar
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit.system.brief import Brief
@@ -47,7 +47,7 @@ class TrackRecorder:
 
     def __init__(self, session: Session, registrar: Registrar) -> None:
         self._session = session
-        self._registrar = registrar
+        self.registrar = registrar
         self._values = {field.name: array("d") for field in fields(Track)}
         self._messages: list[str] = []
         self._snapshots: dict[str, Snapshot] = {}
@@ -59,9 +59,11 @@ class TrackRecorder:
 
     def add(self, frame: TrackedFrame) -> None:
         """Records the next frame."""
-        body, found = self._registrar.body, frame.registered
-        points = None if frame.observation is None else frame.observation.points
-        fit = BodyFit.unknown() if points is None else BodyFit.of(body, found.pose, points)
+        body, found = self.registrar.body, frame.registered
+        points, fit = None, BodyFit.unknown()
+        if frame.observation is not None:
+            points = frame.observation.points
+            fit = BodyFit.of(body, found.pose, points, frame.observation.silhouette)
         values = {
             "root": found.pose.root,
             "balls": found.pose.balls,
@@ -70,6 +72,7 @@ class TrackRecorder:
             "surface_distances": fit.distance,
             "inlier_shares": fit.inlier_share,
             "coverages": fit.coverage,
+            "misfits": fit.misfit,
             "reliefs": fit.relief,
             "points": 0 if points is None else len(points),
             "energies": found.energy,
@@ -93,7 +96,7 @@ class TrackRecorder:
 
     def track(self) -> Track:
         """Returns all recorded frames as arrays."""
-        rest, markers = self._registrar.body.skeleton.rest(), self._registrar.body.markers
+        rest, markers = self.registrar.body.skeleton.rest(), self.registrar.body.markers
         shapes = {
             "root": rest.root.shape,
             "balls": rest.balls.shape,
@@ -120,5 +123,8 @@ class TrackRecorder:
         for kept in self._snapshots.values():
             if kept.frame == index:
                 return kept
-        points = self._session.observation(index).points
-        return Snapshot(index, points, self.track().pose(index))
+        track, body = self.track(), self.registrar.body
+        # A segmenter follows the body, from the start on.
+        expected = Expected(body, track.pose(max(index - 1, 0)))
+        points = self._session.observation(index, expected).points
+        return Snapshot(index, points, track.pose(index))

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from regkit.body.verdict import FLAT, Verdict
+from regkit.body.verdict import FLAT, SURE_MISFIT, Verdict
+from regkit.interfaces import Start
 from regkit.tracking.track import Track
 
 MANY = 0.1
@@ -39,7 +40,9 @@ class TrackVerdict:
     reason: str = ""
 
     @classmethod
-    def of(cls, track: Track, numbers: Sequence[int] | None = None) -> TrackVerdict:
+    def of(
+        cls, track: Track, numbers: Sequence[int] | None = None, start: Start | None = None
+    ) -> TrackVerdict:
         """Returns the verdict of a track.
 
         The body is lost if it is lost in the last frame with data, or in most of them. The track is
@@ -49,7 +52,19 @@ class TrackVerdict:
         Args:
             track: The track.
             numbers: Frame numbers for the reason, (T,); from 0 by default.
+            start: The start; a track from a doubtful start is doubtful, however well its frames
+                fit, because a body that is turned round fits nearly as well.
         """
+        judged = cls._of_frames(track, numbers or range(len(track)))
+        if start is None or start.verdict is Verdict.FOUND:
+            return judged
+        told = f"the start is doubtful: {start.reason}"
+        verdict = Verdict.DOUBTFUL if judged.verdict is Verdict.FOUND else judged.verdict
+        return cls(verdict, f"{judged.reason}; {told}" if judged.reason else told)
+
+    @classmethod
+    def _of_frames(cls, track: Track, numbers: Sequence[int]) -> TrackVerdict:
+        """Returns the verdict of the frames."""
         frames = Counter(track.verdicts)
         seen = [verdict for verdict in track.verdicts if verdict is not Verdict.NO_DATA]
         if not seen:
@@ -63,7 +78,7 @@ class TrackVerdict:
         else:
             told = TOLD[Verdict.NO_DATA].format(_share_of(frames[Verdict.NO_DATA], track))
             return cls(Verdict.FOUND, told if missing else "")
-        return cls(verdict, _reason(track, numbers or range(len(track))))
+        return cls(verdict, _reason(track, numbers))
 
 
 def _reason(track: Track, numbers: Sequence[int]) -> str:
@@ -83,13 +98,16 @@ def _reason(track: Track, numbers: Sequence[int]) -> str:
         parts.append(f"{where}the data are as flat as a wall")
     shares = np.fmin(track.inlier_shares, track.coverages)
     if frames[Verdict.LOST] or frames[Verdict.DOUBTFUL]:
-        worst = int(np.nanargmin(shares))
+        # Where the shares are high, the distance of both sides decides.
+        worst = int(np.nanargmax(1.0 - shares + np.nan_to_num(track.misfits)))
         where = f"in frame {numbers[worst]} " if len(track) > 1 else ""
         told = [f"{100.0 * track.inlier_shares[worst]:.0f} % of the points lie on the body"]
         if np.isfinite(track.coverages[worst]):
-            told.append(f"{100.0 * track.coverages[worst]:.0f} % of the body has data")
+            told.append(f"{100.0 * track.coverages[worst]:.0f} % of the visible body has data")
+        if track.misfits[worst] > SURE_MISFIT:
+            told.append(f"both are {track.misfits[worst]:.2g} limb radii apart")
         parts.append(
-            f"{where}{' and '.join(told)}; check the template, its size, and the crop of the "
+            f"{where}{', '.join(told)}; check the template, its size, and the crop of the "
             "surroundings"
         )
     return ": ".join(parts)

@@ -11,7 +11,7 @@ from places import DATA
 
 import regkit
 from regkit.geometry.rigid import rigid
-from regkit.interfaces import Evaluation, Past, Preprocessor, Recording, Registrar
+from regkit.interfaces import Chain, Evaluation, Past, Preprocessor, Recording, Registrar
 from regkit.interfaces import RegistrationResult as Result
 from regkit.observation import Frame, Observation
 from regkit.skeleton import Pose
@@ -188,7 +188,9 @@ def test_step_that_loads_loops_is_repeated_and_gives_the_same_track():
             return super().register(observation, candidates, **given)
 
     registrar = Loading()
-    frames = list(tracked(made(*OFFSETS), PointsPreprocessor(), registrar, ConstantPose(), pose()))
+    frames = list(
+        tracked(made(*OFFSETS), Chain(), PointsPreprocessor(), registrar, ConstantPose(), pose())
+    )
     assert registrar.calls == len(OFFSETS) + 2
     assert len(frames) == len(OFFSETS)
     past = Past.start(pose())

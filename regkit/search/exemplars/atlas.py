@@ -81,15 +81,7 @@ class Atlas:
         if settings.cut:
             views = rolled(views, random.uniform(0.0, 2.0 * np.pi, settings.count))
             cuts = _sampled_cuts(random, settings.count)
-        axes = body.capsules.axis_points(SPACING * body.size)
-        parts = []
-        for first in range(0, settings.count, BATCH):
-            some = slice(first, first + BATCH)
-            poses = Pose(np.eye(4), balls[some], hinges[some])
-            places = axes.place(Placement.of(body.skeleton, poses).transforms) / body.size
-            radii = axes.radii / body.size
-            parts.append(exemplar_descriptors(places, radii, views[some], cuts[some]))
-        descriptors = np.concatenate([part[0] for part in parts])
+        descriptors, centres = _rendered(body, balls, hinges, views, cuts)
         mean = descriptors.mean(axis=0)
         sample = (descriptors[:SAMPLE] - mean).astype(float)
         _, vectors = np.linalg.eigh(sample.T @ sample)
@@ -98,10 +90,33 @@ class Atlas:
             balls.astype(np.float32),
             hinges.astype(np.float32),
             views.astype(np.float32),
-            np.concatenate([part[1] for part in parts]).astype(np.float32),
+            centres,
             mean,
             basis,
             (descriptors - mean) @ basis,
+        )
+
+    def with_pose(self, body: Body, pose: Pose, count: int) -> Atlas:
+        """Returns the atlas with one more pose, seen from evenly many sides.
+
+        Args:
+            body: The body.
+            pose: The pose.
+            count: Number of views.
+        """
+        random = np.random.default_rng(0)
+        balls, hinges = np.tile(pose.balls, (count, 1, 1)), np.tile(pose.hinges, (count, 1))
+        views = sampled_views(random, count, (-np.pi / 2, np.pi / 2))
+        cuts = np.zeros((count, 0, 3))
+        descriptors, centres = _rendered(body, balls, hinges, views, cuts)
+        return Atlas(
+            np.concatenate([self.balls, balls.astype(np.float32)]),
+            np.concatenate([self.hinges, hinges.astype(np.float32)]),
+            np.concatenate([self.views, views.astype(np.float32)]),
+            np.concatenate([self.centres, centres]),
+            self.mean,
+            self.basis,
+            np.concatenate([self.codes, (descriptors - self.mean) @ self.basis]),
         )
 
     def __len__(self) -> int:
@@ -116,6 +131,29 @@ class Atlas:
     def arrays(self) -> dict[str, Singles]:
         """Returns the arrays by name, for a file."""
         return asdict(self)
+
+
+def _rendered(
+    body: Body, balls: Array, hinges: Array, views: Array, cuts: Array
+) -> tuple[Singles, Singles]:
+    """Returns the descriptors (N, D) of exemplars, and the centres of their images (N, 3) [size].
+
+    Args:
+        body: The body.
+        balls: Unit quaternions of the ball joints, (N, n_ball, 4).
+        hinges: Hinge angles, (N, n_hinge) [rad].
+        views: R_view_body, (N, 3, 3).
+        cuts: Lines at which their pictures end, (N, C, 3).
+    """
+    axes, parts = body.capsules.axis_points(SPACING * body.size), []
+    radii = axes.radii / body.size
+    for first in range(0, len(views), BATCH):
+        some = slice(first, first + BATCH)
+        poses = Pose(np.eye(4), balls[some], hinges[some])
+        places = axes.place(Placement.of(body.skeleton, poses).transforms) / body.size
+        parts.append(exemplar_descriptors(places, radii, views[some], cuts[some]))
+    descriptors = np.concatenate([part[0] for part in parts])
+    return descriptors, np.concatenate([part[1] for part in parts]).astype(np.float32)
 
 
 def _sampled_cuts(random: np.random.Generator, count: int) -> Array:

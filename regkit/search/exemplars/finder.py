@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -60,7 +61,7 @@ class Finder:
         atlas: The atlas of the template.
         rolls: Rolls of the body against its exemplars that are tried, (R,) [rad].
         looked_up: Number of exemplars that are rendered.
-        refined: Number of these that are refined.
+        kept: Number of these that are refined.
         cut_atlas: The atlas of bodies that a picture shows in part; None if none is sought.
     """
 
@@ -68,7 +69,7 @@ class Finder:
     atlas: Atlas
     rolls: Array
     looked_up: int
-    refined: int
+    kept: int
     cut_atlas: Atlas | None = None
 
     def candidates(self, pictures: Pictures) -> list[Exemplar]:
@@ -80,10 +81,8 @@ class Finder:
             cut = cut_matches(self.cut_atlas, pictures, sizes, CUT * count)
             found = Matches.joined([found, cut])
         scores = self._scores(found, pictures)
-        points = pictures.points
-        some = np.ascontiguousarray(points[:: max(1, len(points) // POINTS)])
         candidates = [
-            self._refined(self.bodies[found.sizes[index]], self._pose(found, index), some, pictures)
+            self.refined(self.bodies[found.sizes[index]], self._pose(found, index), pictures)
             for index in self._distinct(found, scores)
         ]
         return sorted(candidates, key=lambda candidate: candidate.disagreement)
@@ -91,7 +90,7 @@ class Finder:
     def disagreement(self, body: Body, pose: Pose, pictures: Pictures) -> float:
         """Returns the disagreement of a pose with the data, from 0 to 1."""
         links = body.place(pose).links[None]
-        return float(_rendered(body, links, pictures, SHARP)[0])
+        return float(_rendered(body, links, self._spheres(body), pictures, SHARP)[0])
 
     def _pose(self, found: Matches, index: int) -> Pose:
         return Pose(found.roots[index], found.balls[index], found.hinges[index])
@@ -108,12 +107,12 @@ class Finder:
             some = np.flatnonzero(found.sizes == index)
             if len(some):
                 links = self._placed(found, some, body)
-                scores[some] = _rendered(body, links, pictures, ROUGH)
+                scores[some] = _rendered(body, links, self._spheres(body), pictures, ROUGH)
         return scores
 
     def _distinct(self, found: Matches, scores: Array) -> list[int]:
         """Returns the best matches that differ from each other, equally many of each size."""
-        most = -(-self.refined // len(self.bodies))
+        most = -(-self.kept // len(self.bodies))
         chosen: list[int] = []
         for index, body in enumerate(self.bodies):
             some = np.flatnonzero(found.sizes == index)
@@ -129,17 +128,26 @@ class Finder:
                     left &= gaps >= SAME * body.size
                     chosen.append(int(some[row]))
                     most -= 1
-            most = -(-self.refined // len(self.bodies))
+            most = -(-self.kept // len(self.bodies))
         return chosen
 
-    def _refined(self, body: Body, pose: Pose, points: Array, pictures: Pictures) -> Exemplar:
+    def refined(self, body: Body, pose: Pose, pictures: Pictures) -> Exemplar:
+        """Returns a pose after a few steps towards the data.
+
+        Args:
+            body: One of the bodies.
+            pose: The pose.
+            pictures: The data.
+        """
+        points = pictures.points
+        points = np.ascontiguousarray(points[:: max(1, len(points) // POINTS)])
         root, balls, hinges = refined(
             pose.root,
             pose.balls,
             pose.hinges,
             Bones.of(body),
             Hull.of(body),
-            _spheres(body),
+            self._spheres(body),
             points,
             pictures.pictures[0].grid,
             SCALES * body.size,
@@ -150,14 +158,23 @@ class Finder:
         found = body.skeleton.limits.hinged(Pose(root, balls, hinges))
         return Exemplar(body, found, self.disagreement(body, found, pictures))
 
+    def _spheres(self, body: Body) -> Spheres:
+        return self._all_spheres[body.size]
 
-def _spheres(body: Body) -> Spheres:
-    return Spheres.of(body.capsules.axis_points(SPACING * body.size))
+    @cached_property
+    def _all_spheres(self) -> dict[float, Spheres]:
+        """The spheres of each body, by its size [m]."""
+        return {
+            body.size: Spheres.of(body.capsules.axis_points(SPACING * body.size))
+            for body in self.bodies
+        }
 
 
-def _rendered(body: Body, links: Array, pictures: Pictures, tolerance: float) -> Array:
+def _rendered(
+    body: Body, links: Array, spheres: Spheres, pictures: Pictures, tolerance: float
+) -> Array:
     """Returns the mean disagreement (K,) over all pictures for T_world_link (K, L, 4, 4)."""
-    total, spheres = np.zeros(len(links)), _spheres(body)
+    total = np.zeros(len(links))
     for picture in pictures.pictures:
         placed = picture.T_camera_world @ links
         total += disagreements(

@@ -12,13 +12,18 @@ from regkit.body import Body
 from regkit.interfaces import Template
 from regkit.observation import Observation
 from regkit.search.exemplars import Atlas, Exemplar, Finder, Pictures
-from regkit.start import Candidate, Scan
+from regkit.skeleton import Mirroring, Pose
+from regkit.start import Candidate, Finalist, Scan
 from regkit.start.sizes import fit, resized
 from regkit.system.arrays import Array
-from regkit_plugins.starts.exemplars.finalists import Comparison, Finalist
+from regkit_plugins.starts.exemplars.finalists import Comparison
 
 MORE = 2
 """Factor of the numbers of exemplars that are looked up and refined over all sizes together."""
+
+MIRRORED = 2
+"""Number of finalists whose mirror images are registered too: from the front and from behind a
+body looks alike."""
 
 PER_SIZE = 2
 """Least number of finalists of each candidate size."""
@@ -84,7 +89,7 @@ class Search:
             observation: The frame.
             each: Number of finalists of each size.
         """
-        pictures, scan = Pictures.of(observation, self._usual), Scan.of(observation)
+        pictures = Pictures.of(observation, self._usual)
         # A size between the candidates resembles fewer exemplars.
         more = 1 if len(bodies) == 1 else MORE
         finder = Finder(
@@ -98,10 +103,16 @@ class Search:
         candidates = finder.candidates(pictures)
         chosen: list[Exemplar] = []
         for body in bodies:
-            chosen += [one for one in candidates if one.body is body][:each]
-        finalists = [
-            self.comparison.finalist(one.body, one.pose, observation, scan) for one in chosen
-        ]
+            chosen += [one for one in candidates if one.body.size == body.size][:each]
+        finalists = [self.comparison.finalist(one.body, one.pose, observation) for one in chosen]
+        finalists.sort(key=_cost)
+        mirroring = Mirroring.of(bodies[0].skeleton)
+        if len(bodies) == 1 and mirroring is not None and pictures.one_sided:
+            for one in finalists[:MIRRORED]:
+                mirrored = finder.refined(one.body, _mirrored(one, mirroring), pictures)
+                finalists.append(
+                    self.comparison.finalist(mirrored.body, mirrored.pose, observation)
+                )
         return sorted(finalists, key=_cost)
 
     def _resized(self, observation: Observation, finalists: Sequence[Finalist]) -> Finalist:
@@ -115,7 +126,14 @@ class Search:
         bests = {one.body.size: one for one in reversed(finalists)}
         fits = [fit(scan, one.body, one.pose, self._usual) for one in bests.values()]
         best = resized(scan, self.template, min(fits, key=_misfit), self._sizes)
-        return self.comparison.finalist(best.body, best.pose, observation, scan)
+        return self.comparison.finalist(best.body, best.pose, observation)
+
+
+def _mirrored(finalist: Finalist, mirroring: Mirroring) -> Pose:
+    """Returns the pose that looks the same with near and far exchanged, seen by the camera."""
+    placed = finalist.body.capsules.place(finalist.body.place(finalist.pose).transforms)
+    middle = placed.ends.reshape(-1, 3).mean(axis=0)
+    return mirroring.mirrored(finalist.pose, middle / np.linalg.norm(middle), middle)
 
 
 def _misfit(candidate: Candidate) -> float:

@@ -1,4 +1,4 @@
-"""Recovery: detection of lost limbs, and search for their configuration."""
+"""Recovery: detection of lost limbs, search for their configuration, and for a lost body."""
 
 from __future__ import annotations
 
@@ -13,6 +13,10 @@ from regkit.config.quantities import FrameCount
 from regkit.interfaces import Past, Registrar, RegistrationResult
 from regkit.observation import Observation
 from regkit.search.limb_recovery import LimbRecovery
+from regkit_plugins.trackers.constant_velocity.reinitialization import (
+    BoundReinitialization,
+    Reinitialization,
+)
 
 BEST_SHARE = 0.25
 """Quantile of the outlier fraction over past frames that counts as usual."""
@@ -23,7 +27,8 @@ class Recovery(Model):
 
     It searches when a frame has more outliers than usual in the recording. Of many configurations
     within the joint limits, it registers the few that best match the points that the rest of the
-    body does not explain, and keeps one that fits the frame better.
+    body does not explain, and keeps one that fits the frame better. Where limbs do not explain the
+    outliers, the whole body is sought anew.
     """
 
     samples: Annotated[int, Field(ge=2, le=100_000)] = 500
@@ -36,11 +41,14 @@ class Recovery(Model):
     """Search if the fraction of outliers exceeds the usual one by this factor, plus ``gain``."""
     every: FrameCount = 20
     """Number of frames between unconditional searches, which begin in the first frame."""
+    reinitialization: Reinitialization | None = Reinitialization()
+    """Search for the whole body when limbs do not explain the outliers; null disables it."""
 
     def bind(self, registrar: Registrar) -> BoundRecovery:
         """Samples the configurations, which are the same for all frames."""
         limbs = LimbRecovery.of(registrar, self.samples, self.starts, self.gain)
-        return BoundRecovery(self, limbs)
+        body = None if self.reinitialization is None else self.reinitialization.bind(limbs)
+        return BoundRecovery(self, limbs, body)
 
 
 @dataclass(frozen=True)
@@ -50,10 +58,12 @@ class BoundRecovery:
     Attributes:
         recovery: The recovery.
         limbs: Search for the configurations of the limbs.
+        body: Search for the whole body, if it is enabled.
     """
 
     recovery: Recovery
     limbs: LimbRecovery
+    body: BoundReinitialization | None
 
     def checked(
         self,
@@ -61,15 +71,22 @@ class BoundRecovery:
         found: RegistrationResult,
         past: Past,
     ) -> RegistrationResult:
-        """Returns the registration, or a better one with another configuration of a limb."""
+        """Returns the registration, or a better one with another configuration of limbs or body."""
         if not self._alarmed(found, past):
             return found
-        return self.limbs.recovered(observation, found)
+        found = self.limbs.recovered(observation, found)
+        if self.body is None:
+            return found
+        return self.body.checked(observation, found, past, self._excess(found, past))
 
     def _alarmed(self, found: RegistrationResult, past: Past) -> bool:
         """Returns whether there are more outliers than usual, or a search is due."""
-        if past.frames % self.recovery.every == 0:
+        if past.frames % self.recovery.every == 0 or past.missed:
             return True
-        usual = float(np.quantile(1.0 - np.array(past.inlier_shares), BEST_SHARE))
         # Excess outliers below ``gain`` cannot lead to an accepted configuration.
-        return 1.0 - found.inlier_share > self.recovery.alarm * usual + self.recovery.gain
+        return self._excess(found, past) > self.recovery.gain
+
+    def _excess(self, found: RegistrationResult, past: Past) -> float:
+        """Returns the fraction of outliers beyond the usual one times the factor of the alarm."""
+        usual = np.quantile(1.0 - np.array(past.inlier_shares or (1.0,)), BEST_SHARE)
+        return 1.0 - found.inlier_share - self.recovery.alarm * float(usual)

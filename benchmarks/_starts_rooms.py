@@ -1,0 +1,118 @@
+"""People in rooms, tracked as a user tracks them, against the same motion alone."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+from _starts_bodies import Set
+from _starts_options import Options
+from _starts_sessions import experiment, synthetic
+
+from regkit.metrics.matching import matched
+from regkit.system.errors import RegkitError
+from regkit.system.optional import one_thread
+from regkit_synthesis.rooms import ROOMS
+
+FRAMES = 60
+"""Two seconds."""
+
+TAKES: Mapping[Set, tuple[Mapping[str, Any], ...]] = {
+    "development": (
+        {
+            "body": "average",
+            "motion": {"kind": "clip", "name": "walk", "way": 0.2},
+            "view": {"heading_deg": 20},
+        },
+        {
+            "body": "small",
+            "motion": {"kind": "keyframes", "name": "arms"},
+            "view": {"heading_deg": 150, "elevation_deg": 15},
+        },
+    ),
+    "test": (
+        {
+            "body": "tall",
+            "motion": {"kind": "bvh", "name": "walk_and_turn", "way": 0.3},
+            "view": {"heading_deg": -25, "elevation_deg": 10},
+        },
+        {
+            "body": "tall",
+            "motion": {"kind": "keyframes", "name": "tennis"},
+            "view": {"heading_deg": 60},
+        },
+    ),
+}
+"""Two takes of each set, from the front and from aside or behind."""
+
+HEIGHTS = {"average": 1.6327, "small": 1.4901, "tall": 1.88}
+
+
+@dataclass(frozen=True)
+class InRoom:
+    """A take in a room.
+
+    Attributes:
+        room: Name of the room.
+        error: Mean error of all joints in all frames [m]; infinite if nothing was tracked.
+        first: The same in the first frame [m].
+        verdict: The start's verdict, or why there is none.
+    """
+
+    room: str
+    error: float
+    first: float
+    verdict: str
+
+
+def tracked(kind: str, item: tuple[str, Mapping[str, Any]]) -> InRoom:
+    """Returns the errors of a take in a room, given by name."""
+    room, take = item
+    template = {"kind": "human", "build": take["body"], "height": HEIGHTS[take["body"]]}
+    chosen = experiment(kind, template, synthetic({"take": take}, frames=FRAMES, room=room))
+    (recording,) = chosen.dataset.chosen()
+    session, method, truth = chosen.session(recording), chosen.methods["best"], recording.truth()
+    assert truth is not None
+    try:
+        with one_thread():
+            start = session.begin()
+            body, tracker = start.body, method.tracker or chosen.tracker
+            frames = list(session.tracked(method.bind(body), tracker, start.pose))
+    except RegkitError as error:
+        return InRoom(room, np.inf, np.inf, str(error))
+    columns, markers = matched(body, truth, {})
+    placed = np.array([
+        body.markers.place(body.place(frame.registered.pose).transforms)[markers]
+        for frame in frames
+    ])  # fmt: skip
+    errors = np.linalg.norm(placed - truth.positions[: len(placed), columns], axis=2)
+    return InRoom(room, float(errors.mean()), float(errors[0].mean()), str(start.verdict))
+
+
+def figures(options: Options) -> dict[str, object]:
+    """Prints the table of rooms, and returns their figures."""
+    takes = TAKES[options.chosen]
+    items = [(room, take) for room in ROOMS for take in takes]
+    found = options.mapped("rooms", partial(tracked, options.start), items)
+    alone = [one.error for one in found if one.room == "none"]
+    heads = [f"{take['body']}, {take['motion']['name']}" for take in takes]
+    print(
+        f"\n| room | {' | '.join(f'{head} [cm] | first frame | start' for head in heads)} | ratio |"
+    )
+    print("|---|" + "--:|--:|---|" * len(heads) + "--:|")
+    ratios = {}
+    for room in ROOMS:
+        rows = [one for one in found if one.room == room]
+        ratios[room] = sum(one.error for one in rows) / sum(alone)
+        cells = [f"{100 * one.error:.1f} | {100 * one.first:.1f} | {one.verdict}" for one in rows]
+        print(f"| {room} | {' | '.join(cells)} | {ratios[room]:.2f} |", flush=True)
+    others = [ratio for room, ratio in ratios.items() if room != "none"]
+    if not np.isfinite(others).all():
+        return {"rooms": {"untracked": sum(not np.isfinite(one.error) for one in found)}}
+    return {
+        "rooms_ratio": round(float(np.mean(others)), 2),
+        "rooms_worst_ratio": round(max(others), 2),
+    }

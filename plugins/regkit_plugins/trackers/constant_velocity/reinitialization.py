@@ -1,0 +1,145 @@
+"""Reinitialization: a lost body is sought anew among its exemplars, seen from all sides."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Annotated
+
+import numpy as np
+from pydantic import Field
+
+from regkit.config.model import Model
+from regkit.interfaces import Past, RegistrationResult
+from regkit.interfaces.tracker import SEARCHES
+from regkit.observation import Observation
+from regkit.search.exemplars import AtlasSettings, Finder, Pictures, atlas_of
+from regkit.search.limb_recovery import LimbRecovery
+from regkit.skeleton import Pose
+from regkit.start import Finalist
+
+ROLLS = np.linspace(-np.pi, np.pi, 24, endpoint=False)
+"""Rolls of the body in the picture that are tried [rad]."""
+
+FEWEST_POINTS = 30
+"""Fewer points than this show no body."""
+
+LEAST_AGES = tuple(4 * (2**k - 1) for k in range(1, SEARCHES + 1))
+"""Least number of frames since the last search, the one before it, and so on."""
+
+SPAN = 100
+"""In so many frames there are at most ``SEARCHES`` searches, whatever the reason."""
+
+VIEWS = 300
+"""Number of sides from which the last pose is looked up too."""
+
+GROWN = 1.5
+"""A body that enters the picture is sought again when it has this many times the points."""
+
+
+class Reinitialization(Model):
+    """Seeks a lost body anew among its exemplars, as the search ``exemplars`` for a start does.
+
+    It searches when the limbs do not explain the outliers of a frame, and in the first frame with
+    data after frames without. The best of the poses that it finds replaces the tracked one only if
+    it has fewer outliers, less energy and clearly less misfit to the data. Searches that repeat
+    become rarer: the k-th last one is at least 4 (2^k - 1) frames ago.
+    """
+
+    exemplars: Annotated[int, Field(ge=100, le=1_000_000)] = 30_000
+    """Number of exemplars; the atlas is shared with a start of equally many."""
+    looked_up: Annotated[int, Field(ge=1, le=100_000)] = 600
+    """Number of similar exemplars that are rendered."""
+    refined: Annotated[int, Field(ge=1, le=10_000)] = 40
+    """Number of these that are refined."""
+    finalists: Annotated[int, Field(ge=1, le=1000)] = 4
+    """Number of refined poses that are registered."""
+    alarm: Annotated[float, Field(ge=0.0, le=1.0)] = 0.05
+    """Search if the fraction of outliers exceeds the usual one, times the factor of the limbs'
+    alarm, by this much."""
+    gain: Annotated[float, Field(ge=0.0, le=4.0)] = 0.05
+    """Minimum decrease of the misfit for accepting a pose, which ranges from 0 to 4."""
+
+    def bind(self, limbs: LimbRecovery) -> BoundReinitialization | None:
+        """Binds the search to a body; None if the body has no exemplars.
+
+        Args:
+            limbs: The search of the body's limbs, with its registrar.
+        """
+        body = limbs.registrar.body
+        if not body.skeleton.free or not len(body.capsules):
+            return None
+        return BoundReinitialization(self, limbs)
+
+
+@dataclass(frozen=True)
+class BoundReinitialization:
+    """``Reinitialization`` bound to a registrar.
+
+    Attributes:
+        settings: The settings.
+        limbs: Search for the configurations of the limbs.
+    """
+
+    settings: Reinitialization
+    limbs: LimbRecovery
+
+    def checked(
+        self, observation: Observation, found: RegistrationResult, past: Past, excess: float
+    ) -> RegistrationResult:
+        """Returns the registration, or a clearly better one of the body in another pose.
+
+        Args:
+            observation: The frame's data.
+            found: Its registration, whose limbs are sought already.
+            past: Results of previous frames.
+            excess: Fraction of outliers beyond those that the alarm of the limbs allows.
+        """
+        points = len(observation.points)
+        if points < FEWEST_POINTS or not self._due(points, past, excess):
+            return found
+        size = self.limbs.registrar.body.size
+        tracked = Finalist.registered(self.limbs, found, observation, size)
+        rivals = self._finalists(observation, past.last.pose)
+        best = min(rivals, key=_cost, default=tracked)
+        if self._better(best, tracked):
+            found = best.result
+        return replace(found, searched=points)
+
+    def _due(self, points: int, past: Past, excess: float) -> bool:
+        """Returns whether the body may be lost, and was not sought too often already."""
+        if not past.frames:
+            # The start has just been sought.
+            return False
+        last = past.searches[::-1]
+        if len(last) == SEARCHES and last[-1].age < SPAN:
+            return False
+        if past.missed:
+            return True
+        grown = not last or points >= GROWN * last[0].points
+        rested = all(one.age >= least for one, least in zip(last, LEAST_AGES, strict=False))
+        return (grown or rested) and excess > self.settings.alarm
+
+    def _finalists(self, observation: Observation, last: Pose) -> list[Finalist]:
+        settings, body = self.settings, self.limbs.registrar.body
+        # A body that was turned meanwhile may have kept its pose.
+        atlas = atlas_of(body, AtlasSettings(settings.exemplars)).with_pose(body, last, VIEWS)
+        finder = Finder([body], atlas, ROLLS, settings.looked_up, settings.refined)
+        candidates = finder.candidates(Pictures.of(observation, body.size))
+        return [
+            Finalist.of(self.limbs, one.pose, observation, body.size)
+            for one in candidates[: settings.finalists]
+        ]
+
+    def _better(self, new: Finalist, old: Finalist) -> bool:
+        """Returns whether a pose explains the frame clearly better, by every measure there is."""
+        gain = new.result.inlier_share - old.result.inlier_share
+        return (
+            new.energy < old.energy
+            and new.misfit < old.misfit - self.settings.gain
+            # A method without inlier shares has none to compare.
+            and not gain < self.limbs.gain
+        )
+
+
+def _cost(finalist: Finalist) -> float:
+    return finalist.cost

@@ -1,0 +1,74 @@
+"""Finalists: poses that are registered by a method, with a search of their limbs, and compared."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from regkit.body import Body, BodyFit
+from regkit.interfaces import RegistrationResult
+from regkit.observation import Observation
+from regkit.search.limb_recovery import LimbRecovery
+from regkit.skeleton import Pose
+
+
+@dataclass(frozen=True)
+class Finalist:
+    """A registered pose.
+
+    Attributes:
+        body: The body at a size.
+        result: Its registration.
+        energy: Energy of its pose, bound to the frame at this pose, in the method's own units.
+        misfit: Its two-sided misfit, of the visible body alone, and what an unusual size adds,
+            dimensionless.
+        unlikely: Cost of the pose without regard to the data, dimensionless.
+    """
+
+    body: Body
+    result: RegistrationResult
+    energy: float
+    misfit: float
+    unlikely: float = 0.0
+
+    @classmethod
+    def of(
+        cls, limbs: LimbRecovery, pose: Pose, observation: Observation, usual: float
+    ) -> Finalist:
+        """Returns a pose after registration and a search of all limbs.
+
+        Args:
+            limbs: The search of the limbs, with the registrar.
+            pose: The pose.
+            observation: The frame.
+            usual: The template's usual size [m].
+        """
+        found = limbs.registrar.register(observation, [pose])
+        found = limbs.recovered(observation, found)
+        return cls.registered(limbs, found, observation, usual)
+
+    @classmethod
+    def registered(
+        cls,
+        limbs: LimbRecovery,
+        found: RegistrationResult,
+        observation: Observation,
+        usual: float,
+    ) -> Finalist:
+        """Returns what was registered as it is; the arguments are those of ``of``."""
+        body = limbs.registrar.body
+        energy = limbs.registrar.evaluate(observation, found.pose).energy
+        fit = BodyFit.of(body, found.pose, observation.points, observation.silhouette)
+        unusual = float(np.log(body.size / usual) ** 2)
+        return cls(body, found, energy, fit.misfit + unusual)
+
+    @property
+    def pose(self) -> Pose:
+        """The registered pose."""
+        return self.result.pose
+
+    @property
+    def cost(self) -> float:
+        """Energy, misfit and prior; lower is better."""
+        return self.energy + self.misfit + self.unlikely

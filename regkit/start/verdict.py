@@ -1,0 +1,77 @@
+"""The verdict of a start: both sides of the fit, the advantage over rivals, and the view."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from regkit.body import Body, BodyFit
+from regkit.body.verdict import (
+    FLAT,
+    SURE_COVERAGE,
+    SURE_INLIERS,
+    SURE_MISFIT,
+    Verdict,
+    frame_verdicts,
+)
+from regkit.interfaces import Start
+from regkit.observation import Observation
+from regkit.skeleton import Pose
+
+SURE_MARGIN = 0.1
+"""A start is doubtful if another pose, turned or mirrored, costs only this much more.
+
+Of 144 right starts of people (development set of ``benchmarks/starts.py``) none has a margin below
+0.2.
+"""
+
+SPACING = 0.05
+"""Distance of the points that stand for a body, as a fraction of its size."""
+
+LEAST_SEEN = 0.35
+"""A start is doubtful if a smaller fraction of the body is inside the picture."""
+
+
+def judged(body: Body, pose: Pose, observation: Observation, margin: float = np.nan) -> Start:
+    """Returns a start with its verdict.
+
+    Args:
+        body: The body at its size.
+        pose: Its pose.
+        observation: The frame.
+        margin: Cost of the best other pose less that of this one; NaN if there was none.
+    """
+    fit = BodyFit.of(body, pose, observation.points, observation.silhouette)
+    shares = (fit.inlier_share, fit.coverage, fit.misfit, fit.relief)
+    (verdict,) = frame_verdicts(np.ones(1), *(np.array([share]) for share in shares))
+    reasons = _misfits(fit)
+    if margin < SURE_MARGIN:
+        reasons.append("another pose, turned or mirrored, fits nearly as well")
+    inside = _share_inside(body, pose, observation)
+    if inside < LEAST_SEEN:
+        reasons.append(f"only {100.0 * inside:.0f} % of the body is in the picture")
+    if reasons and verdict is Verdict.FOUND:
+        verdict = Verdict.DOUBTFUL
+    return Start(body, pose, verdict, "; ".join(reasons), margin)
+
+
+def _misfits(fit: BodyFit) -> list[str]:
+    """Returns in words where the data and the body differ."""
+    told = []
+    if fit.inlier_share < SURE_INLIERS:
+        told.append(f"{100.0 * fit.inlier_share:.0f} % of the points lie on the body")
+    if fit.coverage < SURE_COVERAGE:
+        told.append(f"{100.0 * fit.coverage:.0f} % of the visible body has data")
+    if fit.misfit > SURE_MISFIT:
+        told.append(f"the data and the body are {fit.misfit:.2g} limb radii apart")
+    if fit.relief < FLAT:
+        told.append("the data are as flat as a wall")
+    return told
+
+
+def _share_inside(body: Body, pose: Pose, observation: Observation) -> float:
+    """Returns the fraction of the body that is inside the picture."""
+    if observation.silhouette is None or not len(body.capsules):
+        return 1.0
+    capsules = body.capsules.place(body.place(pose).transforms)
+    points = capsules.axis_points(SPACING * body.size).points
+    return float(observation.silhouette.observable(points).mean())
