@@ -11,6 +11,7 @@ from regkit.body import Body
 from regkit.interfaces import Evaluation, Method, Past, Registrar, RegistrationResult, Tracker
 from regkit.interfaces.tracker import SEARCHES
 from regkit.observation import Observation
+from regkit.search.limb_recovery import LimbRecovery
 from regkit.skeleton import Pose
 from regkit.system.optional import one_blas_thread
 from regkit_plugins.templates.file import FileTemplate
@@ -161,6 +162,22 @@ def test_first_frame_after_a_gap_is_searched_but_not_without_end(lamp, sought):
     assert when[:3] == [1, 3, 5]
     assert all(later - first >= 100 for first, later in zip(when, when[SEARCHES:], strict=False))
     assert len(past.searches) <= SEARCHES
+
+
+@pytest.mark.parametrize(("share", "found"), [(0.9, 0), (0.75, 1)])
+def test_points_that_jump_start_a_search_even_if_limbs_explain_them(lamp, sought, share, found):
+    tracker, past = bound(lamp, share), healthy(lamp.skeleton.rest())
+
+    class Explained(LimbRecovery):
+        def recovered(self, observation, found):
+            return replace(found, inlier_share=0.95)
+
+    limbs = Explained(tracker.registrar, (), 1, 0.01)
+    tracker = replace(tracker, recovery=replace(tracker.recovery, limbs=limbs))
+    for _ in range(2):
+        past = stepped(tracker, past, some_points(100))
+    # The second jump follows a frame in which the body was right again: it is another one.
+    assert len(sought) == 2 * found
 
 
 def test_body_that_enters_the_picture_is_sought_as_more_of_it_is_seen(lamp, sought):
