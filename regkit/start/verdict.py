@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from regkit.body import Body, BodyFit
@@ -42,7 +44,13 @@ LEAST_SEEN = 0.35
 """A start is doubtful if a smaller fraction of the body is inside the picture."""
 
 
-def judged(body: Body, pose: Pose, observation: Observation, margin: float = np.nan) -> Start:
+def judged(
+    body: Body,
+    pose: Pose,
+    observation: Observation,
+    margin: float = np.nan,
+    doubts: Sequence[str] = (),
+) -> Start:
     """Returns a start with its verdict.
 
     Args:
@@ -50,11 +58,12 @@ def judged(body: Body, pose: Pose, observation: Observation, margin: float = np.
         pose: Its pose.
         observation: The frame.
         margin: Cost of the best other pose less that of this one; NaN if there was none.
+        doubts: More reasons for doubt.
     """
     fit = BodyFit.of(body, pose, observation.points, observation.silhouette)
     shares = (fit.inlier_share, fit.coverage, fit.misfit, fit.relief)
     (verdict,) = frame_verdicts(np.ones(1), *(np.array([share]) for share in shares))
-    reasons = _misfits(fit)
+    reasons = [*_misfits(fit), *doubts]
     planar = 0.0
     if len(body.capsules):
         planar = planar_share(observation.points, SMOOTH * body.capsules.limb_radius())
