@@ -91,7 +91,7 @@ class Search:
             each: Number of finalists of each size.
         """
         pictures = Pictures.of(observation, self._usual)
-        # A size between the candidates resembles fewer exemplars, and a part of a body more of them.
+        # A size between the candidates resembles fewer exemplars, a part of a body more of them.
         more = 1 if len(bodies) == 1 else MORE
         kept = MORE if pictures.cut else more
         each *= MORE if pictures.cut else 1
