@@ -46,6 +46,7 @@ autodoc_type_aliases = {
         "ArrayLike",
         "Indices",
         "Choice",
+        "Choices",
         "Cloud",
         "Frames",
         "Intrinsics",
@@ -70,7 +71,7 @@ nitpick_ignore_regex = [
     # Names that stand for a type, for which there is nothing to link to.
     (
         r"py:class",
-        r"TypeAliasForwardRef|ArrayLike|Beginning|Choice|Cloud|Deviation|Frames|Intrinsics|Measured"
+        r"TypeAliasForwardRef|ArrayLike|Beginning|Choices?|Cloud|Deviation|Frames|Intrinsics|Measured"
         r"|OneFrame"
         r"|Reference|Vector|Position|Rotation|FrameCount|Length|Count|regkit\.tracking\.verdict\.Annotated",
     ),

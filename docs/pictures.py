@@ -46,6 +46,14 @@ def clouds() -> None:
     _save("clouds", regkit.align(*views).plot())
 
 
+def room() -> None:
+    """What the default segmentation removes from a room."""
+    take = {"motion": "walk", "frames": 10, "room": "furnished"}
+    (furnished,) = Synthetic.model_validate({"takes": {"furnished": take}}).chosen()
+    regkit.preview(furnished, "human", count=2).save(DOCS / "images" / "room.png")
+    print("docs/images/room.png")
+
+
 def rooms() -> None:
     """The same walk in each room, and in one of them from other views."""
     takes: dict[str, dict[str, object]] = {
@@ -82,4 +90,5 @@ if __name__ == "__main__":
     notebook()
     hand()
     clouds()
+    room()
     rooms()

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from regkit.api import (
         Camera,
         CloudAlignment,
+        Preview,
         Registration,
         RegkitError,
         RegkitWarning,
@@ -24,8 +25,10 @@ if TYPE_CHECKING:
         load_frame,
         load_recording,
         load_template,
+        preview,
         register,
         track,
+        track_each,
     )
 
 __version__ = "0.2.0"
@@ -33,6 +36,7 @@ __version__ = "0.2.0"
 __all__ = [
     "Camera",
     "CloudAlignment",
+    "Preview",
     "Registration",
     "RegkitError",
     "RegkitWarning",
@@ -45,8 +49,10 @@ __all__ = [
     "load_frame",
     "load_recording",
     "load_template",
+    "preview",
     "register",
     "track",
+    "track_each",
 ]
 
 

@@ -2,6 +2,7 @@
 
 - ``datasets``: recordings in public and own formats.
 - ``templates``: bodies to register.
+- ``segmenters``: taking the body out of a scene.
 - ``preprocessors``: from frames to observations.
 - ``shapes``: shape models, from bodies to primitives.
 - ``kernels``: similarities of primitives and observations.

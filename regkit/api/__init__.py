@@ -3,9 +3,11 @@
 from regkit.api.aligning import CloudAlignment, align
 from regkit.api.choices import load_template
 from regkit.api.frame_files import load_frame
+from regkit.api.previewing import Preview, preview
 from regkit.api.recordings import load_recording
 from regkit.api.registering import register, track
 from regkit.api.registration import Registration
+from regkit.api.several import track_each
 from regkit.api.tracking import Tracking, TrackingError
 from regkit.geometry.camera import Camera
 from regkit.observation import Truth
@@ -16,6 +18,7 @@ from regkit.tracking import Verdict
 __all__ = [
     "Camera",
     "CloudAlignment",
+    "Preview",
     "Registration",
     "RegkitError",
     "RegkitWarning",
@@ -27,6 +30,8 @@ __all__ = [
     "load_frame",
     "load_recording",
     "load_template",
+    "preview",
     "register",
     "track",
+    "track_each",
 ]

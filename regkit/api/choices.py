@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias, TypeVar
 
 from regkit.config.plugin import Plugin
-from regkit.interfaces import Template
+from regkit.interfaces import Segmenter, Template
 
 P = TypeVar("P", bound=Plugin)
 
 Choice: TypeAlias = str | Path | Mapping[str, Any] | P
 """A plug-in: a kind or preset, a YAML file, a mapping as in an experiment's YAML, or an object."""
+
+Choices: TypeAlias = Choice[P] | Sequence[Choice[P]]
+"""One plug-in, or several in order."""
 
 
 def load_template(source: Choice[Template], **options: object) -> Template:
@@ -42,3 +45,19 @@ def name_of(choice: Choice[Any]) -> str:
     if isinstance(choice, Mapping):
         return str(choice.get("preset", choice.get("kind", "")))
     return str(choice)
+
+
+def segmenters_of(choices: Choices[Segmenter] | None, *, place: str) -> tuple[Segmenter, ...]:
+    """Returns segmenters in order; the default one for None.
+
+    Raises:
+        ConfigError: If there is no such segmenter, or one of its fields is invalid.
+    """
+    if choices is None:
+        choices = [Segmenter.default()]
+    elif isinstance(choices, (str, Path, Mapping, Segmenter)):
+        choices = [choices]
+    return tuple(
+        Segmenter.parse(one, place=place, field=f"segmentation[{at}]")
+        for at, one in enumerate(choices)
+    )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from regkit.api.choices import Choice, load_template, name_of
+from regkit.api.choices import Choice, Choices, load_template, name_of, segmenters_of
 from regkit.api.frame import Intrinsics, Measured, frame_of
 from regkit.api.frame_files import load_frame
 from regkit.api.recordings import Frames, GivenFrames, recording_of
@@ -16,6 +16,7 @@ from regkit.interfaces import (
     Method,
     Preprocessor,
     Recording,
+    Segmenter,
     Start,
     StartSearch,
     Template,
@@ -50,6 +51,7 @@ def register(
     method: Choice[Method] | None = None,
     *,
     camera: Intrinsics | None = None,
+    segmentation: Choices[Segmenter] | None = None,
     preprocessor: Choice[Preprocessor] | None = None,
     start: Beginning | None = None,
 ) -> Registration:
@@ -58,14 +60,17 @@ def register(
     Args:
         cloud: Points (N, 3) [m] in the camera's frame (x right, y down, z forward), or a depth
             image (H, W) [m] with 0 for pixels without a measurement; or a file, as ``load_frame``
-            reads it: a cloud, a mesh, or a depth image with its ``camera.json``. It must show the
-            body alone, unless ``preprocessor`` crops the surroundings.
+            reads it: a cloud, a mesh, or a depth image with its ``camera.json``. It may show the
+            body in a room; see ``segmentation``.
         template: The body: ``"human"``, ``"hand"``, a file, or a result of ``load_template``.
         method: A preset such as ``"best"``, ``"spheres"``, ``"icp"`` or ``"paper"``, a mapping as
             in an experiment's YAML, or a method; by default regkit's best.
         camera: Camera of a depth image: a ``Camera``, a ``camera.json``, or its matrix K (3, 3)
             [px]. With a ``Camera``, points are treated as the surface visible to it; without one,
             as the whole surface.
+        segmentation: Segmenters that take the body out of the scene, in order: a name such as
+            ``"background"``, a list such as ``["planes", {"kind": "pieces", "choose": 1}]``, or
+            ``[]`` for none. By default a body alone is left as it is, and a room is removed.
         preprocessor: Preprocessing of points; by default they are downsampled to about 900.
         start: Search for pose and size, such as ``"stances"``, or a mapping as in an experiment's
             ``start``; or the pose itself, which requires the template's size. By default both are
@@ -83,7 +88,8 @@ def register(
         cloud = load_frame(cloud)
     frame = frame_of(cloud, camera, place="cloud")
     recording = GivenFrames(name=frame.place or "cloud", fps=1.0, length=1, given=(frame,))
-    return _tracked(recording, template, method, preprocessor, None, start, "regkit.register")[0]
+    chosen = (template, method, segmentation, preprocessor, None, start)
+    return tracked_through(recording, *chosen, "regkit.register")[0]
 
 
 @renamed_arguments(observer="preprocessor")
@@ -94,6 +100,7 @@ def track(
     *,
     camera: Intrinsics | None = None,
     fps: float = 30.0,
+    segmentation: Choices[Segmenter] | None = None,
     preprocessor: Choice[Preprocessor] | None = None,
     tracker: Choice[Tracker] | None = None,
     start: Beginning | None = None,
@@ -108,6 +115,7 @@ def track(
         method: As in ``register``.
         camera: Camera of depth images, as in ``register``.
         fps: Frames per second of arrays; recordings have their own.
+        segmentation: As in ``register``.
         preprocessor: As in ``register``.
         tracker: Tracker from frame to frame, if the method has none of its own.
         start: As in ``register``, for the first frame.
@@ -121,18 +129,35 @@ def track(
         RegkitError: If an argument is invalid, or the first frame cannot be registered.
     """
     recording = recording_of(frames, camera, fps)
-    return _tracked(recording, template, method, preprocessor, tracker, start, "regkit.track")
+    chosen = (template, method, segmentation, preprocessor, tracker, start)
+    return tracked_through(recording, *chosen, "regkit.track")
 
 
-def _tracked(
+def tracked_through(
     recording: Recording,
     template: Choice[Template],
     method: Choice[Method] | None,
+    segmentation: Choices[Segmenter] | None,
     preprocessor: Choice[Preprocessor] | None,
     tracker: Choice[Tracker] | None,
     start: Beginning | None,
     place: str,
+    *,
+    sized_in: int = 3,
 ) -> Tracking:
+    """Returns the track of a body; the arguments are those of ``track``.
+
+    Args:
+        recording: The recording.
+        template: The body.
+        method: The method.
+        segmentation: The segmenters.
+        preprocessor: The preprocessor.
+        tracker: The tracker.
+        start: The pose in the first frame.
+        place: Name of the calling function in messages.
+        sized_in: Number of frames that determine an unknown size.
+    """
     loaded = load_template(template)
     method = Method.default() if method is None else method
     chosen = Method.parse(method, place=place, field="method")
@@ -144,8 +169,14 @@ def _tracked(
     recording.prepare()
     first = _first(recording)
     check_unit(first.points, loaded, place=first.place or recording.name)
-    observes = preprocessor or _preprocessor_for(first)
-    session = Session(recording, loaded, observes, _search(start, place))
+    session = Session(
+        recording,
+        loaded,
+        preprocessor or _preprocessor_for,
+        _search(start, place),
+        sized_in=sized_in,
+        segmentation=segmenters_of(segmentation, place=place),
+    )
     with one_thread():
         begin = _begin(session)
         registrar = chosen.bind(begin.body)

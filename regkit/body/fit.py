@@ -9,12 +9,15 @@ from scipy.spatial import KDTree
 
 from regkit.body.body import Body
 from regkit.body.distance import model_to_data
-from regkit.geometry.capsules import Capsules
+from regkit.observation.silhouette import Silhouette
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 
 NEAR = 0.03
 """Distance within which data fit a body without capsules, as a fraction of its size."""
+
+FARTHEST = 2.0
+"""A distance counts up to this many radii of a typical limb."""
 
 SPACING = 0.05
 """Distance of the points on a body's axes, as a fraction of its size."""
@@ -30,8 +33,11 @@ class BodyFit:
     Attributes:
         distance: Median distance of the points to the body's surface [m].
         inlier_share: Fraction of the points that fit the surface, from 0 to 1.
-        coverage: Fraction of the body that has data nearby, from 0 to 1; parts that are out of the
-            picture or occluded have none. NaN for a body without capsules.
+        coverage: Fraction of the visible body that has data nearby, from 0 to 1; parts that are out
+            of the picture or hidden do not count. NaN for a body without capsules.
+        misfit: Mean distance of the points to the surface, and of the visible body to the points,
+            each up to twice the radius of a typical limb and in units of it: 0 to 4. NaN for a body
+            without capsules.
         relief: Standard deviation of the points along their thinnest direction, in radii of a
             typical limb; that of a wall is near 0, that of a body seen from one side about 1.
     """
@@ -39,36 +45,54 @@ class BodyFit:
     distance: float
     inlier_share: float
     coverage: float
+    misfit: float
     relief: float
 
     @classmethod
     def unknown(cls) -> BodyFit:
         """Returns the fit to no data, or of a body without a surface."""
-        return cls(float("nan"), float("nan"), float("nan"), float("nan"))
+        return cls(*(5 * [float("nan")]))
 
     @classmethod
-    def of(cls, body: Body, pose: Pose, points: Array) -> BodyFit:
-        """Returns the fit of a body to points (N, 3) [m]."""
+    def of(
+        cls, body: Body, pose: Pose, points: Array, silhouette: Silhouette | None = None
+    ) -> BodyFit:
+        """Returns the fit of a body.
+
+        Args:
+            body: The body.
+            pose: Its pose.
+            points: The data, (N, 3) [m].
+            silhouette: What the camera shows; None if everything is seen.
+        """
         transforms = body.place(pose).transforms
         if len(body.capsules):
             capsules = body.capsules.place(transforms)
             gaps = np.abs(capsules.surface_distance(points))
-            bare = model_to_data(capsules.axis_points(SPACING * body.size), KDTree(points)).lengths
-            near = _limb_radius(body.capsules)
+            near = body.capsules.limb_radius()
+            axes = capsules.axis_points(SPACING * body.size)
+            bare = model_to_data(axes, KDTree(points)).lengths
+            if silhouette is not None:
+                bare = bare[silhouette.observable(axes.points, axes.radii + near)]
+            # A body of which nothing is visible is not in sight.
+            bare = bare if len(bare) else np.array([np.inf])
             coverage = float((bare <= near).mean())
+            sides = [np.minimum(side / near, FARTHEST).mean() for side in (gaps, bare)]
+            misfit = float(sum(sides))
             relief = _least_deviation(points) / near
         elif body.surface is not None:
             placed = body.surface.place(transforms)
             gaps = np.asarray(KDTree(placed).query(points)[0])
             near = NEAR * body.size
             # The far side of an object is never seen, and an object may be flat.
-            coverage = relief = float("nan")
+            coverage = misfit = relief = float("nan")
         else:
             return cls.unknown()
         return cls(
             distance=float(np.median(gaps)),
             inlier_share=float((gaps <= near).mean()),
             coverage=coverage,
+            misfit=misfit,
             relief=relief,
         )
 
@@ -77,12 +101,3 @@ def _least_deviation(points: Array) -> float:
     """Returns the standard deviation [m] of points (N, 3) along their thinnest direction."""
     centred = points - points.mean(axis=0)
     return float(np.sqrt(max(np.linalg.eigvalsh(centred.T @ centred / len(points))[0], 0.0)))
-
-
-def _limb_radius(capsules: Capsules) -> float:
-    """Returns the radius [m] of a typical limb: the median over the capsules' length."""
-    radii = capsules.radii.mean(axis=1)
-    lengths = np.linalg.norm(capsules.ends[:, 1] - capsules.ends[:, 0], axis=1) + 2.0 * radii
-    order = np.argsort(radii)
-    half = np.searchsorted(np.cumsum(lengths[order]), 0.5 * lengths.sum())
-    return float(radii[order][half])

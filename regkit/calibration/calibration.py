@@ -12,12 +12,13 @@ from regkit.calibration.problem import SubjectProblem
 from regkit.calibration.shape import Shape
 from regkit.calibration.subject import Subject
 from regkit.config.model import Model
-from regkit.config.plugin import slot_default
+from regkit.config.plugin import slot_default, slot_defaults
 from regkit.config.quantities import Count, FrameCount
 from regkit.interfaces import (
     Method,
     Preprocessor,
     Recording,
+    Segmenter,
     Solver,
     Start,
     StartSearch,
@@ -44,6 +45,8 @@ class Calibration(Model):
     """Template of the subject, with average proportions."""
     preprocessor: Preprocessor | None = None
     """Preprocessor of the frames; by default voxels that suit the body's size."""
+    segmentation: tuple[Segmenter, ...] = slot_defaults(Segmenter)
+    """Segmenters that take the body out of the scene, applied in order before the preprocessor."""
     start: StartSearch = slot_default(StartSearch)
     """Search for pose and size in the first frame, or the pose itself, which requires the size."""
     frames: Count = 12
@@ -70,7 +73,14 @@ class Calibration(Model):
     def _subject(self, recording: Recording) -> Subject:
         shape = Shape(self.template.description())
         # The fit finds the size; the start needs only a rough one.
-        session = Session(recording, self.template, self._preprocessor(), self.start, sized_in=1)
+        session = Session(
+            recording,
+            self.template,
+            self._preprocessor(),
+            self.start,
+            sized_in=1,
+            segmentation=self.segmentation,
+        )
         with working("searching the start"):
             start = session.begin()
         if not len(start.body.capsules):

@@ -64,7 +64,7 @@ class Cloud:
         return model_to_data(axes, self.tree), weights
 
     def _hidden(self, centres: Array, thick: Array) -> Array:
-        """Returns one where the camera measured well in front of a sphere, else zero, (R,)."""
+        """Returns one where something in front of a sphere hides it, or may do so, else zero."""
         camera, depth = self.observation.camera, self.observation.depth
         if camera is None or depth is None:
             return np.zeros(len(centres))
@@ -73,7 +73,7 @@ class Cloud:
         measured = np.zeros(len(centres))
         measured[inside] = depth[rows[inside], columns[inside]]
         before = (measured > 0.0) & (measured < centres[:, 2] - 2.0 * thick)
-        return before.astype(np.float64)
+        return (before | np.isnan(measured)).astype(np.float64)
 
 
 def _ray_hits(points: Array, capsules: Capsules, span: float) -> Array:

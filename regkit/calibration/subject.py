@@ -90,11 +90,11 @@ def _verdict(body: Body, looks: Looks) -> Verdict:
         BodyFit.of(body, pose, cloud.points)
         for cloud, pose in zip(looks.clouds, looks.poses, strict=True)
     ]
-    shares, coverages, reliefs = (
+    shares = (
         np.array([[getattr(fit, name) for fit in fits]]).mean(axis=1)
-        for name in ("inlier_share", "coverage", "relief")
+        for name in ("inlier_share", "coverage", "misfit", "relief")
     )
-    return frame_verdicts(np.ones(1), shares, coverages, reliefs)[0]
+    return frame_verdicts(np.ones(1), *shares)[0]
 
 
 def _named(description: BodyDescription, recording: str, frames: int) -> BodyDescription:

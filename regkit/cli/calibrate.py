@@ -11,9 +11,10 @@ from rich.table import Table
 
 from regkit.calibration import Subject
 from regkit.cli.calibration_source import Source
+from regkit.cli.choices import segmentation_named
 from regkit.cli.completion import plugin_names
 from regkit.cli.console import errors, output
-from regkit.cli.options import PluginFiles, Strict, default_of, run_plugin_files
+from regkit.cli.options import PluginFiles, Segmentation, Strict, default_of, run_plugin_files
 from regkit.cli.template_file import check_replaceable, write_template
 from regkit.cli.verdicts import conclude
 from regkit.interfaces import Template
@@ -64,6 +65,7 @@ def calibrate(
     frames: Annotated[
         int, typer.Option(min=1, metavar="N", help="Number of frames, spread over the recording.")
     ] = 12,
+    segmentation: Segmentation = None,
     settings: Annotated[
         list[str] | None,
         typer.Option(
@@ -79,6 +81,8 @@ def calibrate(
     run_plugin_files(plugin)
     check_replaceable(out)
     found = Source.read(source, template, settings or ())
+    if segmentation is not None:
+        found = found.model_copy(update={"segmentation": segmentation_named(segmentation)})
     seen = found.recording(recording)
     subject = found.calibration(frames).subject(seen)
     opening = OPENING.format(frames=subject.frames, recording=seen.name, file=out.name)

@@ -9,9 +9,9 @@ from regkit.calibration import Calibration
 from regkit.cli.choices import template_named
 from regkit.cli.options import options
 from regkit.config.model import Model
-from regkit.config.plugin import slot_default
+from regkit.config.plugin import slot_default, slot_defaults
 from regkit.experiment import Experiment
-from regkit.interfaces import Dataset, Preprocessor, Recording, StartSearch, Template
+from regkit.interfaces import Dataset, Preprocessor, Recording, Segmenter, StartSearch, Template
 from regkit.system.errors import ConfigError, DataError
 
 
@@ -22,6 +22,8 @@ class Source(Model):
     """The recordings."""
     template: Template
     """The template to calibrate."""
+    segmentation: tuple[Segmenter, ...] = slot_defaults(Segmenter)
+    """Segmenters that take the body out of the scene."""
     preprocessor: Preprocessor | None = None
     """Preprocessing of the frames."""
     start: StartSearch = slot_default(StartSearch)
@@ -53,6 +55,7 @@ class Source(Model):
             return cls(
                 dataset=experiment.dataset,
                 template=experiment.template if template is None else template_named(template),
+                segmentation=experiment.segmentation,
                 preprocessor=experiment.preprocessor,
                 **({"start": experiment.start} if kept else {}),
             )
@@ -78,5 +81,9 @@ class Source(Model):
     def calibration(self, frames: int) -> Calibration:
         """Returns the calibration of the subject in ``frames`` frames."""
         return Calibration(
-            template=self.template, preprocessor=self.preprocessor, start=self.start, frames=frames
+            template=self.template,
+            segmentation=self.segmentation,
+            preprocessor=self.preprocessor,
+            start=self.start,
+            frames=frames,
         )

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any, ClassVar
 
-from regkit.api.choices import name_of
+from regkit.api.choices import name_of, segmenters_of
 from regkit.config.changes import Location
 from regkit.config.document import Document
 from regkit.config.model import Model
-from regkit.config.plugin import slot_default
+from regkit.config.plugin import slot_default, slot_defaults
 from regkit.config.yaml import yaml_value
-from regkit.interfaces import Method, Preprocessor, StartSearch, Template, Tracker
+from regkit.interfaces import Method, Preprocessor, Segmenter, StartSearch, Template, Tracker
 from regkit.system.errors import ConfigError
 
 
@@ -24,6 +24,8 @@ class Choices(Model):
     """The template to register."""
     method: Method = slot_default(Method)
     """The registration method."""
+    segmentation: tuple[Segmenter, ...] = slot_defaults(Segmenter)
+    """Segmenters that take the body out of the scene, applied in order before the preprocessor."""
     preprocessor: Preprocessor | None = None
     """Preprocessing of frames; by default they are downsampled to about 900 points."""
     tracker: Tracker = slot_default(Tracker)
@@ -44,6 +46,8 @@ class Choices(Model):
         """
         given = {name: text for name, text in options.items() if text is not None}
         data = {name: parsed(text, f"--{name}") for name, text in given.items()}
+        if "segmentation" in given:
+            data["segmentation"] = listed(given["segmentation"], "--segmentation")
         for name, slot in (("template", Template), ("method", Method), ("tracker", Tracker)):
             if isinstance(data.get(name), str):
                 data[name] = slot.named(data[name])
@@ -66,6 +70,30 @@ def parsed(text: str, option: str) -> Any:
         return yaml_value(text)
     except ConfigError as error:
         raise error.at(f"{option} {text}") from None
+
+
+def listed(text: str, option: str) -> list[Any]:
+    """Returns an option's plug-ins: names between commas, a YAML mapping, or a YAML list.
+
+    Raises:
+        ConfigError: If it begins like YAML but is not.
+    """
+    if not text.lstrip().startswith(("[", "{")):
+        return [name.strip() for name in text.split(",")]
+    try:
+        value = yaml_value(text)
+    except ConfigError as error:
+        raise error.at(f"{option} {text}") from None
+    return value if isinstance(value, list) else [value]
+
+
+def segmentation_named(text: str) -> tuple[Segmenter, ...]:
+    """Returns the segmenters of ``--segmentation``.
+
+    Raises:
+        ConfigError: If there is no such segmenter, or one of its fields is invalid.
+    """
+    return segmenters_of(listed(text, "--segmentation"), place=f"--segmentation {text}")
 
 
 def template_named(text: str | None) -> Template:

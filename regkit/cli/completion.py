@@ -22,6 +22,7 @@ NEEDED = ("regkit.cli", "regkit.config.schema_line")
 GROUPS = {
     "method": ("regkit.methods", "regkit.methods.presets"),
     "preprocessor": ("regkit.preprocessors",),
+    "segmentation": ("regkit.segmenters",),
     "template": ("regkit.templates",),
     "tracker": ("regkit.trackers",),
 }

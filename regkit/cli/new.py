@@ -14,6 +14,7 @@ KINDS = (
     "shape",
     "kernel",
     "term",
+    "segmenter",
     "preprocessor",
     "solver",
     "method",

@@ -13,7 +13,7 @@ from regkit.cli.completion import plugin_names
 from regkit.config.defaults import default_name
 from regkit.config.plugin import Plugin
 from regkit.config.registry import run_plugin_file
-from regkit.interfaces import Method, Template
+from regkit.interfaces import Method, Segmenter, Template
 from regkit.system.errors import PluginError, RegkitError
 
 
@@ -58,6 +58,19 @@ PreprocessorName = Annotated[
         autocompletion=plugin_names("preprocessor"),
         help="Preprocessing of a frame: a kind, or a mapping such as '{kind: points, voxel: 0.03, "
         "crop: {near: 2, far: 4}}'. (default: downsample to about 900 points)",
+        show_default=False,
+    ),
+]
+
+Segmentation = Annotated[
+    str | None,
+    typer.Option(
+        "--segmentation",
+        metavar="SEGMENTERS",
+        autocompletion=plugin_names("segmentation"),
+        help="Segmenters that take the body out of the scene, in order: names such as "
+        "background,pieces, a YAML list such as '[planes, {kind: pieces, choose: moving}]', or [] "
+        f"for none. (default: {default_of(Segmenter)})",
         show_default=False,
     ),
 ]

@@ -132,13 +132,14 @@ def _markers(tracking: Tracking) -> str:
 
 def _frames(tracking: Tracking) -> str:
     """Returns a table of the frames: verdict, agreement with the data, and cost."""
-    track, columns = tracking.track, ("inlier_shares", "coverages", "reliefs", "surface_distances")
+    track = tracking.track
+    columns = ("inlier_shares", "coverages", "misfits", "reliefs", "surface_distances")
     shares = [
         [f"{value:.6g}" if math.isfinite(value) else "" for value in row]
         for row in zip(*(getattr(track, name) for name in columns), strict=True)
     ]
     return csv_text(
-        ("frame", "time_s", "verdict", "points", "inlier_share", "coverage", "relief",
+        ("frame", "time_s", "verdict", "points", "inlier_share", "coverage", "misfit", "relief",
          "surface_distance_m", "converged", "seconds"),
         [
             (frame, f"{frame / tracking.fps:.6f}", track.verdicts[at], int(track.points[at]),

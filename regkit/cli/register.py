@@ -16,6 +16,7 @@ from regkit.cli.options import (
     Out,
     PluginFiles,
     PreprocessorName,
+    Segmentation,
     Settings,
     Strict,
     TemplateName,
@@ -39,6 +40,7 @@ def register(
     target: Annotated[Path | None, typer.Argument(hidden=True)] = None,
     template: TemplateName = None,
     method: MethodName = None,
+    segmentation: Segmentation = None,
     preprocessor: PreprocessorName = None,
     frame: Annotated[
         int, typer.Option(min=0, metavar="N", help="Frame of a recording's folder, from 0.")
@@ -69,12 +71,13 @@ def register(
     run_plugin_files(plugin)
     if out is not None:
         check_out(out, whole=False)
-    options = {"template": template, "method": method, "preprocessor": preprocessor}
-    choices, name = Choices.of(options, settings or ())
+    named = {"template": template, "method": method, "preprocessor": preprocessor}
+    choices, name = Choices.of({**named, "segmentation": segmentation}, settings or ())
     found = register_frame(
         load_frame(file, index=frame, depth_scale=depth_scale),
         choices.template,
         choices.method,
+        segmentation=choices.segmentation,
         preprocessor=choices.preprocessor,
         start=choices.start,
     )

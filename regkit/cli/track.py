@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from regkit.api import track as track_frames
+from regkit.api import track_each
 from regkit.api.tracking import TrackingError
 from regkit.cli.choices import Choices
 from regkit.cli.completion import plugin_names
@@ -16,6 +18,7 @@ from regkit.cli.options import (
     MethodName,
     PluginFiles,
     PreprocessorName,
+    Segmentation,
     Settings,
     Strict,
     TemplateName,
@@ -24,7 +27,17 @@ from regkit.cli.options import (
 )
 from regkit.cli.out_folder import check_out
 from regkit.cli.outcome import finish, show
-from regkit.interfaces import Dataset
+from regkit.cli.verdicts import conclude
+from regkit.interfaces import Dataset, Recording
+from regkit.system.errors import ConfigError
+from regkit.tracking import Verdict
+
+
+class People(StrEnum):
+    """How many bodies of a recording are tracked."""
+
+    ONE = "one"
+    ALL = "all"
 
 
 def track(
@@ -38,6 +51,7 @@ def track(
     ],
     template: TemplateName = None,
     method: MethodName = None,
+    segmentation: Segmentation = None,
     preprocessor: PreprocessorName = None,
     tracker: Annotated[
         str | None,
@@ -55,6 +69,10 @@ def track(
     frames: Annotated[
         int | None, typer.Option(min=1, metavar="N", help="Track only the first N frames.")
     ] = None,
+    people: Annotated[
+        People,
+        typer.Option(help="Track one body, or all that fit in the first frame, each by itself."),
+    ] = People.ONE,
     settings: Settings = None,
     out: Annotated[
         Path | None,
@@ -73,17 +91,23 @@ def track(
     """Track a template through a recording; the first frame's pose is found automatically."""
     run_plugin_files(plugin)
     named = {"template": template, "method": method, "preprocessor": preprocessor}
-    choices, name = Choices.of({**named, "tracker": tracker}, settings or ())
+    choices, name = Choices.of(
+        {**named, "segmentation": segmentation, "tracker": tracker}, settings or ()
+    )
     data = Dataset.in_folder(folder, frames=frames)
     with options(**{"dataset.recordings": "--recording"}):
         chosen = Dataset.parse(data, place="FOLDER", field="dataset").only(recording)
     results = out or Path("tracks") / chosen.name
     check_out(results, whole=False)
+    if people is People.ALL:
+        _track_all(chosen, choices, name, results, as_json=as_json, strict=strict)
+        return
     try:
         found = track_frames(
             chosen,
             choices.template,
             choices.method,
+            segmentation=choices.segmentation,
             preprocessor=choices.preprocessor,
             tracker=choices.tracker,
             start=choices.start,
@@ -94,3 +118,32 @@ def track(
             show(replace(error.tracked, method=name), results, as_json=as_json)
         raise
     finish(replace(found, method=name), results, as_json=as_json, strict=strict)
+
+
+def _track_all(
+    recording: Recording, choices: Choices, method: str, out: Path, *, as_json: bool, strict: bool
+) -> None:
+    """Tracks every body, into folders within ``out`` if there are several.
+
+    Raises:
+        Exit: With ``NOT_FOUND``, if a body was lost, or is doubtful and ``strict`` is set.
+    """
+    if choices.start is not None:
+        raise ConfigError("a start is that of one body; leave out --people all", place="start")
+    found = track_each(
+        recording,
+        choices.template,
+        choices.method,
+        segmentation=choices.segmentation,
+        preprocessor=choices.preprocessor,
+        tracker=choices.tracker,
+    )
+    for one in found:
+        folder = out if len(found) == 1 else out / one.name
+        show(replace(one, method=method), folder, as_json=as_json)
+    verdicts = [one.verdict for one in found]
+    worst = next(
+        (one for one in (Verdict.LOST, Verdict.DOUBTFUL) if one in verdicts), Verdict.FOUND
+    )
+    reasons = [f"{one.name}: {one.judged.reason}" for one in found if one.judged.reason]
+    conclude(worst, "; ".join(reasons), strict=strict)

@@ -8,7 +8,7 @@ until it is named, so a broken third-party plug-in can only harm those who name 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any, ClassVar, Self, TypeVar, cast
 
@@ -177,11 +177,20 @@ def plugins_in(value: Any, place: str = "") -> Iterator[tuple[str, Plugin]]:
 
 def slot_default(slot: type[Plugin], purpose: str = "", **fields: Any) -> Any:
     """Returns the default of a model's field: ``slot.default``, evaluated on use."""
+    return _evaluated_on_use(lambda: _shortest(slot.default(purpose, **fields)))
 
-    def data() -> Any:
-        found = slot.default(purpose, **fields)
-        return found["kind"] if list(found) == ["kind"] else found
 
+def slot_defaults(slot: type[Plugin]) -> Any:
+    """Returns the default of a field that lists plug-ins: the default of their slot alone."""
+    return _evaluated_on_use(lambda: [_shortest(slot.default())])
+
+
+def _shortest(data: dict[str, Any]) -> Any:
+    """Returns the data of a plug-in, as its name if that is all."""
+    return data["kind"] if list(data) == ["kind"] else data
+
+
+def _evaluated_on_use(data: Callable[[], Any]) -> Any:
     return Field(
         default_factory=data,
         validate_default=True,

@@ -11,12 +11,13 @@ from pydantic import AfterValidator, Field, ValidationInfo, WithJsonSchema, fiel
 
 from regkit.config.document import Document
 from regkit.config.model import Model
-from regkit.config.plugin import slot_default
+from regkit.config.plugin import slot_default, slot_defaults
 from regkit.interfaces import (
     Dataset,
     Method,
     Preprocessor,
     Recording,
+    Segmenter,
     StartSearch,
     Template,
     Tracker,
@@ -75,6 +76,9 @@ class Experiment(Model):
     """The body to register."""
     subjects: dict[str, Template] = Field(default_factory=dict)
     """Templates of individual subjects by the dataset's names; all others use ``template``."""
+    segmentation: tuple[Segmenter, ...] = slot_defaults(Segmenter)
+    """Segmenters that take the body out of the scene, applied in order before the preprocessor; an
+    empty list takes the frames as they are."""
     preprocessor: Preprocessor = slot_default(Preprocessor)
     """Preprocessing of frames."""
     tracker: Tracker = slot_default(Tracker)
@@ -124,4 +128,6 @@ class Experiment(Model):
     def session(self, recording: Recording) -> Session:
         """Returns a recording to track, with the template of its subject."""
         template = self.subjects.get(recording.subject or "", self.template)
-        return Session(recording, template, self.preprocessor, self.start)
+        return Session(
+            recording, template, self.preprocessor, self.start, segmentation=self.segmentation
+        )

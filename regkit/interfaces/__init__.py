@@ -1,10 +1,18 @@
 """The interfaces of plug-ins, as abstract base classes, and the types that pass between them."""
 
 from regkit.interfaces.dataset import Dataset, Recording
+from regkit.interfaces.expected import Expected
 from regkit.interfaces.kernel import Kernel, Response, Similarity
 from regkit.interfaces.method import Method
 from regkit.interfaces.preprocessor import Preprocessor
 from regkit.interfaces.registrar import Evaluation, Registrar, RegistrationResult
+from regkit.interfaces.segmenter import (
+    BoundSegmenter,
+    Chain,
+    SegmentedRecording,
+    Segmenter,
+    each_body,
+)
 from regkit.interfaces.shape import ShapeModel
 from regkit.interfaces.solver import (
     Constraints,
@@ -22,6 +30,7 @@ from regkit.interfaces.tracker import BoundTracker, Past, Tracker
 SLOTS = (
     Dataset,
     Template,
+    Segmenter,
     Preprocessor,
     StartSearch,
     ShapeModel,
@@ -35,10 +44,13 @@ SLOTS = (
 
 __all__ = [
     "SLOTS",
+    "BoundSegmenter",
     "BoundTracker",
+    "Chain",
     "Constraints",
     "Dataset",
     "Evaluation",
+    "Expected",
     "JointEnergy",
     "JointResponse",
     "Kernel",
@@ -53,6 +65,8 @@ __all__ = [
     "RegistrationResult",
     "Response",
     "Scene",
+    "SegmentedRecording",
+    "Segmenter",
     "ShapeModel",
     "Similarity",
     "Solution",
@@ -63,4 +77,5 @@ __all__ = [
     "Term",
     "Tracker",
     "VisibilityWeights",
+    "each_body",
 ]

@@ -39,7 +39,7 @@ class Past:
         before: Result of the frame before the last, if there is one.
         frames: Number of registered frames.
         inlier_shares: Inlier shares of up to ``WINDOW`` last frames, the latest last.
-        gap: Number of frames without data since the last frame.
+        missed: Number of frames without data since the last registered one.
         searches: Up to ``SEARCHES`` last searches for the whole body, the latest last.
     """
 
@@ -47,7 +47,7 @@ class Past:
     before: RegistrationResult | None = None
     frames: int = 0
     inlier_shares: tuple[float, ...] = ()
-    gap: int = 0
+    missed: int = 0
     searches: tuple[BodySearch, ...] = ()
 
     @classmethod
@@ -68,7 +68,7 @@ class Past:
 
     def interrupted(self) -> Past:
         """Returns the past after a frame without data, in which the motion is unknown."""
-        return replace(self, before=None, gap=self.gap + 1, searches=_older(self.searches))
+        return replace(self, before=None, missed=self.missed + 1, searches=_older(self.searches))
 
 
 def _older(searches: tuple[BodySearch, ...]) -> tuple[BodySearch, ...]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Annotated
 
 import numpy as np
@@ -44,6 +43,8 @@ class Crop(Model):
     def cropped(self, frame: Frame) -> Frame:
         """Returns the frame with cropped points and, if it has one, cropped depth image.
 
+        Removed pixels are free space, but those nearer than ``near`` are unknown.
+
         Raises:
             NoDataError: If the frame is empty, or fewer than ``min_points`` points are left.
             DataError: If a coordinate is not finite.
@@ -58,15 +59,11 @@ class Crop(Model):
                 f"least {self.min_points} are needed (preprocessor.crop)",
                 place=frame.place,
             )
-        if len(kept) == len(points):
-            return frame
-        depth = frame.depth
-        if depth is not None and np.count_nonzero(depth > 0.0) == len(points):
-            # Points are the valid pixels in row-major order; removed pixels count as free space.
-            pixels = np.flatnonzero(depth > 0.0)[kept]
-            depth = np.zeros_like(depth)
-            depth.flat[pixels] = points[kept, 2]
-        return replace(frame, points=points[kept], depth=depth)
+        mask = np.zeros(len(points), dtype=bool)
+        mask[kept] = True
+        # Only what is nearer than ``near`` may hide the object.
+        free = None if self.near is None else points[:, 2] >= self.near
+        return frame.only(mask, free=np.ones_like(mask) if free is None else free)
 
     def check_downsampled(self, count: int, frame: Frame, field: str, side: float) -> None:
         """Rejects voxels that leave hardly any point, such as a size in millimetres.

@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
 
 from regkit.geometry.camera import Camera
-from regkit.system.arrays import Array
+from regkit.system.arrays import Array, Indices
 from regkit.system.brief import Brief
+
+FARTHEST = 98.0
+"""Percentile of the kept depths that counts as the body's farthest: a few points are stray."""
 
 
 @dataclass(frozen=True)
@@ -16,7 +22,9 @@ class Frame(Brief):
     Attributes:
         points: Points in the camera frame (x right, y down, z forward), (N, 3) [m].
         camera: Intrinsics, if the points come from a depth image.
-        depth: Depth image, (H, W) [m], zero at invalid pixels; None if there is none.
+        depth: Depth image, (H, W) [m]; None if there is none. Zero marks a pixel without a
+            measurement, which counts as free space. NaN marks an unknown pixel, where something
+            else is that may hide the body.
         place: Source of the frame, for error messages.
     """
 
@@ -24,3 +32,37 @@ class Frame(Brief):
     camera: Camera | None = None
     depth: Array | None = None
     place: str | None = None
+
+    @property
+    def pixels(self) -> Indices | None:
+        """Flat indices of the points' pixels, (N,); None if the points are not an image's."""
+        if self.depth is None:
+            return None
+        # Points are the pixels with depth in row-major order.
+        pixels = np.flatnonzero(self.depth > 0.0)
+        return pixels if len(pixels) == len(self.points) else None
+
+    def only(self, kept: NDArray[np.bool_], *, free: NDArray[np.bool_] | None = None) -> Frame:
+        """Returns the frame with some of its points.
+
+        Removed pixels are unknown if they are nearer than the farthest point that is kept, since
+        the body may be behind what they show. Others are free space.
+
+        Args:
+            kept: Mask of the points to keep, (N,).
+            free: Mask of removed points, (N,), that cannot hide the body, such as the floor.
+        """
+        if kept.all():
+            return self
+        pixels = self.pixels
+        if pixels is None or self.depth is None:
+            return replace(self, points=self.points[kept])
+        depth, removed = self.depth.copy(), ~kept
+        depth.flat[pixels[removed]] = 0.0
+        if kept.any():
+            farthest = np.percentile(self.points[kept, 2], FARTHEST)
+            hiding = removed & (self.points[:, 2] < farthest)
+            if free is not None:
+                hiding &= ~free
+            depth.flat[pixels[hiding]] = np.nan
+        return replace(self, points=self.points[kept], depth=depth)

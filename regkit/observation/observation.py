@@ -22,7 +22,8 @@ class Observation(Brief):
         variances: Variances sigma^2, (N,) [m^2]. The run time of a kernel grows with the number of
             distinct values, so a preprocessor should round them.
         camera: Intrinsics, or None if unknown; the camera is at the origin and looks along z.
-        depth: Depth image of the points, (H, W) [m], zero at invalid pixels; None if there is none.
+        depth: Depth image of the points, (H, W) [m]; None if there is none. As in a ``Frame``, zero
+            marks free space and NaN an unknown pixel.
         normals: Unit normals of arbitrary sign at the points, (N, 3); None if unknown.
 
     Raises:

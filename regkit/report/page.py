@@ -165,7 +165,7 @@ def _finding(run: Run) -> str:
 
 
 def _compared(run: Run) -> list[tuple[str, str]]:
-    parts = ("dataset", "template", "preprocessor", "tracker", "start")
+    parts = ("dataset", "template", "segmentation", "preprocessor", "tracker", "start")
     lines = [(name, flow(run.config.get(name))) for name in parts]
     return [(name, text) for name, text in lines if text]
 

@@ -6,11 +6,13 @@
 - ``finalist``: poses that a method has registered, and their costs; trackers that seek a lost body
   compare them too.
 - ``rigid``, ``cloud``: starts of rigid surfaces.
+- ``verdict``: whether a start was found.
 """
 
 from regkit.start.candidate import Candidate
 from regkit.start.finalist import Finalist
 from regkit.start.rigid import rigid_start
 from regkit.start.scan import Scan
+from regkit.start.verdict import judged
 
-__all__ = ["Candidate", "Finalist", "Scan", "rigid_start"]
+__all__ = ["Candidate", "Finalist", "Scan", "judged", "rigid_start"]

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from regkit.body import Body
+import numpy as np
+
+from regkit.body import Body, BodyFit
 from regkit.interfaces import RegistrationResult
 from regkit.observation import Observation
 from regkit.search.limb_recovery import LimbRecovery
 from regkit.skeleton import Pose
-from regkit.start.scan import Scan
-from regkit.start.sizes import misfit
 
 
 @dataclass(frozen=True)
@@ -21,7 +21,8 @@ class Finalist:
         body: The body at a size.
         result: Its registration.
         energy: Energy of its pose, bound to the frame at this pose, in the method's own units.
-        misfit: Its two-sided misfit, dimensionless.
+        misfit: Its two-sided misfit, of the visible body alone, and what an unusual size adds,
+            dimensionless.
         unlikely: Cost of the pose without regard to the data, dimensionless.
     """
 
@@ -33,7 +34,7 @@ class Finalist:
 
     @classmethod
     def of(
-        cls, limbs: LimbRecovery, pose: Pose, observation: Observation, scan: Scan, usual: float
+        cls, limbs: LimbRecovery, pose: Pose, observation: Observation, usual: float
     ) -> Finalist:
         """Returns a pose after registration and a search of all limbs.
 
@@ -41,12 +42,11 @@ class Finalist:
             limbs: The search of the limbs, with the registrar.
             pose: The pose.
             observation: The frame.
-            scan: Its cloud.
             usual: The template's usual size [m].
         """
         found = limbs.registrar.register(observation, [pose])
         found = limbs.recovered(observation, found)
-        return cls.registered(limbs, found, observation, scan, usual)
+        return cls.registered(limbs, found, observation, usual)
 
     @classmethod
     def registered(
@@ -54,13 +54,14 @@ class Finalist:
         limbs: LimbRecovery,
         found: RegistrationResult,
         observation: Observation,
-        scan: Scan,
         usual: float,
     ) -> Finalist:
         """Returns what was registered as it is; the arguments are those of ``of``."""
         body = limbs.registrar.body
         energy = limbs.registrar.evaluate(observation, found.pose).energy
-        return cls(body, found, energy, misfit(scan, body, found.pose, usual))
+        fit = BodyFit.of(body, found.pose, observation.points, observation.silhouette)
+        unusual = float(np.log(body.size / usual) ** 2)
+        return cls(body, found, energy, fit.misfit + unusual)
 
     @property
     def pose(self) -> Pose:

@@ -16,6 +16,7 @@ from regkit.testing.parameter_laws import ParameterLaws
 from regkit.testing.partner_laws import KernelPartnerLaws, ShapePartnerLaws
 from regkit.testing.plugin_laws import PluginLaws
 from regkit.testing.preprocessor_laws import PreprocessorLaws
+from regkit.testing.segmenter_laws import SegmenterLaws
 from regkit.testing.shape_laws import ShapeLaws
 from regkit.testing.solver_laws import SolverLaws
 from regkit.testing.start_laws import StartLaws
@@ -27,6 +28,7 @@ LAWS: Mapping[str, tuple[type[Laws], ...]] = {
     "plugin": (PluginLaws,),
     "dataset": (DatasetLaws,),
     "template": (TemplateLaws,),
+    "segmenter": (SegmenterLaws,),
     "preprocessor": (PreprocessorLaws,),
     "shape": (ShapeLaws, ParameterLaws, ShapePartnerLaws),
     "kernel": (KernelPartnerLaws,),

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from regkit.interfaces import (
-    BoundTracker,
+    BoundSegmenter,
+    Expected,
     Past,
     Preprocessor,
     Recording,
@@ -19,6 +20,7 @@ from regkit.observation import Frame, Observation
 from regkit.skeleton import Pose
 from regkit.system.compiled import loaded_loops
 from regkit.system.errors import NoDataError, RegkitError
+from regkit.tracking.segmented import segmented
 
 
 @dataclass(frozen=True)
@@ -28,8 +30,9 @@ class TrackedFrame:
     Attributes:
         observation: The frame's data; None if it has none.
         registered: The registration result; without data, the last pose.
-        seconds: Time to preprocess and register [s], without reading the file and compiling.
-        preprocessing: Time to preprocess [s].
+        seconds: Time to segment, preprocess and register [s], without reading the file and
+            compiling.
+        preprocessing: Time to segment and preprocess [s].
     """
 
     observation: Observation | None
@@ -40,6 +43,7 @@ class TrackedFrame:
 
 def tracked(
     recording: Recording,
+    segmenter: BoundSegmenter,
     preprocessor: Preprocessor,
     registrar: Registrar,
     tracker: Tracker,
@@ -51,6 +55,7 @@ def tracked(
 
     Args:
         recording: The recording.
+        segmenter: Segmenter bound to the recording.
         preprocessor: Preprocessor of the frames.
         registrar: Method bound to the body.
         tracker: Tracker that predicts the next pose.
@@ -61,14 +66,27 @@ def tracked(
     """
     past = Past.start(start)
     bound = tracker.bind(registrar)
+
+    def step(frame: Frame) -> TrackedFrame:
+        begun = time.perf_counter()
+        try:
+            left = segmented(segmenter, frame, Expected.of(registrar.body, past))
+            observation = preprocessor.preprocess(left)
+        except NoDataError as error:
+            seconds = time.perf_counter() - begun
+            return TrackedFrame(None, past.last.without_data(error.message), seconds, seconds)
+        preprocessing = time.perf_counter() - begun
+        registered = bound.step(observation, past)
+        return TrackedFrame(observation, registered, time.perf_counter() - begun, preprocessing)
+
     for index, frame in enumerate(recording.frames()):
         try:
             loops = loaded_loops()
-            found = _step(frame, preprocessor, bound, past)
+            found = step(frame)
             if loaded_loops() != loops:
                 # Loops were compiled or loaded meanwhile. Repeating the step gives the same result
                 # and its true time.
-                found = _step(frame, preprocessor, bound, past)
+                found = step(frame)
         except RegkitError as error:
             raise error.at(frame.place or f"{recording.name}: frame {index}") from None
         if found.observation is None:
@@ -76,17 +94,3 @@ def tracked(
         else:
             past = past.followed_by(found.registered)
         yield found
-
-
-def _step(
-    frame: Frame, preprocessor: Preprocessor, bound: BoundTracker, past: Past
-) -> TrackedFrame:
-    begun = time.perf_counter()
-    try:
-        observation = preprocessor.preprocess(frame)
-    except NoDataError as error:
-        seconds = time.perf_counter() - begun
-        return TrackedFrame(None, past.last.without_data(error.message), seconds, seconds)
-    preprocessing = time.perf_counter() - begun
-    registered = bound.step(observation, past)
-    return TrackedFrame(observation, registered, time.perf_counter() - begun, preprocessing)

@@ -9,7 +9,7 @@ from sys import intern
 import numpy as np
 
 from regkit.body import BodyFit
-from regkit.interfaces import Registrar
+from regkit.interfaces import Expected, Registrar
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit.system.brief import Brief
@@ -60,8 +60,10 @@ class TrackRecorder:
     def add(self, frame: TrackedFrame) -> None:
         """Records the next frame."""
         body, found = self.registrar.body, frame.registered
-        points = None if frame.observation is None else frame.observation.points
-        fit = BodyFit.unknown() if points is None else BodyFit.of(body, found.pose, points)
+        points, fit = None, BodyFit.unknown()
+        if frame.observation is not None:
+            points = frame.observation.points
+            fit = BodyFit.of(body, found.pose, points, frame.observation.silhouette)
         values = {
             "root": found.pose.root,
             "balls": found.pose.balls,
@@ -70,6 +72,7 @@ class TrackRecorder:
             "surface_distances": fit.distance,
             "inlier_shares": fit.inlier_share,
             "coverages": fit.coverage,
+            "misfits": fit.misfit,
             "reliefs": fit.relief,
             "points": 0 if points is None else len(points),
             "energies": found.energy,
@@ -120,5 +123,8 @@ class TrackRecorder:
         for kept in self._snapshots.values():
             if kept.frame == index:
                 return kept
-        points = self._session.observation(index).points
-        return Snapshot(index, points, self.track().pose(index))
+        track, body = self.track(), self.registrar.body
+        # A segmenter follows the body, from the start on.
+        expected = Expected(body, track.pose(max(index - 1, 0)))
+        points = self._session.observation(index, expected).points
+        return Snapshot(index, points, track.pose(index))

@@ -1,18 +1,22 @@
-"""A tracking session: recording, template, preprocessor and start."""
+"""A tracking session: recording, template, segmentation, preprocessor and start."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
 from regkit.body.verdict import Verdict
 from regkit.interfaces import (
+    Chain,
+    Expected,
     Preprocessor,
     Recording,
     Registrar,
+    Segmenter,
     Start,
     StartSearch,
     Template,
@@ -22,8 +26,9 @@ from regkit.observation import Frame, Observation
 from regkit.skeleton import Pose
 from regkit.system.errors import ConfigError, NoDataError, RegkitError
 from regkit.system.notes import note
-from regkit.tracking.extent import check_extent, tell_bound
+from regkit.tracking.extent import check_extent, check_unit, tell_bound
 from regkit.tracking.loop import TrackedFrame, tracked
+from regkit.tracking.segmented import segmented
 
 
 def default_start() -> StartSearch:
@@ -38,17 +43,48 @@ class Session:
     Attributes:
         recording: Source of the frames.
         template: Template of the body.
-        preprocessor: Preprocessor of the frames.
+        preprocessor: Preprocessor of the frames, or a function that chooses one for the first frame
+            with data, after segmentation.
         start: The search for pose and size in the first frame, or the pose, which requires the
             template's size.
         sized_in: Number of frames, spread over the recording, that determine an unknown size.
+        segmentation: Segmenters that take the body out of the scene, applied in order before the
+            preprocessor.
     """
 
     recording: Recording
     template: Template
-    preprocessor: Preprocessor
+    preprocessor: Preprocessor | Callable[[Frame], Preprocessor]
     start: StartSearch | Pose = field(default_factory=default_start)
     sized_in: int = 3
+    segmentation: tuple[Segmenter, ...] = ()
+
+    @cached_property
+    def segmenter(self) -> Chain:
+        """The segmenters, bound to the recording when they are first needed.
+
+        Raises:
+            RegkitError: If the data have another unit than the template, or suit no segmenter.
+        """
+        for frame in self.recording.frames() if self.segmentation else ():
+            if len(frame.points):
+                check_unit(frame.points, self.template, place=self.recording.name)
+                break
+        return Chain.of(self.segmentation, self.recording, self.template)
+
+    @cached_property
+    def observes(self) -> Preprocessor:
+        """The preprocessor; one to choose is chosen when it is first needed."""
+        if isinstance(self.preprocessor, Preprocessor):
+            return self.preprocessor
+        for frame in self.recording.frames():
+            left = self.segmenter.segmented(frame, None)
+            if len(left.points):
+                return self.preprocessor(left)
+        raise NoDataError(
+            "no frame has a measurement that may be the body's (segmentation)",
+            place=self.recording.name,
+        )
 
     def begin(self) -> Start:
         """Returns the body at its size, and its pose in the first frame.
@@ -80,16 +116,20 @@ class Session:
         Raises:
             RegkitError: If a frame cannot be read or registered; the error names it.
         """
-        return tracked(self.recording, self.preprocessor, registrar, tracker, pose)
+        return tracked(self.recording, self.segmenter, self.observes, registrar, tracker, pose)
 
-    def observation(self, index: int) -> Observation:
+    def observation(self, index: int, expected: Expected | None = None) -> Observation:
         """Returns the data of a frame.
+
+        Args:
+            index: Number of the frame.
+            expected: What is known of the body in the frame before.
 
         Raises:
             RegkitError: If the frame cannot be read.
         """
         ((_, frame),) = self.recording.some([index])
-        return self._preprocessed(index, frame)
+        return self._preprocessed(index, frame, expected)
 
     def _later(self, first: int) -> Iterator[Observation]:
         """Yields usable frames after the first one, if the size is unknown."""
@@ -115,9 +155,11 @@ class Session:
                 missing = missing if index else error
         raise missing
 
-    def _preprocessed(self, index: int, frame: Frame) -> Observation:
+    def _preprocessed(
+        self, index: int, frame: Frame, expected: Expected | None = None
+    ) -> Observation:
         try:
-            return self.preprocessor.preprocess(frame)
+            return self.observes.preprocess(segmented(self.segmenter, frame, expected))
         except RegkitError as error:
             raise error.at(frame.place or f"{self.recording.name}: frame {index}") from None
 

@@ -28,7 +28,9 @@ class Track(Brief):
         surface_distances: Median distance of a frame's points to the body's surface, (T,) [m].
         inlier_shares: Fraction of a frame's points that lie on the body's surface, (T,); NaN
             without data. Unlike a method's own inlier probability, it compares methods.
-        coverages: Fraction of the body that has data nearby, (T,); NaN without data.
+        coverages: Fraction of the visible body that has data nearby, (T,); NaN without data.
+        misfits: Mean distance of the points to the body and of the visible body to the points, in
+            radii of a typical limb, (T,); NaN without data.
         reliefs: Deviation of the points along their thinnest direction, in radii of a typical limb,
             (T,); NaN without data. Data without relief are a wall.
         points: Number of points, (T,); 0 for a frame without data, whose pose is the last one.
@@ -46,6 +48,7 @@ class Track(Brief):
     surface_distances: Array
     inlier_shares: Array
     coverages: Array
+    misfits: Array
     reliefs: Array
     points: Array
     energies: Array
@@ -61,7 +64,8 @@ class Track(Brief):
     @cached_property
     def verdicts(self) -> tuple[Verdict, ...]:
         """Whether the body was found in each frame, (T,)."""
-        return frame_verdicts(self.points, self.inlier_shares, self.coverages, self.reliefs)
+        shares = (self.inlier_shares, self.coverages, self.misfits, self.reliefs)
+        return frame_verdicts(self.points, *shares)
 
     @property
     def seen(self) -> NDArray[np.bool_]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from regkit.body.verdict import FLAT, Verdict
+from regkit.body.verdict import FLAT, SURE_MISFIT, Verdict
 from regkit.interfaces import Start
 from regkit.tracking.track import Track
 
@@ -98,13 +98,16 @@ def _reason(track: Track, numbers: Sequence[int]) -> str:
         parts.append(f"{where}the data are as flat as a wall")
     shares = np.fmin(track.inlier_shares, track.coverages)
     if frames[Verdict.LOST] or frames[Verdict.DOUBTFUL]:
-        worst = int(np.nanargmin(shares))
+        # Where the shares are high, the distance of both sides decides.
+        worst = int(np.nanargmax(1.0 - shares + np.nan_to_num(track.misfits)))
         where = f"in frame {numbers[worst]} " if len(track) > 1 else ""
         told = [f"{100.0 * track.inlier_shares[worst]:.0f} % of the points lie on the body"]
         if np.isfinite(track.coverages[worst]):
-            told.append(f"{100.0 * track.coverages[worst]:.0f} % of the body has data")
+            told.append(f"{100.0 * track.coverages[worst]:.0f} % of the visible body has data")
+        if track.misfits[worst] > SURE_MISFIT:
+            told.append(f"both are {track.misfits[worst]:.2g} limb radii apart")
         parts.append(
-            f"{where}{' and '.join(told)}; check the template, its size, and the crop of the "
+            f"{where}{', '.join(told)}; check the template, its size, and the crop of the "
             "surroundings"
         )
     return ": ".join(parts)

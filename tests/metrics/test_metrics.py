@@ -36,6 +36,7 @@ def track_of(body: Body, poses: list[Pose]) -> Track:
         energies=np.zeros(len(poses)),
         inlier_shares=np.ones(len(poses)),
         coverages=np.ones(len(poses)),
+        misfits=np.zeros(len(poses)),
         reliefs=np.ones(len(poses)),
         points=np.full(len(poses), 100.0),
         evaluations=np.arange(1.0, len(poses) + 1.0),

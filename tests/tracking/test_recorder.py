@@ -11,7 +11,7 @@ from places import DATA
 
 import regkit
 from regkit.geometry.rigid import rigid
-from regkit.interfaces import Evaluation, Past, Preprocessor, Recording, Registrar
+from regkit.interfaces import Chain, Evaluation, Past, Preprocessor, Recording, Registrar
 from regkit.interfaces import RegistrationResult as Result
 from regkit.observation import Frame, Observation
 from regkit.skeleton import Pose
@@ -157,6 +157,8 @@ def test_frame_without_data_is_bridged_and_told():
         recorder.snapshot(1)
 
 
+# Points on the axes are no surface, so the start is doubtful, but its size is right.
+@pytest.mark.filterwarnings("ignore::regkit.system.notes.RegkitWarning")
 def test_start_is_in_the_first_frame_with_data():
     session = Session(made(np.nan, np.nan, 0.0), Human(), PointsPreprocessor(voxel=0.03))
     assert session.begin().body.size == pytest.approx(1.7, abs=0.15)
@@ -188,7 +190,9 @@ def test_step_that_loads_loops_is_repeated_and_gives_the_same_track():
             return super().register(observation, candidates, **given)
 
     registrar = Loading()
-    frames = list(tracked(made(*OFFSETS), PointsPreprocessor(), registrar, ConstantPose(), pose()))
+    frames = list(
+        tracked(made(*OFFSETS), Chain(), PointsPreprocessor(), registrar, ConstantPose(), pose())
+    )
     assert registrar.calls == len(OFFSETS) + 2
     assert len(frames) == len(OFFSETS)
     past = Past.start(pose())

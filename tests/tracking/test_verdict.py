@@ -29,6 +29,7 @@ def track_with(*verdicts: Verdict) -> Track:
         surface_distances=nothing,
         inlier_shares=shares,
         coverages=np.where(np.isnan(shares), np.nan, 1.0),
+        misfits=np.where(np.isnan(shares), np.nan, 0.3),
         reliefs=np.where(np.isnan(shares), np.nan, 1.0),
         points=np.array([0.0 if one is N else 50.0 for one in verdicts]),
         energies=nothing,
@@ -48,7 +49,9 @@ def test_frame_is_judged_by_the_worse_of_both_shares():
 
 def test_body_without_a_surface_raises_no_doubt():
     unknown = np.full(2, np.nan)
-    track = replace(track_with(F, F), inlier_shares=unknown, coverages=unknown, reliefs=unknown)
+    track = replace(
+        track_with(F, F), inlier_shares=unknown, coverages=unknown, misfits=unknown, reliefs=unknown
+    )
     assert track.verdicts == (F, F)
 
 
@@ -80,7 +83,7 @@ def test_track_is_judged_by_its_frames(frames, verdict):
 def test_rigid_object_is_judged_by_its_inliers_alone():
     """Its far side is never seen."""
     unknown = np.full(3, np.nan)
-    track = replace(track_with(F, D, L), coverages=unknown, reliefs=unknown)
+    track = replace(track_with(F, D, L), coverages=unknown, misfits=unknown, reliefs=unknown)
     assert track.verdicts == (F, D, L)
     assert "nan" not in TrackVerdict.of(track).reason
 

@@ -159,14 +159,15 @@ class Finder:
         return Exemplar(body, found, self.disagreement(body, found, pictures))
 
     def _spheres(self, body: Body) -> Spheres:
-        return next(own for known, own in self._all_spheres if known is body)
+        return self._all_spheres[body.size]
 
     @cached_property
-    def _all_spheres(self) -> list[tuple[Body, Spheres]]:
-        return [
-            (body, Spheres.of(body.capsules.axis_points(SPACING * body.size)))
+    def _all_spheres(self) -> dict[float, Spheres]:
+        """The spheres of each body, by its size [m]."""
+        return {
+            body.size: Spheres.of(body.capsules.axis_points(SPACING * body.size))
             for body in self.bodies
-        ]
+        }
 
 
 def _rendered(

@@ -107,7 +107,7 @@ def sought(monkeypatch) -> list[int]:
     """The searches for the body, which find nothing."""
     calls = []
 
-    def none(self, observation, scan, last):
+    def none(self, observation, last):
         calls.append(len(observation.points))
         return []
 
@@ -201,9 +201,9 @@ def test_tracked_pose_wins_ties(lamp, monkeypatch, energy, misfit, share, wins):
     past, tracker = healthy(lamp.skeleton.rest()), bound(lamp, 0.5)
     other = lamp.skeleton.rest(np.diag([1.0, -1.0, -1.0, 1.0]))
 
-    def rivals(self, observation, scan, last):
+    def rivals(self, observation, last):
         found = tracker.registrar.register(observation, [last])
-        tracked = reinitialization.Finalist.registered(self.limbs, found, observation, scan, 1.0)
+        tracked = reinitialization.Finalist.registered(self.limbs, found, observation, 1.0)
         rival = replace(tracked.result, pose=other, inlier_share=0.5 + share)
         return [replace(tracked, result=rival, energy=energy, misfit=tracked.misfit + misfit)]
 

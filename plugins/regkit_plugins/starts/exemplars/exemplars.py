@@ -15,10 +15,10 @@ from regkit.interfaces import Method, Start, StartSearch, Template
 from regkit.observation import Observation
 from regkit.search.exemplars import AtlasSettings, atlas_of
 from regkit.skeleton.joints import in_order
-from regkit.start import rigid_start
+from regkit.start import judged, rigid_start
 from regkit.system.arrays import Array
 from regkit.system.optional import one_blas_thread
-from regkit_plugins.starts.exemplars.finalists import Comparison
+from regkit_plugins.starts.exemplars.finalists import Comparison, margin
 from regkit_plugins.starts.exemplars.search import Search
 
 Elevation = Annotated[float, Field(ge=-90.0, le=90.0)]
@@ -72,7 +72,9 @@ class Exemplars(StartSearch):
                 finalists = search.unsized(observations)
             else:
                 finalists = search.sized(template.body(sizes[0]), observations[0])
-        return Start(finalists[0].body, finalists[0].pose)
+            best = finalists[0]
+            doubts = search.doubts(best.body, observations[0])
+            return judged(best.body, best.pose, observations[0], margin(finalists), doubts)
 
     def _search(self, template: Template) -> Search:
         sizes = template.candidate_sizes()

@@ -2,18 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+
+import numpy as np
 
 from regkit.body import Body
 from regkit.interfaces import Method
 from regkit.observation import Observation
 from regkit.search.limb_recovery import LimbRecovery
 from regkit.skeleton import Pose
-from regkit.start import Finalist, Scan
+from regkit.start import Finalist
+from regkit.system.arrays import Array
 from regkit_plugins.starts.exemplars.prior import unlikely
 
 SAMPLES, TRIED, GAIN = 500, 2, 0.01
 """Configurations of each limb that are sampled and registered, and what one must gain."""
+
+
+OTHER = 0.12
+"""Poses whose markers differ more than this on average are other ones [size]: 20 cm of a person."""
 
 
 @dataclass(frozen=True)
@@ -30,16 +38,15 @@ class Comparison:
     usual: float
     bound: dict[float, LimbRecovery] = field(default_factory=dict)
 
-    def finalist(self, body: Body, pose: Pose, observation: Observation, scan: Scan) -> Finalist:
+    def finalist(self, body: Body, pose: Pose, observation: Observation) -> Finalist:
         """Returns the pose after registration and a search of all limbs.
 
         Args:
             body: The body at a size.
             pose: The pose.
             observation: The frame.
-            scan: Its cloud.
         """
-        found = Finalist.of(self._limbs(body), pose, observation, scan, self.usual)
+        found = Finalist.of(self._limbs(body), pose, observation, self.usual)
         prior = unlikely(body, found.pose, observation.camera is not None)
         return replace(found, unlikely=prior)
 
@@ -48,3 +55,22 @@ class Comparison:
             registrar = self.method.bind(body)
             self.bound[body.size] = LimbRecovery.of(registrar, SAMPLES, TRIED, GAIN)
         return self.bound[body.size]
+
+
+def margin(finalists: Sequence[Finalist]) -> float:
+    """Returns the cost of the best other pose less that of the best one; NaN without another.
+
+    Args:
+        finalists: The finalists, the best first.
+    """
+    best, *rivals = finalists
+    places = _markers(best)
+    for rival in rivals:
+        apart = float(np.linalg.norm(_markers(rival) - places, axis=1).mean())
+        if apart > OTHER * best.body.size:
+            return rival.cost - best.cost
+    return float("nan")
+
+
+def _markers(finalist: Finalist) -> Array:
+    return finalist.body.markers.place(finalist.body.place(finalist.pose).transforms)

@@ -71,6 +71,14 @@ class Search:
         rivals = self.sized(best.body, observations[0])
         return sorted([best, *rivals] if telling == 0 else rivals, key=_cost)
 
+    def doubts(self, body: Body, observation: Observation) -> list[str]:
+        """Returns what speaks against a body of this size in a frame, whatever its pose."""
+        pictures = Pictures.of(observation, body.size)
+        share = pictures.area / (self.atlas.least_area() * body.size**2)
+        if pictures.cut or share >= 1.0:
+            return []
+        return [f"the data show {100.0 * share:.0f} % of the least area that such a body shows"]
+
     @property
     def _sizes(self) -> tuple[float, ...]:
         return self.template.candidate_sizes()
@@ -89,7 +97,7 @@ class Search:
             observation: The frame.
             each: Number of finalists of each size.
         """
-        pictures, scan = Pictures.of(observation, self._usual), Scan.of(observation)
+        pictures = Pictures.of(observation, self._usual)
         # A size between the candidates resembles fewer exemplars.
         more = 1 if len(bodies) == 1 else MORE
         finder = Finder(
@@ -103,17 +111,15 @@ class Search:
         candidates = finder.candidates(pictures)
         chosen: list[Exemplar] = []
         for body in bodies:
-            chosen += [one for one in candidates if one.body is body][:each]
-        finalists = [
-            self.comparison.finalist(one.body, one.pose, observation, scan) for one in chosen
-        ]
+            chosen += [one for one in candidates if one.body.size == body.size][:each]
+        finalists = [self.comparison.finalist(one.body, one.pose, observation) for one in chosen]
         finalists.sort(key=_cost)
         mirroring = Mirroring.of(bodies[0].skeleton)
         if len(bodies) == 1 and mirroring is not None and pictures.one_sided:
             for one in finalists[:MIRRORED]:
                 mirrored = finder.refined(one.body, _mirrored(one, mirroring), pictures)
                 finalists.append(
-                    self.comparison.finalist(mirrored.body, mirrored.pose, observation, scan)
+                    self.comparison.finalist(mirrored.body, mirrored.pose, observation)
                 )
         return sorted(finalists, key=_cost)
 
@@ -128,7 +134,7 @@ class Search:
         bests = {one.body.size: one for one in reversed(finalists)}
         fits = [fit(scan, one.body, one.pose, self._usual) for one in bests.values()]
         best = resized(scan, self.template, min(fits, key=_misfit), self._sizes)
-        return self.comparison.finalist(best.body, best.pose, observation, scan)
+        return self.comparison.finalist(best.body, best.pose, observation)
 
 
 def _mirrored(finalist: Finalist, mirroring: Mirroring) -> Pose:

@@ -10,7 +10,7 @@ import numpy as np
 from regkit.body import Body
 from regkit.interfaces import Start, StartSearch, Template
 from regkit.observation import Observation
-from regkit.start import Candidate, Scan, rigid_start
+from regkit.start import Candidate, Scan, judged, rigid_start
 from regkit.start.fit import STIFFNESS
 from regkit.start.sizes import CUTOFF, FAR, fit, resized
 from regkit.system.optional import one_blas_thread
@@ -47,15 +47,16 @@ class Stances(StartSearch):
         if rigid is not None:
             return rigid
         with one_blas_thread():
-            return _found(template, [Scan.of(one) for one in observations])
+            best = _found(template, [Scan.of(one) for one in observations])
+        return judged(best.body, best.pose, observations[0])
 
 
-def _found(template: Template, scans: list[Scan]) -> Start:
+def _found(template: Template, scans: list[Scan]) -> Candidate:
     sizes = template.candidate_sizes()
     bodies = [template.body(size) for size in sizes]
     if len(bodies) == 1:
         (best,) = _fits(scans[0], bodies)
-        return Start(best.body, best.pose)
+        return best
     fits = [_fits(scan, bodies) for scan in scans]
     # The best fit determines the size: a person who sits or folds the arms reveals it less well.
     bests = [min(of_frame, key=_misfit) for of_frame in fits]
@@ -64,7 +65,7 @@ def _found(template: Template, scans: list[Scan]) -> Start:
     if telling:
         nearest = min(fits[0], key=lambda one: abs(np.log(one.body.size / best.body.size)))
         best = fit(scans[0], best.body, nearest.pose, sizes[len(sizes) // 2])
-    return Start(best.body, best.pose)
+    return best
 
 
 def _fits(scan: Scan, bodies: list[Body]) -> list[Candidate]:

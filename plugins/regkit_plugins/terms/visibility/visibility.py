@@ -1,4 +1,4 @@
-"""Visibility: reduces the weights of occluded primitives."""
+"""Visibility: reduces the weights of primitives that are occluded or out of the picture."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from regkit.interfaces import Scene, Term, VisibilityWeights
+from regkit.observation.silhouette import Silhouette
 from regkit.primitives import Placed, Primitives, Volumes
 from regkit.system.arrays import Array
 from regkit_plugins.terms.visibility.compiled import free_rays
@@ -17,7 +18,8 @@ class Visibility(Term):
     """Weights each primitive by the fraction that is visible to the camera in the start pose.
 
     The fraction is estimated from a few points of each primitive; a point is occluded if its ray
-    intersects another primitive in front of it. Kernels of surfels have their own visibility.
+    intersects another primitive in front of it. Out of the picture, and where the depth image is
+    unknown, nothing is visible. Kernels of surfels have their own visibility.
     """
 
     kind: Literal["visibility"] = "visibility"
@@ -25,23 +27,33 @@ class Visibility(Term):
     weighs: ClassVar[bool] = True
 
     least: Annotated[float, Field(ge=1e-6, le=1.0)] = 0.05
-    """Weight of a fully occluded primitive, with which it can become visible again."""
+    """Weight of an invisible primitive, with which it can become visible again."""
 
     def bind(self, scene: Scene) -> VisibilityWeights:
         """Returns the weights; all are one if the camera is unknown."""
         if scene.observation.camera is None:
             return VisibilityWeights(np.ones(len(scene.placed)))
-        return VisibilityWeights(np.maximum(visible_shares(scene.placed), self.least))
+        shares = visible_shares(scene.placed, scene.observation.silhouette)
+        return VisibilityWeights(np.maximum(shares, self.least))
 
 
-def visible_shares(placed: Placed[Primitives]) -> Array:
+def visible_shares(placed: Placed[Primitives], silhouette: Silhouette | None = None) -> Array:
     """Returns the fraction of each primitive that a camera at the origin sees, (K,), from 0 to 1.
 
     Primitives are treated as 2-sigma ellipsoids, and sampled at the centre and at four points
     half-way along their two longest axes.
+
+    Args:
+        placed: The primitives.
+        silhouette: What the picture shows; by default it has no end.
     """
     radii = 2.0 * placed.primitives.scales
-    return free_rays(_outline(placed, radii), placed.centres, placed.axes, radii)
+    outline = _outline(placed, radii)
+    shares = free_rays(outline, placed.centres, placed.axes, radii)
+    if silhouette is None:
+        return shares
+    shown = silhouette.observable(outline.reshape(-1, 3)).reshape(outline.shape[:2])
+    return np.asarray(shares * shown.mean(axis=1))
 
 
 def _outline(placed: Placed[Primitives], radii: Array) -> Array:

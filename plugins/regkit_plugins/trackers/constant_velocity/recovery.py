@@ -81,7 +81,7 @@ class BoundRecovery:
 
     def _alarmed(self, found: RegistrationResult, past: Past) -> bool:
         """Returns whether there are more outliers than usual, or a search is due."""
-        if past.frames % self.recovery.every == 0 or past.gap:
+        if past.frames % self.recovery.every == 0 or past.missed:
             return True
         # Excess outliers below ``gain`` cannot lead to an accepted configuration.
         return 1.0 - found.inlier_share > self._usual(past) + self.recovery.gain

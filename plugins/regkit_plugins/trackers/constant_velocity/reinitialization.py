@@ -16,7 +16,7 @@ from regkit.observation import Observation
 from regkit.search.exemplars import AtlasSettings, Finder, Pictures, atlas_of
 from regkit.search.limb_recovery import LimbRecovery
 from regkit.skeleton import Pose
-from regkit.start import Finalist, Scan
+from regkit.start import Finalist
 
 ROLLS = np.linspace(-np.pi, np.pi, 24, endpoint=False)
 """Rolls of the body in the picture that are tried [rad]."""
@@ -60,8 +60,8 @@ class Reinitialization(Model):
     jump: Annotated[float, Field(ge=0.0, le=1.0)] = 0.125
     """Search also if it does so by this much before the search for limbs, in a frame after one
     without alarm: the points have jumped, which limbs may hide."""
-    gain: Annotated[float, Field(ge=0.0, le=2.0)] = 0.05
-    """Minimum decrease of the misfit for accepting a pose, which ranges from 0 to 2."""
+    gain: Annotated[float, Field(ge=0.0, le=4.0)] = 0.05
+    """Minimum decrease of the misfit for accepting a pose, which ranges from 0 to 4."""
 
     def bind(self, limbs: LimbRecovery) -> BoundReinitialization | None:
         """Binds the search to a body; None if the body has no exemplars.
@@ -108,9 +108,9 @@ class BoundReinitialization:
         outliers = [1.0 - one.inlier_share - usual for one in (past.last, registered, found)]
         if points < FEWEST_POINTS or not self._due(points, past, outliers):
             return found
-        scan, size = Scan.of(observation), self.limbs.registrar.body.size
-        tracked = Finalist.registered(self.limbs, found, observation, scan, size)
-        rivals = self._finalists(observation, scan, past.last.pose)
+        size = self.limbs.registrar.body.size
+        tracked = Finalist.registered(self.limbs, found, observation, size)
+        rivals = self._finalists(observation, past.last.pose)
         best = min(rivals, key=_cost, default=tracked)
         if self._better(best, tracked):
             found = best.result
@@ -131,20 +131,20 @@ class BoundReinitialization:
             return False
         earlier, before, after = outliers
         alarm = self.settings.alarm
-        if past.gap or (before > self.settings.jump and earlier <= alarm):
+        if past.missed or (before > self.settings.jump and earlier <= alarm):
             return True
         grown = not last or points >= GROWN * last[0].points
         rested = all(one.age >= least for one, least in zip(last, LEAST_AGES, strict=False))
         return after > alarm and (grown or rested)
 
-    def _finalists(self, observation: Observation, scan: Scan, last: Pose) -> list[Finalist]:
+    def _finalists(self, observation: Observation, last: Pose) -> list[Finalist]:
         settings, body = self.settings, self.limbs.registrar.body
         # A body that was turned meanwhile may have kept its pose.
         atlas = atlas_of(body, AtlasSettings(settings.exemplars)).with_pose(body, last, VIEWS)
         finder = Finder([body], atlas, ROLLS, settings.looked_up, settings.refined)
         candidates = finder.candidates(Pictures.of(observation, body.size))
         return [
-            Finalist.of(self.limbs, one.pose, observation, scan, body.size)
+            Finalist.of(self.limbs, one.pose, observation, body.size)
             for one in candidates[: settings.finalists]
         ]
 

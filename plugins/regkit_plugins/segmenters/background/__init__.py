@@ -1,0 +1,5 @@
+"""Removal of the static background."""
+
+from regkit_plugins.segmenters.background.background import Background
+
+__all__ = ["Background"]

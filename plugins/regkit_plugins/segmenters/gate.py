@@ -1,0 +1,49 @@
+"""The gate: removes what is far from the body's last pose."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from regkit.config.quantities import Length
+from regkit.interfaces import BoundSegmenter, Expected, Recording, Segmenter, Template
+from regkit.observation import Frame
+
+DISTANCE = 0.15
+"""Default distance, as a fraction of the body's size: a fast arm's way in a frame."""
+
+
+class Gate(Segmenter):
+    """Removes points farther from the last body than it may have moved.
+
+    It has no effect before the start and where the last motion is unknown: in the first two frames,
+    in which a tracker may still correct a limb of the start, and after frames without data. The
+    last motion adds to the distance.
+    """
+
+    kind: Literal["gate"] = "gate"
+
+    distance: Length | None = None
+    """Largest distance from the last body [m]; by default 15 % of the body's size."""
+
+    def bind(self, recording: Recording, template: Template) -> BoundGate:
+        """Binds the gate, which reads no frame."""
+        return BoundGate(self.distance)
+
+
+@dataclass(frozen=True)
+class BoundGate(BoundSegmenter):
+    """``Gate`` bound to a recording.
+
+    Attributes:
+        distance: Largest distance from the last body [m], or None for a fraction of its size.
+    """
+
+    distance: float | None
+
+    def segmented(self, frame: Frame, expected: Expected | None) -> Frame:
+        """Returns the frame with the points near the last body."""
+        if expected is None or expected.before is None:
+            return frame
+        distance = self.distance or DISTANCE * expected.body.size
+        return frame.only(expected.within(frame.points, distance + expected.motion))

@@ -1,0 +1,177 @@
+"""The piece segmenter: keeps one connected piece of the scene."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field
+
+from regkit.config.quantities import Length, Share
+from regkit.interfaces import BoundSegmenter, Expected, Recording, Segmenter, Template
+from regkit.observation import Frame
+from regkit.system.errors import DataError
+from regkit_plugins.segmenters.pieces.components import components
+from regkit_plugins.segmenters.pieces.figure import LEAST_FIT, Figure
+from regkit_plugins.segmenters.pieces.growth import grown, with_fragments
+from regkit_plugins.segmenters.pieces.motion import Motion
+from regkit_plugins.segmenters.pieces.piece import Piece
+from regkit_plugins.segmenters.sampling import sampled
+
+GAP = 0.03
+"""Default distance of pieces, as a fraction of the body's size: less than the depth of a limb."""
+
+NEAR = 0.06
+"""A piece that was within this distance of the last body, in sizes of the body, is a part of it."""
+
+CERTAIN, CERTAINLY_ROUND = 2.0, 0.3
+"""Of several pieces, those with a smaller cost and a smaller flatness are bodies, since furniture
+seldom is as like one."""
+
+LIKELY = 4
+"""Number of pieces, those most like the body, that are compared with all that belongs to them."""
+
+FARTHER = 1.0
+"""Cost of a piece that is e times as far away as the nearest one: of two bodies, the nearer."""
+
+
+class Pieces(Segmenter):
+    """Keeps one connected piece of the scene, and pieces that something before it cuts off.
+
+    In an image, neighbouring pixels of like depth are connected; in a cloud, neighbouring points.
+    A piece belongs to another if what is between them is hidden by something nearer. In tracking,
+    the pieces where the last body was are kept, and a piece is chosen only at the start and after
+    the body was lost. A frame in which no piece is chosen has no data.
+    """
+
+    kind: Literal["pieces"] = "pieces"
+
+    choose: (
+        Literal["fits", "nearest", "largest", "moving"] | Annotated[int, Field(ge=0, le=1000)]
+    ) = "fits"
+    """The piece to keep: the one whose area, length and roundness fit the template, and of equal
+    ones the nearer (``fits``); the ``nearest``; the one that shows the ``largest`` area; the one
+    that moves most in the recording (``moving``); or its number, counted from 0 at the nearest."""
+    gap: Length | None = None
+    """Distance of pieces [m]; by default 3 % of the body's size."""
+    least: Annotated[Share, Field(gt=0.0)] = 0.1
+    """Least area of a piece that is chosen, as a part of the body's."""
+
+    def bind(self, recording: Recording, template: Template) -> BoundPieces:
+        """Binds the segmenter; ``moving`` learns what is static.
+
+        Raises:
+            DataError: If the motion cannot be seen in the recording.
+        """
+        motion = Motion.of(recording, template) if self.choose == "moving" else None
+        return BoundPieces(self, template, motion)
+
+    def each(self, recording: Recording, template: Template) -> tuple[Pieces, ...]:
+        """Returns a segmenter for each piece of the first frame that fits, from near to far."""
+        frame = next(sampled(recording, 1), None)
+        bound = BoundPieces(self, template, None)
+        pieces = [] if frame is None else bound.pieces(frame)
+        numbers: list[int] = []
+        seen = np.zeros(0 if frame is None else len(frame.points), dtype=bool)
+        for number, piece in enumerate(bound.candidates(pieces)):
+            whole, cost = grown(piece, pieces, bound.figure)
+            # The part of a body that was found is no other body.
+            certain = cost < CERTAIN and bound.figure.flatness(whole) < CERTAINLY_ROUND
+            if certain and not seen[piece.at].any():
+                numbers.append(number)
+                seen[whole.at] = True
+        return tuple(self.model_copy(update={"choose": number}) for number in numbers) or (self,)
+
+
+@dataclass(frozen=True)
+class BoundPieces(BoundSegmenter):
+    """``Pieces`` bound to a recording.
+
+    Attributes:
+        settings: The segmenter.
+        template: Template of the body.
+        motion: What moves, for the choice of what moves.
+    """
+
+    settings: Pieces
+    template: Template
+    motion: Motion | None
+
+    @cached_property
+    def figure(self) -> Figure:
+        """What the template tells of its pieces."""
+        return Figure.of(self.template)
+
+    def segmented(self, frame: Frame, expected: Expected | None) -> Frame:
+        """Returns the frame with the points of the body's piece; without points if none fits."""
+        if not len(frame.points):
+            return frame
+        pieces = self.pieces(frame)
+        kept = np.zeros(len(frame.points), dtype=bool)
+        piece = self._last(pieces, expected) or self.chosen(pieces)
+        if piece is not None:
+            kept[piece.at] = True
+        return frame.only(kept)
+
+    def pieces(self, frame: Frame) -> list[Piece]:
+        """Returns all pieces of a frame from the nearest to the farthest."""
+        if not len(frame.points):
+            return []
+        gap = self.settings.gap or GAP * float(np.median(self.template.candidate_sizes()))
+        labels = components(frame, gap)
+        ends = np.cumsum(np.bincount(labels))[:-1]
+        found = [Piece(frame, at, gap) for at in np.split(np.argsort(labels, kind="stable"), ends)]
+        return sorted(found, key=lambda piece: piece.depth)
+
+    def candidates(self, pieces: list[Piece]) -> list[Piece]:
+        """Returns the pieces that are large enough to be chosen."""
+        least = self.settings.least * self.figure.area
+        return [piece for piece in pieces if piece.area >= least]
+
+    def chosen(self, pieces: list[Piece]) -> Piece | None:
+        """Returns the chosen one of all pieces, with those that belong to it; None if none is."""
+        found, choose = self.candidates(pieces), self.settings.choose
+        if not found:
+            return None
+        if choose == "fits":
+            return self._fitting(found, pieces)
+        if isinstance(choose, int):
+            if choose >= len(found):
+                raise DataError(
+                    f"there is no piece {choose} (there are {len(found)}, numbered from 0); "
+                    "change segmentation.pieces.choose",
+                    place=found[0].frame.place,
+                )
+            best = found[choose]
+        elif choose == "nearest":
+            best = found[0]
+        elif self.motion is not None:
+            best = max(found, key=self.motion.of_piece)
+        else:
+            best = max(found, key=lambda piece: piece.area)
+        return grown(best, pieces, self.figure)[0]
+
+    def _fitting(self, found: list[Piece], pieces: list[Piece]) -> Piece | None:
+        """Returns the piece that is most like the body; None if none is."""
+        likely = sorted(found, key=self.figure.cost)[:LIKELY]
+        wholes = [grown(one, pieces, self.figure) for one in likely]
+        fits = [(piece, cost) for piece, cost in wholes if cost < LEAST_FIT]
+        # Adding a constant to the logarithm would change no order.
+        return min(fits, key=lambda fit: fit[1] + FARTHER * np.log(fit[0].depth), default=(None,))[
+            0
+        ]
+
+    def _last(self, pieces: list[Piece], expected: Expected | None) -> Piece | None:
+        """Returns the pieces where the last body was; None if that is unknown, or too little."""
+        if expected is None:
+            return None
+        reach = NEAR * expected.body.size * (1 + expected.missed) + expected.motion
+        near = expected.within(pieces[0].frame.points, reach)
+        found = [piece for piece in pieces if near[piece.at].mean() >= 0.5]
+        if sum(piece.area for piece in found) < self.settings.least * self.figure.area:
+            return None
+        others = [piece for piece in pieces if all(piece is not one for one in found)]
+        whole = replace(found[0], at=np.sort(np.concatenate([piece.at for piece in found])))
+        return with_fragments(whole, others, self.figure)

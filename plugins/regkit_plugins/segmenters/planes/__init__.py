@@ -1,0 +1,5 @@
+"""Removal of floor and walls."""
+
+from regkit_plugins.segmenters.planes.planes import Planes
+
+__all__ = ["Planes"]
