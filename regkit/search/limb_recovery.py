@@ -47,7 +47,8 @@ class LimbRecovery:
         best, evaluation = found, self.registrar.evaluate(observation, found.pose)
         cloud = KDTree(observation.points)
         for search in self.searches:
-            for start in search.starts(cloud, best.pose, self.starts):
+            starts = search.starts(cloud, best.pose, self.starts, observation.silhouette)
+            for start in starts:
                 tried = self.registrar.register(observation, [start])
                 rival = self.registrar.evaluate(observation, tried.pose)
                 if self._better(rival, evaluation):

@@ -10,6 +10,7 @@ from scipy.spatial import KDTree
 
 from regkit.body import Body
 from regkit.geometry.capsules import AxisPoints, Capsules
+from regkit.observation.silhouette import Silhouette
 from regkit.search.compiled import mean_gaps
 from regkit.search.limbs import Limb, limbs_of
 from regkit.skeleton import Placement, Pose
@@ -72,13 +73,16 @@ class LimbSearch:
             places = places @ transforms[:, limb.parent, :3, :3]
             yield cls(body, limb, axes, body.capsules.selected(~own), balls, hinges, places)
 
-    def starts(self, cloud: KDTree, pose: Pose, most: int) -> Iterator[Pose]:
+    def starts(
+        self, cloud: KDTree, pose: Pose, most: int, silhouette: Silhouette | None = None
+    ) -> Iterator[Pose]:
         """Yields up to ``most`` poses whose limb best covers what the rest leaves unexplained.
 
         Args:
             cloud: The frame's points [m].
             pose: Pose of the body, in which the limb is in doubt.
             most: Maximum number of poses.
+            silhouette: What the frame's picture shows: a limb out of the picture is not absent.
         """
         placement = self.body.place(pose)
         carrier = placement.transforms[self.limb.parent]
@@ -87,10 +91,12 @@ class LimbSearch:
         if len(bare) < FEWEST_POINTS:
             return
         present = self.axes.place(placement.transforms)[None]
-        now = (self._data_to_model(present, bare) + self._model_to_data(present, cloud))[0]
+        now = (
+            self._data_to_model(present, bare) + self._model_to_data(present, cloud, silhouette)
+        )[0]
         uncovered = self._data_to_model(places, bare)
         likely = np.argsort(uncovered)[:LIKELY]
-        misfits = uncovered[likely] + self._model_to_data(places[likely], cloud)
+        misfits = uncovered[likely] + self._model_to_data(places[likely], cloud, silhouette)
         for index in np.argsort(misfits)[:most]:
             if misfits[index] < BETTER * now:
                 chosen = likely[index]
@@ -109,9 +115,11 @@ class LimbSearch:
         """Returns the misfit (N,) of the unexplained points to the limb's surface."""
         return mean_gaps(places, self.axes.radii, bare, self._cutoff)
 
-    def _model_to_data(self, places: Array, cloud: KDTree) -> Array:
+    def _model_to_data(self, places: Array, cloud: KDTree, silhouette: Silhouette | None) -> Array:
         """Returns the misfit (N,) of the limb's surface to the points."""
         gaps = np.maximum(cloud.query(places)[0] - self.axes.radii, 0.0)
+        if silhouette is not None:
+            gaps *= silhouette.observable(places.reshape(-1, 3)).reshape(gaps.shape)
         return np.asarray(np.minimum(gaps, self._cutoff).mean(axis=1) / self._cutoff)
 
     @property

@@ -37,7 +37,7 @@ class Visibility(Term):
         return VisibilityWeights(np.maximum(shares, self.least))
 
 
-def visible_shares(placed: Placed[Primitives], silhouette: Silhouette | None) -> Array:
+def visible_shares(placed: Placed[Primitives], silhouette: Silhouette | None = None) -> Array:
     """Returns the fraction of each primitive that a camera at the origin sees, (K,), from 0 to 1.
 
     Primitives are treated as 2-sigma ellipsoids, and sampled at the centre and at four points
@@ -45,7 +45,7 @@ def visible_shares(placed: Placed[Primitives], silhouette: Silhouette | None) ->
 
     Args:
         placed: The primitives.
-        silhouette: What the picture shows; None if it has no end.
+        silhouette: What the picture shows; by default it has no end.
     """
     radii = 2.0 * placed.primitives.scales
     outline = _outline(placed, radii)
