@@ -55,14 +55,15 @@ class Room(Segmenter):
         if not any(_is_larger(frame, template) for frame in frames):
             return Chain()
         extent = max(extent_of(frame.points) for frame in frames)
-        steps = (self.planes, self.gate, self.pieces)
-        chain = Chain.of(steps, recording, template)
-        note(_told(frames[0], chain, extent), place=recording.name)
-        return Chain((Unmeasured(), *chain.steps), ("unmeasured", *chain.names))
+        first, steps = Unmeasured(), (self.planes, self.gate, self.pieces)
+        chain = Chain.of(steps, SegmentedRecording.of(recording, first), template)
+        note(_told(first.segmented(frames[0], None), chain, extent), place=recording.name)
+        return Chain((first, *chain.steps), ("unmeasured", *chain.names))
 
     def each(self, recording: Recording, template: Template) -> tuple[Room, ...]:
         """Returns a room for each piece of the first frame that fits."""
-        left = SegmentedRecording.of(recording, self.planes.bind(recording, template))
+        marked = SegmentedRecording.of(recording, Unmeasured())
+        left = SegmentedRecording.of(marked, self.planes.bind(marked, template))
         pieces = self.pieces.each(left, template)
         return tuple(self.model_copy(update={"pieces": one}) for one in pieces)
 

@@ -41,7 +41,9 @@ def cutting_borders(camera: Camera, depth: Array, points: Array) -> Array:
         (shown[-STRIP:].any(axis=0), [0.0, 1.0, -below]),
         (shown[:STRIP].any(axis=0), [0.0, -1.0, -above]),
     ]
-    found = [(int(strip.sum()), normal) for strip, normal in sides if strip.sum() >= least]
+    found = [
+        (int(strip.sum()), np.array(normal)) for strip, normal in sides if strip.sum() >= least
+    ]
     found += unknown_cuts(camera, depth, points)
     found.sort(key=lambda one: -one[0])
     normals = np.array([normal for _, normal in found]).reshape(-1, 3)

@@ -19,6 +19,9 @@ REACH = 3
 TOUCHING = 0.2
 """Least length over which they touch it, as a fraction of their longer side."""
 
+SAME = np.cos(np.radians(30.0))
+"""Lines of a smaller angle are one: that of an oblique edge is found on two sides."""
+
 SIDES = ((0, 1), (0, -1), (1, 1), (1, -1))
 """Axis and sign of the directions in which a region may be: right, left, below, above."""
 
@@ -32,28 +35,39 @@ def unknown_cuts(camera: Camera, depth: Array, points: Array) -> list[tuple[int,
         points: The data, (N, 3) [m].
 
     Returns:
-        For each line the length of the contact [px], and the outward normal (3,) of the plane
-        through the camera and the line.
+        For each line the length of the contact [px], and the outward unit normal (3,) of the plane
+        through the camera and the line; the longest first.
     """
     if not np.isnan(depth).any():
         return []
     extent = float(np.ptp(camera.projected(points), axis=0).max())
     wide, shown = _wide(np.isnan(depth), max(1, round(WIDE * extent))), depth > 0.0
-    found = []
-    for axis, sign in SIDES:
-        along, across = _contact(shown, wide, axis, sign)
+    contacts = [(_contact(shown, wide, axis, sign), axis, sign) for axis, sign in SIDES]
+    contacts.sort(key=lambda one: -len(one[0][0]))
+    found: list[tuple[int, Array]] = []
+    for (along, across), axis, sign in contacts:
         if len(along) < max(3.0, TOUCHING * extent):
-            continue
-        slope, level = np.polyfit(along, across + 0.5 * sign, 1)
-        line = np.array([-slope, -slope, -level])
-        line[axis] = 1.0
-        normal = sign * np.array([
-            line[0] * camera.fx,
-            line[1] * camera.fy,
-            line[0] * camera.cx + line[1] * camera.cy + line[2],
-        ])  # fmt: skip
-        found.append((len(along), normal))
+            break
+        normal = _normal(camera, np.polyfit(along, across + 0.5 * sign, 1), axis, sign)
+        if all(normal @ other < SAME for _, other in found):
+            found.append((len(along), normal))
     return found
+
+
+def _normal(camera: Camera, line: Array, axis: int, sign: int) -> Array:
+    """Returns the outward unit normal (3,) of the plane through the camera and a line.
+
+    Args:
+        camera: The camera.
+        line: Slope and level of the line along the other axis, (2,) [px].
+        axis: Axis across the line: 0 for columns, 1 for rows.
+        sign: Direction of the outside along this axis.
+    """
+    weights = np.full(2, -line[0])
+    weights[axis] = 1.0
+    level = weights[0] * camera.cx + weights[1] * camera.cy - line[1]
+    normal = sign * np.array([weights[0] * camera.fx, weights[1] * camera.fy, level])
+    return np.asarray(normal / np.linalg.norm(normal))
 
 
 def _wide(unknown: NDArray[np.bool_], width: int) -> NDArray[np.bool_]:
