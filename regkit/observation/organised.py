@@ -11,7 +11,7 @@ from regkit.geometry.camera import Camera
 from regkit.geometry.pinhole import measured, pinhole_of
 from regkit.geometry.rigid import inverse, transformed
 from regkit.observation.frame import Frame
-from regkit.system.arrays import Array
+from regkit.system.arrays import Array, measured_points
 from regkit.system.notes import note
 
 
@@ -30,7 +30,7 @@ def organised_frame(path: Path, *, tell: bool = True) -> Frame | None:
         by a pinhole camera.
 
     Raises:
-        DataError: If an organised file is damaged.
+        DataError: If an organised file is damaged, or a coordinate is absurdly large.
     """
     cloud = read_organised(path)
     if cloud is None:
@@ -42,7 +42,8 @@ def organised_frame(path: Path, *, tell: bool = True) -> Frame | None:
                 note(_told(camera, frame), place=path)
             shown = measured(points)
             depth = np.where(shown, points[..., 2], 0.0)
-            return Frame(points[shown], camera, depth, place=str(path))
+            seen = measured_points(points[shown], place=str(path))
+            return Frame(seen, camera, depth, place=str(path))
     return None
 
 

@@ -92,12 +92,9 @@ def _add_legend(figure: Figure, frames: Sequence[PreviewedFrame]) -> None:
     from matplotlib.patches import Patch
 
     names = [*(f"removed by {name}" for name in frames[0].steps), "left"]
-    # A step that removes nothing in any frame has no colour in the pictures.
-    shown = [any(counts) for counts in zip(*(frame.counts for frame in frames), strict=True)]
     handles = [
         Patch(color=colour, label=name)
-        for colour, name, is_shown in zip(_colours(frames[0]), names, shown, strict=True)
-        if is_shown
+        for colour, name in zip(_colours(frames[0]), names, strict=True)
     ]
     handles.append(Patch(color=UNKNOWN, label="unknown: may hide the body"))
     legend = figure.legend(

@@ -18,7 +18,7 @@ from regkit_plugins.segmenters.pieces.pieces import BoundPieces
 from regkit_plugins.segmenters.planes import Planes
 from regkit_plugins.segmenters.planes.planes import BoundPlanes
 from regkit_plugins.segmenters.sampling import sampled
-from regkit_plugins.segmenters.unmeasured import Unmeasured
+from regkit_plugins.segmenters.unmeasured import Surroundings
 
 AMPLE = 1.5
 """A scene that shows more area than this, in units of the body's largest area, is a room."""
@@ -55,15 +55,14 @@ class Room(Segmenter):
         if not any(_is_larger(frame, template) for frame in frames):
             return Chain()
         extent = max(extent_of(frame.points) for frame in frames)
-        first, steps = Unmeasured(), (self.planes, self.gate, self.pieces)
-        chain = Chain.of(steps, SegmentedRecording.of(recording, first), template)
-        note(_told(first.segmented(frames[0], None), chain, extent), place=recording.name)
-        return Chain((first, *chain.steps), ("unmeasured", *chain.names))
+        steps = (self.planes, self.gate, self.pieces)
+        chain = Chain.of(steps, recording, template)
+        note(_told(frames[0], chain, extent), place=recording.name)
+        return Surroundings(chain.steps, chain.names)
 
     def each(self, recording: Recording, template: Template) -> tuple[Room, ...]:
         """Returns a room for each piece of the first frame that fits."""
-        marked = SegmentedRecording.of(recording, Unmeasured())
-        left = SegmentedRecording.of(marked, self.planes.bind(marked, template))
+        left = SegmentedRecording.of(recording, self.planes.bind(recording, template))
         pieces = self.pieces.each(left, template)
         return tuple(self.model_copy(update={"pieces": one}) for one in pieces)
 

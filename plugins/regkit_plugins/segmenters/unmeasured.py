@@ -8,41 +8,51 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import uniform_filter
 
-from regkit.interfaces import BoundSegmenter, Expected
+from regkit.interfaces import Chain, Expected
 from regkit.observation import Frame
+from regkit.observation.unknown_cuts import wide_part
+from regkit.system.arrays import Array
 
 AROUND, MOST = 0.25, 0.5
 """Side of the square around a pixel, as a fraction of the image's longer side, and the share of it
 that must be measured. Chosen on three pictures of a first Kinect and on the synthetic rooms: the
 shadows and margins are unknown, and the sky above a floor is not."""
 
+NARROW = 0.02
+"""Narrower regions, as such a fraction, are no shadows but the noise of outlines, which free space
+is told by."""
+
 
 @dataclass(frozen=True)
-class Unmeasured(BoundSegmenter):
-    """Marks pixels without a measurement as unknown where most pixels around them have one.
+class Surroundings(Chain):
+    """A chain that marks pixels without a measurement as unknown after its steps.
 
-    In a room a camera would measure the wall behind a free pixel. What it does not measure is too
-    near, dark or shiny, or in the shadow of something: the body may be there.
+    Before them, shadows would seem to hide the way from each piece to the next.
     """
 
     def segmented(self, frame: Frame, expected: Expected | None) -> Frame:
-        """Returns the frame with its unknown pixels; all points are kept."""
+        """Returns the frame after all steps, with its unknown pixels."""
+        left = super().segmented(frame, expected)
         if frame.depth is None:
-            return frame
+            return left
         measured = (frame.depth > 0.0).astype(np.float64)
         side = max(1, round(AROUND * max(measured.shape)))
-        return with_unknown(frame, uniform_filter(measured, side) > MOST)
+        return with_unmeasured(left, frame.depth, uniform_filter(measured, side) > MOST)
 
 
-def with_unknown(frame: Frame, surrounded: NDArray[np.bool_]) -> Frame:
-    """Returns a frame whose pixels without a measurement are unknown in a region.
+def with_unmeasured(left: Frame, depth: Array, region: NDArray[np.bool_]) -> Frame:
+    """Returns a segmented frame, whose pixels without a measurement are unknown in a region.
+
+    In a room a camera would measure the wall behind a free pixel. What it does not measure is too
+    near, dark or shiny, or in the shadow of something: the body may be there.
 
     Args:
-        frame: The frame, with a depth image (H, W).
-        surrounded: The region, (H, W).
+        left: What is left of the frame.
+        depth: Its depth image before the segmentation, (H, W) [m].
+        region: Where the surroundings are measured, (H, W).
     """
-    assert frame.depth is not None
-    unknown = surrounded & (frame.depth == 0.0)
-    if not unknown.any():
-        return frame
-    return replace(frame, depth=np.where(unknown, np.nan, frame.depth))
+    if left.depth is None:
+        return left
+    width = max(1, round(NARROW * max(depth.shape)))
+    unknown = wide_part((depth == 0.0) & region, width)
+    return replace(left, depth=np.where(unknown, np.nan, left.depth)) if unknown.any() else left

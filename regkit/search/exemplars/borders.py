@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from regkit.geometry.camera import Camera
-from regkit.search.exemplars.unknown_cuts import unknown_cuts
+from regkit.observation.unknown_cuts import unknown_cuts
 from regkit.system.arrays import Array
 
 STRIP = 2

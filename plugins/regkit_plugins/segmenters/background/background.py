@@ -26,7 +26,7 @@ from regkit.system.arrays import Array
 from regkit.system.errors import DataError
 from regkit_plugins.segmenters.background.learned import StaticDepth
 from regkit_plugins.segmenters.sampling import sampled
-from regkit_plugins.segmenters.unmeasured import with_unknown
+from regkit_plugins.segmenters.unmeasured import with_unmeasured
 
 FEWEST = 5
 """Fewer frames than this do not show what is static."""
@@ -92,10 +92,8 @@ class BoundBackground(BoundSegmenter):
         Where there is a background, a pixel without a measurement is unknown.
         """
         left = frame.only(in_front(frame, self.static, self.margin))
-        if frame.depth is None:
-            return left
-        unmeasured = (frame.depth == 0.0) & np.isfinite(self.static.depth)
-        return with_unknown(left, unmeasured)
+        assert frame.depth is not None
+        return with_unmeasured(left, frame.depth, np.isfinite(self.static.depth))
 
 
 def in_front(frame: Frame, static: StaticDepth, margin: float) -> NDArray[np.bool_]:

@@ -41,7 +41,7 @@ def unknown_cuts(camera: Camera, depth: Array, points: Array) -> list[tuple[int,
     if not np.isnan(depth).any():
         return []
     extent = float(np.ptp(camera.projected(points), axis=0).max())
-    wide, shown = _wide(np.isnan(depth), max(1, round(WIDE * extent))), depth > 0.0
+    wide, shown = wide_part(np.isnan(depth), max(1, round(WIDE * extent))), depth > 0.0
     contacts = [(_contact(shown, wide, axis, sign), axis, sign) for axis, sign in SIDES]
     contacts.sort(key=lambda one: -len(one[0][0]))
     found: list[tuple[int, Array]] = []
@@ -70,8 +70,13 @@ def _normal(camera: Camera, line: Array, axis: int, sign: int) -> Array:
     return np.asarray(normal / np.linalg.norm(normal))
 
 
-def _wide(unknown: NDArray[np.bool_], width: int) -> NDArray[np.bool_]:
-    """Returns the unknown pixels (H, W) that squares of a width cover; all is unknown beyond."""
+def wide_part(unknown: NDArray[np.bool_], width: int) -> NDArray[np.bool_]:
+    """Returns the part of an unknown region (H, W) that squares cover; all is unknown beyond it.
+
+    Args:
+        unknown: The region, (H, W).
+        width: Side of the squares [px].
+    """
     padded = np.pad(unknown, width, constant_values=True).astype(np.uint8)
     # Of an even width, the second filter is the mirror image of the first.
     origin = -1 if width % 2 == 0 else 0

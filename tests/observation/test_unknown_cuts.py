@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from regkit.geometry.camera import Camera
+from regkit.observation.unknown_cuts import unknown_cuts
 from regkit.search.exemplars.borders import cutting_borders
-from regkit.search.exemplars.unknown_cuts import unknown_cuts
 
 CAMERA = Camera(width=160, height=120, fx=150.0, fy=140.0, cx=80.0, cy=57.0)
 ROWS, COLUMNS = np.mgrid[: CAMERA.height, : CAMERA.width]
