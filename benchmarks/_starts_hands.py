@@ -1,4 +1,4 @@
-"""Hands in random orientations, alone before a camera of coded light."""
+"""Hands in random orientations, alone before a camera of coded light, some with a forearm."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from regkit.geometry.rigid import rigid
 from regkit.system.arrays import Array
 from regkit.system.cache import cache_folder
 from regkit_synthesis import assets
+from regkit_synthesis.bodies.forearm import with_forearm
 from regkit_synthesis.bodies.hand import HandBody
 from regkit_synthesis.cameras.viewpoint import Viewpoint
 from regkit_synthesis.hands.config import GesturesConfig
@@ -28,6 +29,12 @@ ORIENTATIONS = 60
 
 AWAY = 0.4
 """Distance of the hand's middle to the camera [m]."""
+
+FOREARM = (0.02, 0.12)
+"""Least and greatest length of a forearm [m]."""
+
+FLEXION, DEVIATION = np.radians([-50.0, 50.0]), np.radians([-15.0, 25.0])
+"""Range of the wrist's angles."""
 
 _CURLED = {"opened": 0.12, "thumb_lift_deg": 20}
 """Without these the mesh's fingertips go into its palm, as the shipped gestures say."""
@@ -81,11 +88,13 @@ class HandCase(Case):
         chosen: The set.
         gesture: Index of the gesture in the set.
         orientation: Index of the orientation.
+        forearm: Whether a piece of the forearm is seen.
     """
 
     chosen: Set
     gesture: int
     orientation: int
+    forearm: bool = False
 
     preprocessor: ClassVar[dict[str, Any]] = {"kind": "points", "voxel": 0.008, "sigma": 0.003}
 
@@ -93,14 +102,19 @@ class HandCase(Case):
     def name(self) -> str:
         """Returns everything that the frames depend on, in words."""
         poses = GESTURES[self.chosen][self.gesture]
-        return f"{self.subject.name}, {poses}, orientation {self.orientation}"
+        part = "forearm" if self.forearm else "wrist closed"
+        return f"{self.subject.name}, {poses}, orientation {self.orientation}, {part}"
 
     def shots(self) -> Shots:
         """Returns one frame."""
         return kept(f"hand: {self.name}", self._rendered)
 
     def _rendered(self) -> Shots:
-        body = HandBody(self.subject.mesh())
+        random, length, bend = self.random(1), 0.0, (0.0, 0.0)
+        if self.forearm:
+            length = random.uniform(*FOREARM)
+            bend = random.uniform(*FLEXION), random.uniform(*DEVIATION)
+        body = HandBody(with_forearm(self.subject.mesh(), length, *bend))
         poses = GESTURES[self.chosen][self.gesture]
         timed = [{"time": float(time), **pose} for time, pose in enumerate((poses[0], poses[-1]))]
         moved = body.moved_by(GesturesConfig.model_validate({"poses": timed, "sway": 0.0}))
@@ -115,11 +129,13 @@ class HandCase(Case):
         return np.asarray(before @ rigid(turn, np.zeros(3)))
 
 
-def cases(chosen: Set, some: int | None = None, seed: int = 0) -> list[HandCase]:
+def cases(
+    chosen: Set, some: int | None = None, seed: int = 0, *, forearm: bool = False
+) -> list[HandCase]:
     """Returns all 600 cases of a set, or a random subset of them in random order."""
     subject = _AVERAGE if chosen == "development" else _slim()
     every = [
-        HandCase(subject, chosen, gesture, orientation)
+        HandCase(subject, chosen, gesture, orientation, forearm)
         for gesture in range(len(GESTURES[chosen]))
         for orientation in range(ORIENTATIONS)
     ]
