@@ -53,8 +53,9 @@ class BodyFit:
         if len(body.capsules):
             capsules = body.capsules.place(transforms)
             gaps = np.abs(capsules.surface_distance(points))
-            bare = model_to_data(capsules.axis_points(SPACING * body.size), KDTree(points)).lengths
-            near = _limb_radius(body.capsules)
+            required = body.required.place(transforms)
+            bare = model_to_data(required.axis_points(SPACING * body.size), KDTree(points)).lengths
+            near = _limb_radius(body.required)
             coverage = float((bare <= near).mean())
             relief = _least_deviation(points) / near
         elif body.surface is not None:

@@ -21,6 +21,9 @@ SAMPLE = 6000
 SPACING = 0.04
 """Distance of the spheres on a body's axes, as a fraction of its size."""
 
+ABSENT = 0.4
+"""Fraction of the exemplars that lack the parts that the data may lack."""
+
 BATCH = 1000
 """Number of poses that are placed at once."""
 
@@ -72,13 +75,17 @@ class Atlas:
         views = sampled_views(random, settings.count, settings.elevation)
         cuts = _sampled_cuts(random, settings.count, settings.cropped)
         axes = body.capsules.axis_points(SPACING * body.size)
+        # A part that the data may lack is seen up to any distance from its joint.
+        lengths = np.linalg.norm(axes.points, axis=1) / body.size
+        far = np.where(body.is_optional(axes.segments), lengths, 0.0)
+        reaches = _sampled_reaches(random, settings.count, float(far.max(initial=0.0)))
         parts = []
         for first in range(0, settings.count, BATCH):
             some = slice(first, first + BATCH)
             poses = Pose(np.eye(4), balls[some], hinges[some])
             places = axes.place(Placement.of(body.skeleton, poses).transforms) / body.size
             radii = axes.radii / body.size
-            parts.append(exemplar_descriptors(places, radii, views[some], cuts[some]))
+            parts.append(exemplar_descriptors(places, radii, far, views[some], cuts[some], reaches[some]))
         descriptors = np.concatenate([part[0] for part in parts])
         mean = descriptors.mean(axis=0)
         sample = (descriptors[:SAMPLE] - mean).astype(float)
@@ -101,6 +108,13 @@ class Atlas:
     def arrays(self) -> dict[str, Singles]:
         """Returns the arrays by name, for a file."""
         return asdict(self)
+
+
+def _sampled_reaches(random: np.random.Generator, count: int, most: float) -> Array:
+    """Returns how far optional parts are seen, (count,); 0 where they are not."""
+    reaches = random.uniform(0.0, most, count)
+    reaches[random.uniform(size=count) < ABSENT] = 0.0
+    return np.asarray(reaches)
 
 
 def _sampled_cuts(random: np.random.Generator, count: int, share: float) -> Array:

@@ -148,7 +148,7 @@ class Finder:
 
 
 def _spheres(body: Body) -> Spheres:
-    return Spheres.of(body.capsules.axis_points(SPACING * body.size))
+    return Spheres.of(body, SPACING * body.size)
 
 
 def _rendered(body: Body, links: Array, pictures: Pictures, tolerance: float) -> Array:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Annotated, ClassVar, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field
 
 from regkit.interfaces import Scene, Term, VisibilityWeights
@@ -31,17 +32,23 @@ class Visibility(Term):
         """Returns the weights; all are one if the camera is unknown."""
         if scene.observation.camera is None:
             return VisibilityWeights(np.ones(len(scene.placed)))
-        return VisibilityWeights(np.maximum(visible_shares(scene.placed), self.least))
+        # What may be missing hides nothing.
+        hiding = ~scene.body.is_optional(scene.placed.primitives.segments)
+        return VisibilityWeights(np.maximum(visible_shares(scene.placed, hiding), self.least))
 
 
-def visible_shares(placed: Placed[Primitives]) -> Array:
+def visible_shares(placed: Placed[Primitives], hiding: NDArray[np.bool_]) -> Array:
     """Returns the fraction of each primitive that a camera at the origin sees, (K,), from 0 to 1.
 
     Primitives are treated as 2-sigma ellipsoids, and sampled at the centre and at four points
     half-way along their two longest axes.
+
+    Args:
+        placed: The primitives in the camera's frame.
+        hiding: Whether each primitive hides others, (K,).
     """
     radii = 2.0 * placed.primitives.scales
-    return free_rays(_outline(placed, radii), placed.centres, placed.axes, radii)
+    return free_rays(_outline(placed, radii), placed.centres, placed.axes, radii, hiding)
 
 
 def _outline(placed: Placed[Primitives], radii: Array) -> Array:
