@@ -10,9 +10,8 @@ from regkit.search.limbs import limbs_of
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 
-ANYWHERE, BETWEEN = 0.2, 0.4
-"""Probabilities that a limb is anywhere within its limits, and that its hinges are between those of
-two stances; otherwise it is near that of one stance."""
+ANYWHERE = 0.55
+"""Probability that a limb is anywhere within its limits, and not near that of a stance."""
 
 LIMB_SHAKE, TRUNK_SHAKE = 0.26, 0.2
 """Standard deviation of the joints about a stance [rad]."""
@@ -22,7 +21,7 @@ def sampled_poses(body: Body, random: np.random.Generator, count: int) -> tuple[
     """Returns ball quaternions (count, n_ball, 4) and hinge angles (count, n_hinge) [rad].
 
     Each is a stance of the body, or its rest pose, shaken; each limb is with some probability
-    anywhere within its limits, or between two stances.
+    anywhere within its limits.
 
     Args:
         body: The body.
@@ -43,13 +42,7 @@ def sampled_poses(body: Body, random: np.random.Generator, count: int) -> tuple[
     balls = product(balls, from_vector(steps))
     hinges = hinges + LIMB_SHAKE * random.normal(size=hinges.shape)
     for limb in limbs:
-        choice = random.uniform(size=count)
-        rows = np.flatnonzero(choice > 1.0 - BETWEEN)[:, None]
-        towards = random.integers(len(stances), size=len(rows))
-        others = np.array([pose.hinges for pose in stances])[towards][:, limb.hinges]
-        share = random.uniform(size=(len(rows), 1))
-        hinges[rows, limb.hinges] += share * (others - hinges[rows, limb.hinges])
-        rows = np.flatnonzero(choice < ANYWHERE)[:, None]
+        rows = np.flatnonzero(random.uniform(size=count) < ANYWHERE)[:, None]
         balls[rows, limb.balls] = any_balls[rows, limb.balls]
         hinges[rows, limb.hinges] = any_hinges[rows, limb.hinges]
     for index in range(count):
