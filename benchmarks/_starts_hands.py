@@ -13,9 +13,12 @@ from _starts_case import Case, subset
 from _starts_shots import Shots, kept
 from _starts_views import random_rotations, seen
 
+from regkit.body.reading import description_in
+from regkit.body.writing import template_text
 from regkit.geometry.rigid import rigid
 from regkit.system.arrays import Array
 from regkit.system.cache import cache_folder
+from regkit_plugins.templates.hand import with_forearm as with_part
 from regkit_synthesis import assets
 from regkit_synthesis.bodies.forearm import with_forearm
 from regkit_synthesis.bodies.hand import HandBody
@@ -67,15 +70,23 @@ GESTURES: Mapping[Set, tuple[tuple[Mapping[str, Any], ...], ...]] = {
     ),
 }
 
-_AVERAGE = Subject("average hand", assets.average_hand, {"kind": "hand"}, "length", 0.1858)
+
+def _average(*, forearm: bool) -> Subject:
+    template = {"kind": "hand", "forearm": forearm}
+    return Subject("average hand", assets.average_hand, template, "length", 0.1858)
 
 
-def _slim() -> Subject:
+def _slim(*, forearm: bool) -> Subject:
     """Returns the slim hand; its template is made on first use, in half a minute."""
     file: Path = cache_folder() / "benchmarks" / "slim_hand.yaml"
     if not file.is_file():
         file.parent.mkdir(parents=True, exist_ok=True)
         right_hand_template(assets.slim_hand(), "A slim right hand", "a slim hand").write(file)
+    if forearm:
+        # It is the shipped template's forearm, of another hand's width.
+        text = template_text(with_part(description_in(file)), "A slim hand with a forearm.", {})
+        file = file.with_name("slim_hand_forearm.yaml")
+        file.write_text(text, encoding="utf-8")
     template = {"kind": "file", "path": str(file)}
     return Subject("slim hand", assets.slim_hand, template, "size", 0.1938)
 
@@ -133,7 +144,8 @@ def cases(
     chosen: Set, some: int | None = None, seed: int = 0, *, forearm: bool = False
 ) -> list[HandCase]:
     """Returns all 600 cases of a set, or a random subset of them in random order."""
-    subject = _AVERAGE if chosen == "development" else _slim()
+    make = _average if chosen == "development" else _slim
+    subject = make(forearm=forearm)
     every = [
         HandCase(subject, chosen, gesture, orientation, forearm)
         for gesture in range(len(GESTURES[chosen]))

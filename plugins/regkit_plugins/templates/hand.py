@@ -34,14 +34,15 @@ class Hand(Template):
     def description(self) -> BodyDescription:
         """Returns the description in ``hand_right.yaml`` or ``hand_left.yaml``."""
         hand = description_in(FOLDER / f"hand_{self.side}.yaml")
-        return _with_forearm(hand) if self.forearm else hand
+        return with_forearm(hand) if self.forearm else hand
 
     def given_size(self) -> float | None:
         """Returns the length [m], if it is set."""
         return self.length
 
 
-def _with_forearm(hand: BodyDescription) -> BodyDescription:
+def with_forearm(hand: BodyDescription) -> BodyDescription:
+    """Returns the template of a hand with the forearm in ``forearm.yaml``."""
     part = description_in(FOLDER / "forearm.yaml")
     shapes = {kind: {**own, **part.shapes[kind]} for kind, own in hand.shapes.items()}
     segments = {**hand.segments, "forearm": part.segments["forearm"]}
