@@ -76,6 +76,9 @@ class SkeletonDescription(Model):
                     )
                 owners[marker] = name
         _check_couplings(self.segments)
+        for name, segment in self.segments.items():
+            if segment.parent is None and segment.optional:
+                raise _wrong("the root cannot be optional", name, "optional")
         return self
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.geometry.skinned_mesh import SkinnedMesh
-from regkit.system.arrays import Array, Indices
+from regkit.system.arrays import Indices
 
 SPACING = 0.01
 """Distance of the rings of vertices along the forearm [m]."""
@@ -43,11 +43,11 @@ def with_forearm(
     turn = axes @ np.array([deviation, 0.0, -flexion])
     outline = mesh.vertices[border]
     middle = outline.mean(axis=0)
-    steps = np.linspace(0.0, length, max(1, round(length / SPACING)) + 1)[1:] if length else []
+    count = max(1, round(length / SPACING)) if length else 0
     vertices, faces = [mesh.vertices], [mesh.faces]
-    ring, past, count = border, 0.0, len(mesh.vertices)
+    ring, past, made = border, 0.0, len(mesh.vertices)
     away = -axes[:, 1]
-    for at in steps:
+    for at in length * (1.0 + np.arange(count)) / max(count, 1):
         rotation = vector_to_matrix(min(at / BENDING, 1.0) * turn)
         away = -rotation @ axes[:, 1]
         middle = middle + (at - past) * away
@@ -55,12 +55,12 @@ def with_forearm(
         # The outline of the wrist, which is oblique, becomes a cross-section.
         around -= min(at / BENDING, 1.0) * np.outer(around @ away, away)
         vertices.append(middle + (1.0 + SWELLING * min(at / SWOLLEN, 1.0)) * around)
-        following = count + np.arange(len(ring))
+        following = made + np.arange(len(ring))
         faces.append(_strip(ring, following))
-        ring, past, count = following, at, count + len(ring)
+        ring, past, made = following, float(at), made + len(ring)
     vertices.append((middle + DOME * away)[None])
-    faces.append(np.column_stack([np.roll(ring, -1), ring, np.full(len(ring), count)]))
-    added = count + 1 - len(mesh.vertices)
+    faces.append(np.column_stack([np.roll(ring, -1), ring, np.full(len(ring), made)]))
+    added = made + 1 - len(mesh.vertices)
     alone = np.zeros((added, mesh.weights.shape[1]))
     alone[:, 0] = 1.0
     return replace(
@@ -82,7 +82,7 @@ def _border(faces: Indices) -> Indices:
     return np.array(border)
 
 
-def _strip(ring: Indices, following: Indices) -> Array:
+def _strip(ring: Indices, following: Indices) -> Indices:
     """Returns the triangles (2 B, 3) between two rings (B,)."""
     one, other = np.roll(ring, -1), np.roll(following, -1)
     return np.concatenate(

@@ -85,7 +85,9 @@ class Atlas:
             poses = Pose(np.eye(4), balls[some], hinges[some])
             places = axes.place(Placement.of(body.skeleton, poses).transforms) / body.size
             radii = axes.radii / body.size
-            parts.append(exemplar_descriptors(places, radii, far, views[some], cuts[some], reaches[some]))
+            parts.append(
+                exemplar_descriptors(places, radii, far, views[some], cuts[some], reaches[some])
+            )
         descriptors = np.concatenate([part[0] for part in parts])
         mean = descriptors.mean(axis=0)
         sample = (descriptors[:SAMPLE] - mean).astype(float)
