@@ -9,7 +9,6 @@ from scipy.spatial import KDTree
 
 from regkit.body.body import Body
 from regkit.body.distance import model_to_data
-from regkit.geometry.capsules import Capsules
 from regkit.observation.silhouette import Silhouette
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
@@ -70,7 +69,7 @@ class BodyFit:
         if len(body.capsules):
             capsules = body.capsules.place(transforms)
             gaps = np.abs(capsules.surface_distance(points))
-            near = _limb_radius(body.capsules)
+            near = body.capsules.limb_radius()
             axes = capsules.axis_points(SPACING * body.size)
             bare = model_to_data(axes, KDTree(points)).lengths
             if silhouette is not None:
@@ -102,12 +101,3 @@ def _least_deviation(points: Array) -> float:
     """Returns the standard deviation [m] of points (N, 3) along their thinnest direction."""
     centred = points - points.mean(axis=0)
     return float(np.sqrt(max(np.linalg.eigvalsh(centred.T @ centred / len(points))[0], 0.0)))
-
-
-def _limb_radius(capsules: Capsules) -> float:
-    """Returns the radius [m] of a typical limb: the median over the capsules' length."""
-    radii = capsules.radii.mean(axis=1)
-    lengths = np.linalg.norm(capsules.ends[:, 1] - capsules.ends[:, 0], axis=1) + 2.0 * radii
-    order = np.argsort(radii)
-    half = np.searchsorted(np.cumsum(lengths[order]), 0.5 * lengths.sum())
-    return float(radii[order][half])

@@ -71,6 +71,14 @@ class Capsules(Brief):
         """
         return np.asarray(self._distances(points)[0].min(axis=1))
 
+    def limb_radius(self) -> float:
+        """Returns the radius [m] of a typical limb: the median over the capsules' length."""
+        radii = self.radii.mean(axis=1)
+        lengths = np.linalg.norm(self.ends[:, 1] - self.ends[:, 0], axis=1) + 2.0 * radii
+        order = np.argsort(radii)
+        half = np.searchsorted(np.cumsum(lengths[order]), 0.5 * lengths.sum())
+        return float(radii[order][half])
+
     def frames(self) -> Array:
         """Returns right-handed axes (C, 3, 3) whose second one has the direction of the capsule's.
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from regkit.body import Body, BodyFit
@@ -13,6 +15,7 @@ from regkit.body.verdict import (
     Verdict,
     frame_verdicts,
 )
+from regkit.clouds import planar_share
 from regkit.interfaces import Start
 from regkit.observation import Observation
 from regkit.skeleton import Pose
@@ -24,6 +27,16 @@ Of 144 right starts of people (development set of ``benchmarks/starts.py``) none
 0.2.
 """
 
+SURE_PLANAR, LOST_PLANAR = 0.7, 0.8
+"""Data of which a larger fraction lies on two planes are doubtful, or no body but furniture.
+
+Of people it is at most 0.66 (development set, and 77 frames of UTD-MHAD), of hands 0.68, and of
+boxes at least 0.67, in the median 0.88.
+"""
+
+SMOOTH = 0.25
+"""Distance within which a point lies on such a plane, in radii of a typical limb."""
+
 SPACING = 0.05
 """Distance of the points that stand for a body, as a fraction of its size."""
 
@@ -31,7 +44,13 @@ LEAST_SEEN = 0.35
 """A start is doubtful if a smaller fraction of the body is inside the picture."""
 
 
-def judged(body: Body, pose: Pose, observation: Observation, margin: float = np.nan) -> Start:
+def judged(
+    body: Body,
+    pose: Pose,
+    observation: Observation,
+    margin: float = np.nan,
+    doubts: Sequence[str] = (),
+) -> Start:
     """Returns a start with its verdict.
 
     Args:
@@ -39,11 +58,18 @@ def judged(body: Body, pose: Pose, observation: Observation, margin: float = np.
         pose: Its pose.
         observation: The frame.
         margin: Cost of the best other pose less that of this one; NaN if there was none.
+        doubts: More reasons for doubt.
     """
     fit = BodyFit.of(body, pose, observation.points, observation.silhouette)
     shares = (fit.inlier_share, fit.coverage, fit.misfit, fit.relief)
     (verdict,) = frame_verdicts(np.ones(1), *(np.array([share]) for share in shares))
-    reasons = _misfits(fit)
+    reasons = [*_misfits(fit), *doubts]
+    planar = 0.0
+    if len(body.capsules):
+        planar = planar_share(observation.points, SMOOTH * body.capsules.limb_radius())
+    if planar > SURE_PLANAR:
+        reasons.append(f"{100.0 * planar:.0f} % of the points lie on two planes, as furniture's do")
+        verdict = Verdict.LOST if planar > LOST_PLANAR else verdict
     if margin < SURE_MARGIN:
         reasons.append("another pose, turned or mirrored, fits nearly as well")
     inside = _share_inside(body, pose, observation)

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from regkit.body import Body
-from regkit.search.exemplars.descriptors import exemplar_descriptors
+from regkit.search.exemplars.descriptors import HALF, exemplar_descriptors
 from regkit.search.exemplars.poses import rolled, sampled_poses, sampled_views
 from regkit.skeleton import Placement, Pose
 from regkit.system.arrays import Array, Singles
@@ -21,6 +21,9 @@ SAMPLE = 6000
 
 SPACING = 0.04
 """Distance of the spheres on a body's axes, as a fraction of its size."""
+
+FEW = 0.001
+"""Fraction of the exemplars that may show less than ``least_area``."""
 
 BATCH = 1000
 """Number of poses that are placed at once."""
@@ -127,6 +130,12 @@ class Atlas:
     def norms(self) -> Singles:
         """Squared lengths of the codes, (N,)."""
         return np.asarray((self.codes**2).sum(axis=1))
+
+    def least_area(self) -> float:
+        """Returns the area [size^2] that an image of a whole body shows at least, but for a few."""
+        cells = len(self.mean) // 2
+        shown = self.mean[:cells].sum() + self.codes @ self.basis[:cells].sum(axis=0)
+        return float(np.quantile(shown, FEW)) * (2.0 * HALF) ** 2 / cells
 
     def arrays(self) -> dict[str, Singles]:
         """Returns the arrays by name, for a file."""

@@ -83,6 +83,11 @@ class Pictures:
         return cls(points, tuple(pictures), one_sided=False)
 
     @property
+    def area(self) -> float:
+        """Area of the data, as if all faced the camera [m^2]; the least of all pictures."""
+        return min(_area(picture.grid) for picture in self.pictures)
+
+    @property
     def cut(self) -> bool:
         """Whether a border of a picture cuts the data off."""
         return any(len(picture.borders) for picture in self.pictures)
@@ -91,6 +96,12 @@ class Pictures:
     def spread(self) -> float:
         """Half the distance of neighbouring points, with some overlap [m]."""
         return 0.75 * _spacing(self.points)
+
+
+def _area(grid: Grid) -> float:
+    """Returns the area of a picture's data [m^2]."""
+    depths = grid.depth[np.isfinite(grid.depth) & (grid.depth > 0.0)]
+    return float((depths**2).sum() / (grid.intrinsics[0] * grid.intrinsics[1]))
 
 
 def _virtual(around: Array, middle: Array, view: Array, size: float, spread: float) -> Picture:

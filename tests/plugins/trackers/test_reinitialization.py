@@ -11,6 +11,7 @@ from regkit.body import Body
 from regkit.interfaces import Evaluation, Method, Past, Registrar, RegistrationResult, Tracker
 from regkit.interfaces.tracker import SEARCHES
 from regkit.observation import Observation
+from regkit.search.limb_recovery import LimbRecovery
 from regkit.skeleton import Pose
 from regkit.system.optional import one_blas_thread
 from regkit_plugins.templates.file import FileTemplate
@@ -106,7 +107,7 @@ def sought(monkeypatch) -> list[int]:
     """The searches for the body, which find nothing."""
     calls = []
 
-    def none(self, observation, scan, last):
+    def none(self, observation, last):
         calls.append(len(observation.points))
         return []
 
@@ -163,6 +164,22 @@ def test_first_frame_after_a_gap_is_searched_but_not_without_end(lamp, sought):
     assert len(past.searches) <= SEARCHES
 
 
+@pytest.mark.parametrize(("share", "found"), [(0.9, 0), (0.75, 1)])
+def test_points_that_jump_start_a_search_even_if_limbs_explain_them(lamp, sought, share, found):
+    tracker, past = bound(lamp, share), healthy(lamp.skeleton.rest())
+
+    class Explained(LimbRecovery):
+        def recovered(self, observation, found):
+            return replace(found, inlier_share=0.95)
+
+    limbs = Explained(tracker.registrar, (), 1, 0.01)
+    tracker = replace(tracker, recovery=replace(tracker.recovery, limbs=limbs))
+    for _ in range(2):
+        past = stepped(tracker, past, some_points(100))
+    # The second jump follows a frame in which the body was right again: it is another one.
+    assert len(sought) == 2 * found
+
+
 def test_body_that_enters_the_picture_is_sought_as_more_of_it_is_seen(lamp, sought):
     past, tracker = healthy(lamp.skeleton.rest(), 100), bound(lamp, 0.5)
     for count in (100, 140, 200, 290, 310):
@@ -184,9 +201,9 @@ def test_tracked_pose_wins_ties(lamp, monkeypatch, energy, misfit, share, wins):
     past, tracker = healthy(lamp.skeleton.rest()), bound(lamp, 0.5)
     other = lamp.skeleton.rest(np.diag([1.0, -1.0, -1.0, 1.0]))
 
-    def rivals(self, observation, scan, last):
+    def rivals(self, observation, last):
         found = tracker.registrar.register(observation, [last])
-        tracked = reinitialization.Finalist.registered(self.limbs, found, observation, scan, 1.0)
+        tracked = reinitialization.Finalist.registered(self.limbs, found, observation, 1.0)
         rival = replace(tracked.result, pose=other, inlier_share=0.5 + share)
         return [replace(tracked, result=rival, energy=energy, misfit=tracked.misfit + misfit)]
 

@@ -73,7 +73,8 @@ class Exemplars(StartSearch):
             else:
                 finalists = search.sized(template.body(sizes[0]), observations[0])
             best = finalists[0]
-            return judged(best.body, best.pose, observations[0], margin(finalists))
+            doubts = search.doubts(best.body, observations[0])
+            return judged(best.body, best.pose, observations[0], margin(finalists), doubts)
 
     def _search(self, template: Template) -> Search:
         sizes = template.candidate_sizes()

@@ -77,6 +77,14 @@ class Search:
         rivals = self.sized(best.body, observations[0])
         return sorted([best, *rivals] if telling == 0 else rivals, key=_cost)
 
+    def doubts(self, body: Body, observation: Observation) -> list[str]:
+        """Returns what speaks against a body of this size in a frame, whatever its pose."""
+        pictures = Pictures.of(observation, body.size)
+        share = pictures.area / (self.atlas.least_area() * body.size**2)
+        if pictures.cut or share >= 1.0:
+            return []
+        return [f"the data show {100.0 * share:.0f} % of the least area that such a body shows"]
+
     @property
     def _sizes(self) -> tuple[float, ...]:
         return self.template.candidate_sizes()

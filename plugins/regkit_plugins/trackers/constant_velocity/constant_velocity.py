@@ -17,7 +17,7 @@ class ConstantVelocity(Tracker):
     kind: Literal["constant_velocity"] = "constant_velocity"
 
     recovery: Recovery | None = Recovery()
-    """Recovery of lost limbs; null disables it."""
+    """Recovery of lost limbs and of a lost body; null disables it."""
 
     def bind(self, registrar: Registrar) -> BoundConstantVelocity:
         """Binds the tracker and its recovery to a registrar."""

@@ -74,19 +74,19 @@ class BoundRecovery:
         """Returns the registration, or a better one with another configuration of limbs or body."""
         if not self._alarmed(found, past):
             return found
-        found = self.limbs.recovered(observation, found)
+        better = self.limbs.recovered(observation, found)
         if self.body is None:
-            return found
-        return self.body.checked(observation, found, past, self._excess(found, past))
+            return better
+        return self.body.checked(observation, found, better, past, self._usual(past))
 
     def _alarmed(self, found: RegistrationResult, past: Past) -> bool:
         """Returns whether there are more outliers than usual, or a search is due."""
         if past.frames % self.recovery.every == 0 or past.missed:
             return True
         # Excess outliers below ``gain`` cannot lead to an accepted configuration.
-        return self._excess(found, past) > self.recovery.gain
+        return 1.0 - found.inlier_share > self._usual(past) + self.recovery.gain
 
-    def _excess(self, found: RegistrationResult, past: Past) -> float:
-        """Returns the fraction of outliers beyond the usual one times the factor of the alarm."""
-        usual = np.quantile(1.0 - np.array(past.inlier_shares or (1.0,)), BEST_SHARE)
-        return 1.0 - found.inlier_share - self.recovery.alarm * float(usual)
+    def _usual(self, past: Past) -> float:
+        """Returns the fraction of outliers that raises no alarm."""
+        shares = np.array(past.inlier_shares or (1.0,))
+        return self.recovery.alarm * float(np.quantile(1.0 - shares, BEST_SHARE))

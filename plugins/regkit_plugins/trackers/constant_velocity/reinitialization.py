@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated
 
@@ -39,10 +40,10 @@ GROWN = 1.5
 class Reinitialization(Model):
     """Seeks a lost body anew among its exemplars, as the search ``exemplars`` for a start does.
 
-    It searches when the limbs do not explain the outliers of a frame, and in the first frame with
-    data after frames without. The best of the poses that it finds replaces the tracked one only if
-    it has fewer outliers, less energy and clearly less misfit to the data. Searches that repeat
-    become rarer: the k-th last one is at least 4 (2^k - 1) frames ago.
+    It searches when the limbs do not explain the outliers of a frame, when the points jump, and in
+    the first frame with data after frames without. The best of the poses that it finds replaces the
+    tracked one only if it has fewer outliers, less energy and clearly less misfit to the data.
+    Searches that repeat become rarer: the k-th last one is at least 4 (2^k - 1) frames ago.
     """
 
     exemplars: Annotated[int, Field(ge=100, le=1_000_000)] = 30_000
@@ -55,7 +56,10 @@ class Reinitialization(Model):
     """Number of refined poses that are registered."""
     alarm: Annotated[float, Field(ge=0.0, le=1.0)] = 0.05
     """Search if the fraction of outliers exceeds the usual one, times the factor of the limbs'
-    alarm, by this much."""
+    alarm, by this much after the search for limbs."""
+    jump: Annotated[float, Field(ge=0.0, le=1.0)] = 0.125
+    """Search also if it does so by this much before the search for limbs, in a frame after one
+    without alarm: the points have jumped, which limbs may hide."""
     gain: Annotated[float, Field(ge=0.0, le=4.0)] = 0.05
     """Minimum decrease of the misfit for accepting a pose, which ranges from 0 to 4."""
 
@@ -84,18 +88,25 @@ class BoundReinitialization:
     limbs: LimbRecovery
 
     def checked(
-        self, observation: Observation, found: RegistrationResult, past: Past, excess: float
+        self,
+        observation: Observation,
+        registered: RegistrationResult,
+        found: RegistrationResult,
+        past: Past,
+        usual: float,
     ) -> RegistrationResult:
         """Returns the registration, or a clearly better one of the body in another pose.
 
         Args:
             observation: The frame's data.
-            found: Its registration, whose limbs are sought already.
+            registered: Its registration before the search for limbs.
+            found: Its registration after the search for limbs.
             past: Results of previous frames.
-            excess: Fraction of outliers beyond those that the alarm of the limbs allows.
+            usual: Fraction of outliers that raises no alarm of the limbs.
         """
         points = len(observation.points)
-        if points < FEWEST_POINTS or not self._due(points, past, excess):
+        outliers = [1.0 - one.inlier_share - usual for one in (past.last, registered, found)]
+        if points < FEWEST_POINTS or not self._due(points, past, outliers):
             return found
         size = self.limbs.registrar.body.size
         tracked = Finalist.registered(self.limbs, found, observation, size)
@@ -105,19 +116,26 @@ class BoundReinitialization:
             found = best.result
         return replace(found, searched=points)
 
-    def _due(self, points: int, past: Past, excess: float) -> bool:
-        """Returns whether the body may be lost, and was not sought too often already."""
-        if not past.frames:
-            # The start has just been sought.
-            return False
+    def _due(self, points: int, past: Past, outliers: Sequence[float]) -> bool:
+        """Returns whether to seek a body that may be lost, unless it was sought too often already.
+
+        Args:
+            points: Number of points.
+            past: Results of previous frames.
+            outliers: Fraction of outliers beyond the usual one in the last frame, and in this frame
+                before and after the search for limbs.
+        """
         last = past.searches[::-1]
-        if len(last) == SEARCHES and last[-1].age < SPAN:
+        begins = not past.frames  # The start has just been sought.
+        if begins or (len(last) == SEARCHES and last[-1].age < SPAN):
             return False
-        if past.missed:
+        earlier, before, after = outliers
+        alarm = self.settings.alarm
+        if past.missed or (before > self.settings.jump and earlier <= alarm):
             return True
         grown = not last or points >= GROWN * last[0].points
         rested = all(one.age >= least for one, least in zip(last, LEAST_AGES, strict=False))
-        return (grown or rested) and excess > self.settings.alarm
+        return after > alarm and (grown or rested)
 
     def _finalists(self, observation: Observation, last: Pose) -> list[Finalist]:
         settings, body = self.settings, self.limbs.registrar.body
