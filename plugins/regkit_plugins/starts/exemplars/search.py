@@ -19,7 +19,8 @@ from regkit.system.arrays import Array
 from regkit_plugins.starts.exemplars.finalists import Comparison
 
 MORE = 2
-"""Factor of the numbers of exemplars that are looked up and refined over all sizes together."""
+"""Factor of the numbers of exemplars that are looked up and refined over all sizes together, and of
+those that are refined and registered if the picture cuts the body off."""
 
 MIRRORED = 2
 """Number of finalists whose mirror images are registered too: from the front and from behind a
@@ -90,17 +91,21 @@ class Search:
             each: Number of finalists of each size.
         """
         pictures = Pictures.of(observation, self._usual)
-        # A size between the candidates resembles fewer exemplars.
+        # A size between the candidates resembles fewer exemplars, a part of a body more of them.
         more = 1 if len(bodies) == 1 else MORE
+        kept = MORE if pictures.cut else more
+        each *= MORE if pictures.cut else 1
         finder = Finder(
             bodies,
             self.atlas,
             self.rolls,
             more * self.looked_up,
-            more * self.refined,
+            kept * self.refined,
             self.cut_atlas() if pictures.cut else None,
         )
         candidates = finder.candidates(pictures)
+        if pictures.cut:
+            candidates = self._registered(finder, candidates, observation, pictures)
         chosen: list[Exemplar] = []
         for body in bodies:
             chosen += [one for one in candidates if one.body.size == body.size][:each]
@@ -114,6 +119,24 @@ class Search:
                     self.comparison.finalist(mirrored.body, mirrored.pose, observation)
                 )
         return sorted(finalists, key=_cost)
+
+    def _registered(
+        self,
+        finder: Finder,
+        candidates: Sequence[Exemplar],
+        observation: Observation,
+        pictures: Pictures,
+    ) -> list[Exemplar]:
+        """Returns candidates after registration, the one that agrees best with the data first.
+
+        What is in view of a body resembles many others, until it is registered.
+        """
+        found = []
+        for one in candidates:
+            pose = self.comparison.registered(one.body, one.pose, observation)
+            disagreement = finder.disagreement(one.body, pose, pictures)
+            found.append(Exemplar(one.body, pose, disagreement))
+        return sorted(found, key=lambda one: one.disagreement)
 
     def _resized(self, observation: Observation, finalists: Sequence[Finalist]) -> Finalist:
         """Returns the best pose in sizes between the candidates.
