@@ -79,11 +79,14 @@ class Search:
 
     def doubts(self, body: Body, observation: Observation) -> list[str]:
         """Returns what speaks against a body of this size in a frame, whatever its pose."""
-        pictures = Pictures.of(observation, body.size)
+        pictures, doubts = Pictures.of(observation, body.size), []
+        if len(self._sizes) > 1 and not self._sizes[0] < body.size < self._sizes[-1]:
+            doubts.append(f"the size, {body.size:.3g} m, is at an end of the template's range")
         share = pictures.area / (self.atlas.least_area() * body.size**2)
-        if pictures.cut or share >= 1.0:
-            return []
-        return [f"the data show {100.0 * share:.0f} % of the least area that such a body shows"]
+        if not pictures.cut and share < 1.0:
+            told = f"the data show {100.0 * share:.0f} % of the least area that such a body shows"
+            doubts.append(told)
+        return doubts
 
     @property
     def _sizes(self) -> tuple[float, ...]:
