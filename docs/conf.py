@@ -73,9 +73,11 @@ nitpick_ignore_regex = [
         r"py:class",
         r"TypeAliasForwardRef|ArrayLike|Beginning|Choices?|Cloud|Deviation|Frames|Intrinsics|Measured"
         r"|OneFrame"
-        r"|Reference|Vector|Position|Rotation|FrameCount|Length|Count|regkit\.tracking\.verdict\.Annotated",
+        r"|Reference|Vector|Position|Rotation|FrameCount|Length|Count|regkit\.body\.verdict\.Annotated",
     ),
     (r"py:class", r"Figure|Field|FieldInfo|NoneType|Ge|Gt|Le|\d+\.\d|(dict|tuple)\[str"),
+    # What starts and trackers share inside regkit is no part of its API.
+    (r"py:class", r"regkit\.(body\.distance|search)\..*"),
     # Tables of fields describe the content of YAML files.
     (r"py:class", r"(regkit\.(body|skeleton)\..*\.)?\w+Description"),
     # Not part of the public interface.

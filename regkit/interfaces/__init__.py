@@ -25,7 +25,7 @@ from regkit.interfaces.solver import (
 from regkit.interfaces.start import Start, StartSearch
 from regkit.interfaces.template import Template
 from regkit.interfaces.term import JointEnergy, JointResponse, Scene, Term, VisibilityWeights
-from regkit.interfaces.tracker import BoundTracker, Past, Tracker
+from regkit.interfaces.tracker import BodySearch, BoundTracker, Past, Tracker
 
 SLOTS = (
     Dataset,
@@ -44,6 +44,7 @@ SLOTS = (
 
 __all__ = [
     "SLOTS",
+    "BodySearch",
     "BoundSegmenter",
     "BoundTracker",
     "Chain",
