@@ -1,4 +1,4 @@
-"""Hands in random orientations, alone before a camera of coded light."""
+"""Hands in random orientations, alone before a camera of coded light, some with a forearm."""
 
 from __future__ import annotations
 
@@ -17,10 +17,14 @@ from _starts_shots import Shots, kept
 from _starts_table import header, row
 from _starts_views import random_rotations, seen
 
+from regkit.body.reading import description_in
+from regkit.body.writing import template_text
 from regkit.geometry.rigid import rigid
 from regkit.system.arrays import Array
 from regkit.system.cache import cache_folder
+from regkit_plugins.templates.hand import with_forearm as with_part
 from regkit_synthesis import assets
+from regkit_synthesis.bodies.forearm import with_forearm
 from regkit_synthesis.bodies.hand import HandBody
 from regkit_synthesis.cameras.viewpoint import Viewpoint
 from regkit_synthesis.hands.config import GesturesConfig
@@ -35,6 +39,11 @@ AWAY = 0.4
 
 WITHIN, FAR = 0.01, 0.03
 """A start is right below the first mean joint error, and far off beyond the second [m]."""
+FOREARM = (0.02, 0.12)
+"""Least and greatest length of a forearm [m]."""
+
+FLEXION, DEVIATION = np.radians([-50.0, 50.0]), np.radians([-15.0, 25.0])
+"""Range of the wrist's angles."""
 
 _CURLED = {"opened": 0.12, "thumb_lift_deg": 20}
 """Without these the mesh's fingertips go into its palm, as the shipped gestures say."""
@@ -67,15 +76,23 @@ GESTURES: Mapping[Set, tuple[tuple[Mapping[str, Any], ...], ...]] = {
     ),
 }
 
-_AVERAGE = Subject("average hand", assets.average_hand, {"kind": "hand"}, "length", 0.1858)
+
+def _average(*, forearm: bool) -> Subject:
+    template = {"kind": "hand", "forearm": forearm}
+    return Subject("average hand", assets.average_hand, template, "length", 0.1858)
 
 
-def _slim() -> Subject:
+def _slim(*, forearm: bool) -> Subject:
     """Returns the slim hand; its template is made on first use, in half a minute."""
     file: Path = cache_folder() / "benchmarks" / "slim_hand.yaml"
     if not file.is_file():
         file.parent.mkdir(parents=True, exist_ok=True)
         right_hand_template(assets.slim_hand(), "A slim right hand", "a slim hand").write(file)
+    if forearm:
+        # It is the shipped template's forearm, of another hand's width.
+        text = template_text(with_part(description_in(file)), "A slim hand with a forearm.", {})
+        file = file.with_name("slim_hand_forearm.yaml")
+        file.write_text(text, encoding="utf-8")
     template = {"kind": "file", "path": str(file)}
     return Subject("slim hand", assets.slim_hand, template, "size", 0.1938)
 
@@ -88,11 +105,13 @@ class HandCase(Case):
         chosen: The set.
         gesture: Index of the gesture in the set.
         orientation: Index of the orientation.
+        forearm: Whether a piece of the forearm is seen.
     """
 
     chosen: Set
     gesture: int
     orientation: int
+    forearm: bool = False
 
     preprocessor: ClassVar[dict[str, Any]] = {"kind": "points", "voxel": 0.008, "sigma": 0.003}
 
@@ -100,14 +119,19 @@ class HandCase(Case):
     def name(self) -> str:
         """Returns everything that the frames depend on, in words."""
         poses = GESTURES[self.chosen][self.gesture]
-        return f"{self.subject.name}, {poses}, orientation {self.orientation}"
+        part = "forearm" if self.forearm else "wrist closed"
+        return f"{self.subject.name}, {poses}, orientation {self.orientation}, {part}"
 
     def shots(self) -> Shots:
         """Returns one frame."""
         return kept(f"hand: {self.name}", self._rendered)
 
     def _rendered(self) -> Shots:
-        body = HandBody(self.subject.mesh())
+        random, length, bend = self.random(1), 0.0, (0.0, 0.0)
+        if self.forearm:
+            length = random.uniform(*FOREARM)
+            bend = random.uniform(*FLEXION), random.uniform(*DEVIATION)
+        body = HandBody(with_forearm(self.subject.mesh(), length, *bend))
         poses = GESTURES[self.chosen][self.gesture]
         timed = [{"time": float(time), **pose} for time, pose in enumerate((poses[0], poses[-1]))]
         moved = body.moved_by(GesturesConfig.model_validate({"poses": timed, "sway": 0.0}))
@@ -122,11 +146,14 @@ class HandCase(Case):
         return np.asarray(before @ rigid(turn, np.zeros(3)))
 
 
-def cases(chosen: Set, some: int | None = None, seed: int = 0) -> list[HandCase]:
+def cases(
+    chosen: Set, some: int | None = None, seed: int = 0, *, forearm: bool = False
+) -> list[HandCase]:
     """Returns all 600 cases of a set, or a random subset of them in random order."""
-    subject = _AVERAGE if chosen == "development" else _slim()
+    make = _average if chosen == "development" else _slim
+    subject = make(forearm=forearm)
     every = [
-        HandCase(subject, chosen, gesture, orientation)
+        HandCase(subject, chosen, gesture, orientation, forearm)
         for gesture in range(len(GESTURES[chosen]))
         for orientation in range(ORIENTATIONS)
     ]

@@ -11,6 +11,7 @@ from regkit.clouds import read_cloud
 from regkit.geometry.camera import Camera
 from regkit.observation import Frame
 from regkit.observation.depth_image import read_depth
+from regkit.observation.organised import organised_frame
 from regkit.system.errors import ConfigError, DataError
 
 MILLIMETRES = 1000.0
@@ -23,7 +24,9 @@ def load_frame(path: str | Path, *, index: int = 0, depth_scale: float = MILLIME
     Args:
         path: The folder of a recording; a 16-bit PNG depth image with its ``camera.json`` beside
             it, or in the ``depth`` folder of a recording; or the file of a cloud or a mesh. With a
-            ``camera.json`` beside it, a cloud is treated as the surface visible to that camera.
+            ``camera.json`` beside it, a cloud is treated as the surface visible to that camera. An
+            organised cloud, in rows and columns as the pixels of a pinhole camera, is the depth
+            image of that camera.
         index: Number of the frame in a recording's folder, from 0.
         depth_scale: Units per metre of a depth image outside a recording.
 
@@ -37,8 +40,9 @@ def load_frame(path: str | Path, *, index: int = 0, depth_scale: float = MILLIME
         return _of_recording(file, index)
     camera = file.with_name("camera.json")
     if file.suffix.lower() != ".png":
-        seen_by = Camera.read(camera) if camera.is_file() else None
-        return Frame(read_cloud(file), seen_by, place=str(file))
+        if camera.is_file():
+            return Frame(read_cloud(file), Camera.read(camera), place=str(file))
+        return organised_frame(file) or Frame(read_cloud(file), place=str(file))
     if camera.is_file():
         return frame_of(read_depth(file) / depth_scale, camera, place=str(file))
     folder = file.absolute().parent.parent

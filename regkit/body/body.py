@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from regkit.body.listed import ListedShape
 from regkit.geometry.capsules import Capsules
@@ -70,6 +71,7 @@ class Body(Brief):
         size: Characteristic length, such as a person's height or a hand's length [m].
         upright: Whether y points up in the first frame, with the front towards the camera.
         surface: Skinned mesh or cloud of the template, if it has one.
+        optional: Indices of the segments that the data may lack.
     """
 
     name: str
@@ -81,6 +83,7 @@ class Body(Brief):
     size: float
     upright: bool
     surface: SkinnedSurface | None = None
+    optional: tuple[int, ...] = ()
 
     def __repr__(self) -> str:
         """Returns what the body consists of, in one line."""
@@ -88,6 +91,15 @@ class Body(Brief):
         if self.surface is not None:
             parts.append(f"{len(self.surface.points)} surface points")
         return f"<Body {self.name}: size {self.size:.4g} m, {self.skeleton!r}, {', '.join(parts)}>"
+
+    @property
+    def required(self) -> Capsules:
+        """The surface that the data must show unless something hides it."""
+        return self.capsules.selected(~self.is_optional(self.capsules.segments))
+
+    def is_optional(self, segments: Indices) -> NDArray[np.bool_]:
+        """Returns whether the data may lack each of some segments (K,), (K,)."""
+        return np.isin(segments, self.optional)
 
     def place(self, pose: Pose) -> Placement:
         """Returns the skeleton's placement in a pose."""

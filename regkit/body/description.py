@@ -139,6 +139,7 @@ class BodyDescription(SkeletonDescription):
             size=size,
             upright=self.upright,
             surface=self._surface(skeleton.names, scale),
+            optional=tuple(order[name] for name, one in self.segments.items() if one.optional),
         )
 
     def unchecked(self) -> dict[str, str]:

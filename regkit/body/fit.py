@@ -69,8 +69,9 @@ class BodyFit:
         if len(body.capsules):
             capsules = body.capsules.place(transforms)
             gaps = np.abs(capsules.surface_distance(points))
-            near = body.capsules.limb_radius()
-            axes = capsules.axis_points(SPACING * body.size)
+            near = body.required.limb_radius()
+            required = body.required.place(transforms)
+            axes = required.axis_points(SPACING * body.size)
             bare = model_to_data(axes, KDTree(points)).lengths
             if silhouette is not None:
                 bare = bare[silhouette.observable(axes.points, axes.radii + near)]

@@ -106,6 +106,8 @@ def _segment(segment: SegmentDescription, comment: str) -> list[str]:
         lines.append(f"    offset: {row(segment.offset)}")
     if any(segment.rotation_deg):
         lines.append(f"    rotation_deg: {row(segment.rotation_deg, 1)}")
+    if segment.optional:
+        lines.append("    optional: true")
     lines.append(f"    joint: {_joint(segment.joint or FixedJoint())}")
     if segment.capsules:
         lines.append("    capsules:")

@@ -15,6 +15,7 @@ KINDS = (
     "kernel",
     "term",
     "segmenter",
+    "start",
     "preprocessor",
     "solver",
     "method",

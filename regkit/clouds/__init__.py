@@ -2,12 +2,14 @@
 
 from regkit.clouds.checks import check_shape, check_sizes
 from regkit.clouds.neighbourhoods import normals, spacing
+from regkit.clouds.organised import OrganisedCloud
 from regkit.clouds.planarity import planar_share
-from regkit.clouds.reading import read_cloud, read_measured
+from regkit.clouds.reading import read_cloud, read_measured, read_organised
 from regkit.clouds.voxels import voxel_downsampled, voxel_for
 from regkit.clouds.writing import check_writable, write_cloud
 
 __all__ = [
+    "OrganisedCloud",
     "check_shape",
     "check_sizes",
     "check_writable",
@@ -15,6 +17,7 @@ __all__ = [
     "planar_share",
     "read_cloud",
     "read_measured",
+    "read_organised",
     "spacing",
     "voxel_downsampled",
     "voxel_for",

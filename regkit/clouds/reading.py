@@ -11,10 +11,11 @@ from regkit.clouds.formats.gltf import read_gltf
 from regkit.clouds.formats.mesh import surface_points
 from regkit.clouds.formats.obj import read_obj
 from regkit.clouds.formats.off import read_off
-from regkit.clouds.formats.pcd import read_pcd
-from regkit.clouds.formats.ply import read_ply
+from regkit.clouds.formats.pcd import read_organised_pcd, read_pcd
+from regkit.clouds.formats.ply import read_organised_ply, read_ply
 from regkit.clouds.formats.stl import read_stl
 from regkit.clouds.formats.text import read_text
+from regkit.clouds.organised import OrganisedCloud
 from regkit.system.archives import read_arrays
 from regkit.system.arrays import Array, Indices, measured_points, without_missing
 from regkit.system.errors import DataError
@@ -32,6 +33,12 @@ MESHES: dict[str, Callable[[Path], tuple[Array, Indices]]] = {
     ".glb": read_gltf,
 }
 """Readers of vertices (V, 3) and triangles (T, 3); without triangles the file is a cloud."""
+
+ORGANISED: dict[str, Callable[[Path], OrganisedCloud | None]] = {
+    ".pcd": read_organised_pcd,
+    ".ply": read_organised_ply,
+}
+"""Readers of clouds in rows and columns; None of a file that has none."""
 
 READABLE = (".npz", ".pcd", *TEXT, *MESHES)
 """All suffixes that ``read_cloud`` accepts."""
@@ -59,6 +66,19 @@ def read_measured(path: Path) -> Array:
         DataError: If the file is missing, damaged, empty, ambiguous or of an unknown format.
     """
     return measured_points(_stored(path), place=str(path))
+
+
+def read_organised(path: Path) -> OrganisedCloud | None:
+    """Reads a cloud in rows and columns; returns None if the file's format says of none.
+
+    Raises:
+        DataError: If the file is damaged.
+    """
+    suffix = path.suffix.lower()
+    if suffix not in ORGANISED or not path.is_file():
+        return None
+    with reading(path, f"a {suffix} file of points"), np.errstate(invalid="ignore"):
+        return ORGANISED[suffix](path)
 
 
 def _stored(path: Path) -> Array:

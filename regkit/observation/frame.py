@@ -23,8 +23,8 @@ class Frame(Brief):
         points: Points in the camera frame (x right, y down, z forward), (N, 3) [m].
         camera: Intrinsics, if the points come from a depth image.
         depth: Depth image, (H, W) [m]; None if there is none. Zero marks a pixel without a
-            measurement, which counts as free space. NaN marks an unknown pixel, where something
-            else is that may hide the body.
+            measurement, which counts as free space. NaN marks an unknown pixel: something
+            else may hide the body there, or a camera in a room measures nothing.
         place: Source of the frame, for error messages.
     """
 

@@ -49,6 +49,9 @@ class SegmentDescription(Model):
     """Capsules that approximate the segment's surface."""
     markers: dict[Name, Position] = Field(default_factory=dict)
     """Named points in the segment's frame [m], such as joints or fingertips."""
+    optional: bool = False
+    """Whether the data may lack the segment: it explains data that are there, and where none are it
+    costs nothing, like the forearm of a hand that may be cut off anywhere."""
 
 
 class SkeletonDescription(Model):
@@ -73,6 +76,9 @@ class SkeletonDescription(Model):
                     )
                 owners[marker] = name
         _check_couplings(self.segments)
+        for name, segment in self.segments.items():
+            if segment.parent is None and segment.optional:
+                raise _wrong("the root cannot be optional", name, "optional")
         return self
 
 

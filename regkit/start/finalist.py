@@ -24,6 +24,8 @@ class Finalist:
         misfit: Its two-sided misfit, of the visible body alone, and what an unusual size adds,
             dimensionless.
         unlikely: Cost of the pose without regard to the data, dimensionless.
+        unlike: Cost of how the rendered body differs from the picture, dimensionless; zero if it
+            was not rendered.
     """
 
     body: Body
@@ -31,6 +33,7 @@ class Finalist:
     energy: float
     misfit: float
     unlikely: float = 0.0
+    unlike: float = 0.0
 
     @classmethod
     def of(
@@ -70,5 +73,5 @@ class Finalist:
 
     @property
     def cost(self) -> float:
-        """Energy, misfit and prior; lower is better."""
-        return self.energy + self.misfit + self.unlikely
+        """Energy, misfit, prior and picture; lower is better."""
+        return self.energy + self.misfit + self.unlikely + self.unlike

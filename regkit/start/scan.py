@@ -61,7 +61,7 @@ class Scan:
     ) -> tuple[SurfaceDistances, SurfaceDistances]:
         """Returns the distances of the data to the body, and of the body to the data."""
         capsules = body.capsules.place(placement.transforms)
-        axes = capsules.axis_points(SPACING * body.size)
+        axes = body.required.place(placement.transforms).axis_points(SPACING * body.size)
         seen = None if self._silhouette is None else self._silhouette.observable(axes.points)
         return data_to_model(capsules, self._points), model_to_data(axes, self._tree, seen)
 

@@ -66,7 +66,7 @@ def judged(
     reasons = [*_misfits(fit), *doubts]
     planar = 0.0
     if len(body.capsules):
-        planar = planar_share(observation.points, SMOOTH * body.capsules.limb_radius())
+        planar = planar_share(observation.points, SMOOTH * body.required.limb_radius())
     if planar > SURE_PLANAR:
         reasons.append(f"{100.0 * planar:.0f} % of the points lie on two planes, as furniture's do")
         verdict = Verdict.LOST if planar > LOST_PLANAR else verdict

@@ -62,7 +62,8 @@ def previewed(recording: Recording, segmenter: Chain, count: int) -> Iterator[Pr
             removed_by[at[~kept]] = number
             at = at[kept]
         names = tuple(name for name, _ in steps)
-        yield PreviewedFrame(index, whole, frame, names, removed_by)
+        left = segmenter.segmented(whole, None)
+        yield PreviewedFrame(index, whole, left, names, removed_by)
 
 
 def _kept(before: Frame, after: Frame) -> NDArray[np.bool_]:

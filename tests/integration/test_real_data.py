@@ -7,12 +7,14 @@ track it is only asked that every frame is registered and measured.
 
 import json
 import shutil
+import warnings
 from pathlib import Path
 
 import numpy as np
 import pytest
 from places import EXAMPLES
 
+import regkit
 from regkit.body import Body
 from regkit.geometry.camera import Camera
 from regkit.observation import Observation
@@ -48,6 +50,27 @@ def test_start_of_people_is_found_within_the_reference_accuracy(reference_data: 
     print("mean distance to the reference joints [m]:", errors)
     assert np.median(list(errors.values())) < 0.08
     assert max(errors.values()) < 0.15
+
+
+@pytest.mark.long
+def test_upper_body_in_a_room_is_found_in_an_organised_cloud(reference_data: Path):
+    """A bust in profile before a Kinect, cut off by the picture's unmeasured margin."""
+    with pytest.warns(regkit.RegkitWarning, match="f = 525 px"):
+        frame = regkit.load_frame(reference_data / "kinect_pcl_bsd" / "person.pcd")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", regkit.RegkitWarning)
+        found = regkit.register(frame, "human")
+    body, place = found.tracking.start.body, found.tracking.markers[0]
+    at = {name: place[body.markers.names.index(name)] for name in body.markers.names}
+    # By eye: the head is a ball about this place; the shoulders are 0.2 to 0.35 m lower.
+    assert np.linalg.norm(at["head"] - [-0.1, -0.03, 0.83]) < 0.1
+    for side in ("left", "right"):
+        assert 0.1 < at[f"{side}_shoulder"][1] < 0.35
+        assert 0.6 < at[f"{side}_shoulder"][2] < 1.05
+        for low in ("hip", "knee", "ankle"):
+            assert frame.camera.projected(at[f"{side}_{low}"][None])[0, 1] > frame.camera.height
+    assert 1.6 < body.size < 1.9
+    assert found.tracking.verdict == regkit.Verdict.DOUBTFUL
 
 
 @pytest.fixture

@@ -39,8 +39,11 @@ stances:
 """
 
 
-def seen(body: Body, pose: Pose) -> Observation:
-    """What a depth camera sees of a body: along each ray, steps as long as the surface is far."""
+def seen(body: Body, pose: Pose, *, image: bool = False) -> Observation:
+    """What a depth camera sees of a body: along each ray, steps as long as the surface is far.
+
+    With the image, nothing but free space is beside the body, and nothing is known elsewhere.
+    """
     surface = body.capsules.place(body.place(pose).transforms)
     rays = CAMERA.rays().reshape(-1, 3)
     rays = rays / np.linalg.norm(rays, axis=1, keepdims=True)
@@ -50,7 +53,9 @@ def seen(body: Body, pose: Pose) -> Observation:
         along = np.minimum(along, 10.0)
     points = along[:, None] * rays
     hit = np.abs(surface.surface_distance(points)) < 1e-3
-    return PointsPreprocessor(sigma=0.02).preprocess(Frame(points[hit], CAMERA))
+    depth = np.where(hit, points[:, 2], 0.0).reshape(CAMERA.height, CAMERA.width)
+    frame = Frame(points[hit], CAMERA, depth if image else None)
+    return PointsPreprocessor(sigma=0.02).preprocess(frame)
 
 
 def facing(body: Body, turn: float, joints: dict[str, float]) -> Pose:

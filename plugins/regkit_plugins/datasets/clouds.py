@@ -12,6 +12,7 @@ from regkit.clouds.reading import TEXT
 from regkit.config.model import InputPath
 from regkit.interfaces import Dataset, Recording
 from regkit.observation import Frame, Truth
+from regkit.observation.organised import organised_frame
 from regkit_plugins.datasets.formats.recording_folders import (
     RecordingDescription,
     existing,
@@ -27,7 +28,8 @@ class CloudFolders(Dataset):
     """A folder of point clouds, or a folder of such folders.
 
     A ``.npz`` file holds the array ``points`` (N, 3) [m]. Points that are NaN or infinite are
-    missing measurements; a cloud may consist of them.
+    missing measurements; a cloud may consist of them. An organised cloud of a pinhole camera is
+    its depth image.
     """
 
     kind: Literal["clouds"] = "clouds"
@@ -72,7 +74,8 @@ class CloudRecording(Recording):
         """Yields and reads only the clouds of ``indices``."""
         for index in sorted(set(indices)):
             path = self.files[index]
-            yield index, Frame(read_measured(path), place=str(path))
+            found = organised_frame(path, tell=index == 0)
+            yield index, found or Frame(read_measured(path), place=str(path))
 
     def input_files(self) -> list[Path]:
         """Returns the frames' files, and those beside them that exist."""

@@ -18,6 +18,7 @@ from regkit_plugins.segmenters.pieces.pieces import BoundPieces
 from regkit_plugins.segmenters.planes import Planes
 from regkit_plugins.segmenters.planes.planes import BoundPlanes
 from regkit_plugins.segmenters.sampling import sampled
+from regkit_plugins.segmenters.unmeasured import Surroundings
 
 AMPLE = 1.5
 """A scene that shows more area than this, in units of the body's largest area, is a room."""
@@ -33,7 +34,8 @@ class Room(Segmenter):
     """Takes the body out of a room; does nothing where the scene is no larger than the body.
 
     Floor and walls are removed (``planes``), in tracking also what is far from the last body
-    (``gate``), and of the rest the piece that fits the template is kept (``pieces``).
+    (``gate``), and of the rest the piece that fits the template is kept (``pieces``). Pixels
+    without a measurement among measured ones are unknown.
     """
 
     kind: Literal["room"] = "room"
@@ -56,7 +58,7 @@ class Room(Segmenter):
         steps = (self.planes, self.gate, self.pieces)
         chain = Chain.of(steps, recording, template)
         note(_told(frames[0], chain, extent), place=recording.name)
-        return chain
+        return Surroundings(chain.steps, chain.names)
 
     def each(self, recording: Recording, template: Template) -> tuple[Room, ...]:
         """Returns a room for each piece of the first frame that fits."""

@@ -27,11 +27,23 @@ class Hand(Template):
     length: Annotated[float, Field(ge=0.05, le=0.3)] | None = None
     """Length from the wrist to the tip of the straight middle finger [m]; by default it is
     estimated."""
+    forearm: bool = False
+    """Whether the template has a forearm. It explains data behind the wrist, and where there are
+    none it costs nothing."""
 
     def description(self) -> BodyDescription:
         """Returns the description in ``hand_right.yaml`` or ``hand_left.yaml``."""
-        return description_in(FOLDER / f"hand_{self.side}.yaml")
+        hand = description_in(FOLDER / f"hand_{self.side}.yaml")
+        return with_forearm(hand) if self.forearm else hand
 
     def given_size(self) -> float | None:
         """Returns the length [m], if it is set."""
         return self.length
+
+
+def with_forearm(hand: BodyDescription) -> BodyDescription:
+    """Returns the template of a hand with the forearm in ``forearm.yaml``."""
+    part = description_in(FOLDER / "forearm.yaml")
+    shapes = {kind: {**own, **part.shapes[kind]} for kind, own in hand.shapes.items()}
+    segments = {**hand.segments, "forearm": part.segments["forearm"]}
+    return hand.model_copy(update={"segments": segments, "shapes": shapes})

@@ -55,6 +55,7 @@ class BoundFreeSpace(ResidualSimilarity):
         sizes = ordered[:, 1:].prod(axis=1)
         # Three samples per primitive; a single one is enough for balls.
         self._each = 1 if (ordered[:, 0] == ordered[:, 2]).all() else 3
+        sizes[scene.body.is_optional(scene.placed.primitives.segments)] = 0.0
         self._weights = np.repeat(term.weight * sizes / sizes.sum() / self._each, self._each)
         self._widths = np.repeat(ordered[:, 0], self._each)
         self._margins = term.margin * self._widths

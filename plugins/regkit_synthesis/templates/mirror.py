@@ -69,6 +69,7 @@ def segment(value: SegmentDescription, rename: Callable[[str], str]) -> SegmentD
         joint=None if value.joint is None else joint(value.joint, rename),
         capsules=tuple(capsule(one) for one in value.capsules),
         markers={rename(name): point(marker) for name, marker in value.markers.items()},
+        optional=value.optional,
     )
 
 

@@ -24,6 +24,8 @@ SPACING = 0.04
 
 FEW = 0.001
 """Fraction of the exemplars that may show less than ``least_area``."""
+ABSENT = 0.4
+"""Fraction of the exemplars that lack the parts that the data may lack."""
 
 BATCH = 1000
 """Number of poses that are placed at once."""
@@ -84,7 +86,7 @@ class Atlas:
         if settings.cut:
             views = rolled(views, random.uniform(0.0, 2.0 * np.pi, settings.count))
             cuts = _sampled_cuts(random, settings.count)
-        descriptors, centres = _rendered(body, balls, hinges, views, cuts)
+        descriptors, centres = _rendered(body, balls, hinges, views, cuts, random)
         mean = descriptors.mean(axis=0)
         sample = (descriptors[:SAMPLE] - mean).astype(float)
         _, vectors = np.linalg.eigh(sample.T @ sample)
@@ -111,7 +113,7 @@ class Atlas:
         balls, hinges = np.tile(pose.balls, (count, 1, 1)), np.tile(pose.hinges, (count, 1))
         views = sampled_views(random, count, (-np.pi / 2, np.pi / 2))
         cuts = np.zeros((count, 0, 3))
-        descriptors, centres = _rendered(body, balls, hinges, views, cuts)
+        descriptors, centres = _rendered(body, balls, hinges, views, cuts, random)
         return Atlas(
             np.concatenate([self.balls, balls.astype(np.float32)]),
             np.concatenate([self.hinges, hinges.astype(np.float32)]),
@@ -143,7 +145,12 @@ class Atlas:
 
 
 def _rendered(
-    body: Body, balls: Array, hinges: Array, views: Array, cuts: Array
+    body: Body,
+    balls: Array,
+    hinges: Array,
+    views: Array,
+    cuts: Array,
+    random: np.random.Generator,
 ) -> tuple[Singles, Singles]:
     """Returns the descriptors (N, D) of exemplars, and the centres of their images (N, 3) [size].
 
@@ -153,16 +160,30 @@ def _rendered(
         hinges: Hinge angles, (N, n_hinge) [rad].
         views: R_view_body, (N, 3, 3).
         cuts: Lines at which their pictures end, (N, C, 3).
+        random: Source of how far optional parts are seen.
     """
     axes, parts = body.capsules.axis_points(SPACING * body.size), []
     radii = axes.radii / body.size
+    # A part that the data may lack is seen up to any distance from its joint.
+    lengths = np.linalg.norm(axes.points, axis=1) / body.size
+    far = np.where(body.is_optional(axes.segments), lengths, 0.0)
+    reaches = _sampled_reaches(random, len(views), float(far.max(initial=0.0)))
     for first in range(0, len(views), BATCH):
         some = slice(first, first + BATCH)
         poses = Pose(np.eye(4), balls[some], hinges[some])
         places = axes.place(Placement.of(body.skeleton, poses).transforms) / body.size
-        parts.append(exemplar_descriptors(places, radii, views[some], cuts[some]))
+        parts.append(
+            exemplar_descriptors(places, radii, far, views[some], cuts[some], reaches[some])
+        )
     descriptors = np.concatenate([part[0] for part in parts])
     return descriptors, np.concatenate([part[1] for part in parts]).astype(np.float32)
+
+
+def _sampled_reaches(random: np.random.Generator, count: int, most: float) -> Array:
+    """Returns how far optional parts are seen, (count,); 0 where they are not."""
+    reaches = random.uniform(0.0, most, count)
+    reaches[random.uniform(size=count) < ABSENT] = 0.0
+    return np.asarray(reaches)
 
 
 def _sampled_cuts(random: np.random.Generator, count: int) -> Array:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from regkit.geometry.camera import Camera
+from regkit.observation.unknown_cuts import unknown_cuts
 from regkit.system.arrays import Array
 
 STRIP = 2
@@ -17,9 +18,11 @@ TOUCHING = 0.04
 def cutting_borders(camera: Camera, depth: Array, points: Array) -> Array:
     """Returns the borders at which a picture cuts the data off, the longest contact first.
 
+    The edges of unknown regions are borders too.
+
     Args:
         camera: The camera.
-        depth: Its depth image, (H, W) [m].
+        depth: Its depth image, (H, W) [m]; NaN where it is unknown.
         points: The data, (N, 3) [m].
 
     Returns:
@@ -38,7 +41,10 @@ def cutting_borders(camera: Camera, depth: Array, points: Array) -> Array:
         (shown[-STRIP:].any(axis=0), [0.0, 1.0, -below]),
         (shown[:STRIP].any(axis=0), [0.0, -1.0, -above]),
     ]
-    found = [(int(strip.sum()), normal) for strip, normal in sides if strip.sum() >= least]
+    found = [
+        (int(strip.sum()), np.array(normal)) for strip, normal in sides if strip.sum() >= least
+    ]
+    found += unknown_cuts(camera, depth, points)
     found.sort(key=lambda one: -one[0])
     normals = np.array([normal for _, normal in found]).reshape(-1, 3)
     return np.asarray(normals / np.linalg.norm(normals, axis=1, keepdims=True))

@@ -29,32 +29,35 @@ DEEPEST = 0.22
 
 @compiled
 def exemplar_descriptors(
-    places: Array, radii: Array, views: Array, cuts: Array
+    places: Array, radii: Array, far: Array, views: Array, cuts: Array, reaches: Array
 ) -> tuple[Singles, Array]:
     """Returns the descriptors (N, D) of posed bodies, and the centres of their images (N, 3).
 
     Args:
         places: Centres of spheres on the bodies' axes, (N, P, 3) [size].
         radii: Radii of the spheres, (P,) [size].
+        far: How far each sphere is along a part that the data may lack, (P,) [size]; else 0.
         views: R_view_body, (N, 3, 3).
         cuts: Lines at which the picture ends: outward direction, and share of the remaining image
             that is in view, (N, C, 3). A line with the share 1 cuts nothing off.
+        reaches: How far the parts that the data may lack are there, (N,) [size].
     """
     count = len(places)
     descriptors = np.empty((count, 2 * (SIDE // POOLING) ** 2), dtype=np.float32)
     centres = np.empty((count, 3))
     for index in range(count):
-        seen = np.empty((len(radii), 3))
+        there = np.flatnonzero(far <= reaches[index])
+        seen, thick = np.empty((len(there), 3)), radii[there]
         middle = np.zeros(3)
-        for sphere in range(len(radii)):
+        for row, sphere in enumerate(there):
             for i in range(3):
-                seen[sphere, i] = (
+                seen[row, i] = (
                     views[index, i, 0] * places[index, sphere, 0]
                     + views[index, i, 1] * places[index, sphere, 1]
                     + views[index, i, 2] * places[index, sphere, 2]
                 )
-            middle += seen[sphere] / len(radii)
-        image = spheres_image(seen - middle, radii, WIDE, SIDE)
+            middle += seen[row] / len(there)
+        image = spheres_image(seen - middle, thick, WIDE, SIDE)
         offsets = np.full(cuts.shape[1], np.inf)
         for line in range(len(offsets)):
             direction, share = cuts[index, line, :2], cuts[index, line, 2]
@@ -63,7 +66,7 @@ def exemplar_descriptors(
                 cut_image(image, WIDE, direction, offsets[line])
         shift = image_centre(image, WIDE)
         centre = middle + shift
-        image = spheres_image(seen - centre, radii, HALF, SIDE)
+        image = spheres_image(seen - centre, thick, HALF, SIDE)
         for line in range(len(offsets)):
             direction = cuts[index, line, :2]
             if np.isfinite(offsets[line]):

@@ -164,10 +164,7 @@ class Finder:
     @cached_property
     def _all_spheres(self) -> dict[float, Spheres]:
         """The spheres of each body, by its size [m]."""
-        return {
-            body.size: Spheres.of(body.capsules.axis_points(SPACING * body.size))
-            for body in self.bodies
-        }
+        return {body.size: Spheres.of(body, SPACING * body.size) for body in self.bodies}
 
 
 def _rendered(

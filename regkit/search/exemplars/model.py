@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from regkit.body import Body
-from regkit.geometry.capsules import AxisPoints
 from regkit.system.arrays import Array, Indices
 
 
@@ -71,16 +73,19 @@ class Spheres(NamedTuple):
         segments: Segment of each sphere, (P,).
         points: Centres in the segments' frames, (P, 3) [m].
         radii: Their radii, (P,) [m].
+        optional: Whether the data may lack each sphere, (P,).
     """
 
     segments: Indices
     points: Array
     radii: Array
+    optional: NDArray[np.bool_]
 
     @classmethod
-    def of(cls, axes: AxisPoints) -> Spheres:
-        """Returns spheres on the axes."""
-        return cls(axes.segments, axes.points, axes.radii)
+    def of(cls, body: Body, spacing: float) -> Spheres:
+        """Returns spheres at most ``spacing`` [m] apart on the axes of a body's capsules."""
+        axes = body.capsules.axis_points(spacing)
+        return cls(axes.segments, axes.points, axes.radii, body.is_optional(axes.segments))
 
 
 class Grid(NamedTuple):

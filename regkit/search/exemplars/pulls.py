@@ -159,12 +159,15 @@ def pull_from_free_space(
         scale: Distance at which a sphere has half its weight [m].
         weight: Weight of all spheres together.
     """
-    segments, points, radii = spheres
+    segments, points, radii, optional = spheres
     image, nearest, intrinsics = grid
     fx, fy, cx, cy = intrinsics
     rows, columns = image.shape
     direction, arm = np.empty(3), np.empty(3)
+    required = len(radii) - optional.sum()
     for sphere in range(len(radii)):
+        if optional[sphere]:
+            continue
         segment = segments[sphere]
         x, y, z = placed_point(transforms[segment], points[sphere])
         depth = max(z, 0.05)
@@ -189,5 +192,5 @@ def pull_from_free_space(
         arm[0] = x - transforms[segment, 0, 3]
         arm[1] = y - transforms[segment, 1, 3]
         arm[2] = z - transforms[segment, 2, 3]
-        share = weight / len(radii) / (1.0 + gap / scale)
+        share = weight / required / (1.0 + gap / scale)
         add_pull(blocks, gradients, segment, arm, direction, gap, share)

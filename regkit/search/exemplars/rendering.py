@@ -28,7 +28,8 @@ def disagreements(
     """Returns the disagreement (N,) of posed bodies with a block image, from 0 to 1.
 
     It is the mean over all blocks that show the data or the body: the depth difference in units of
-    the tolerance, at most 1, or 1 where only one of them is.
+    the tolerance, at most 1, or 1 where only one of them is. Where optional spheres show, the data
+    may be what is behind them.
 
     Args:
         links: T_camera_link of each body, (N, L, 4, 4).
@@ -37,14 +38,15 @@ def disagreements(
         grid: The data.
         tolerance: Depth difference that counts as none agreeing [m].
     """
-    segments, points, radii = spheres
+    segments, points, radii, optional = spheres
     blocks, _, intrinsics = grid
     fx, fy, cx, cy = intrinsics
     rows, columns = blocks.shape
     means = np.empty(len(links))
-    image = np.empty((rows, columns))
+    image, extra = np.empty((rows, columns)), np.empty((rows, columns))
     for body in range(len(links)):
         image[:] = np.inf
+        extra[:] = np.inf
         behind = False
         for sphere in range(len(radii)):
             T = links[body, segment_links[segments[sphere]]]
@@ -63,7 +65,10 @@ def disagreements(
                     square = ((row - v) ** 2 + (column - u) ** 2) / (width * width)
                     if square <= 1.0:
                         depth = z - radii[sphere] * sqrt(1.0 - square)
-                        image[row, column] = min(image[row, column], depth)
+                        if optional[sphere]:
+                            extra[row, column] = min(extra[row, column], depth)
+                        else:
+                            image[row, column] = min(image[row, column], depth)
         if behind:
             means[body] = 1.0
             continue
@@ -71,6 +76,8 @@ def disagreements(
         for row in range(rows):
             for column in range(columns):
                 seen, shown = blocks[row, column], image[row, column]
+                if np.isfinite(seen) and abs(seen - extra[row, column]) < abs(seen - shown):
+                    shown = extra[row, column]
                 if seen < 0.0:
                     if np.isfinite(shown):
                         total += OUTSIDE

@@ -19,7 +19,7 @@ from regkit.system.files import write_arrays
 from regkit.system.notes import note
 from regkit.system.progress import working
 
-FORMAT = "2"
+FORMAT = "5"
 """Changes with the code that makes atlases."""
 
 KEPT, REMEMBERED = 32, 4
@@ -108,5 +108,6 @@ def _parts(body: Body) -> Iterator[NDArray[np.generic]]:
     couplings = limits.couplings
     yield from (couplings.followers, couplings.leaders, couplings.ratios, couplings.offsets)
     yield from (body.capsules.segments, body.capsules.ends / size, body.capsules.radii / size)
+    yield np.array(body.optional, dtype=np.intp)
     for stance in body.stances:
         yield from (stance.pose.balls, stance.pose.hinges)

@@ -9,6 +9,7 @@ from collections.abc import Callable
 import numpy as np
 
 from regkit.alignment.starts import read_transform
+from regkit.api import load_frame
 from regkit.clouds import read_cloud
 from regkit.testing.samples import lump_points
 from tests.fuzz import oracles
@@ -68,12 +69,21 @@ def pcd(data: str, form: str = "<f4", *, organised: bool = False) -> bytes:
     return pcd_head(data, size, (COUNT // 4, 4) if organised else (COUNT, 1)) + content
 
 
+def pcd_of_camera() -> bytes:
+    """The image of a pinhole camera, in rows and columns."""
+    rows, columns = np.mgrid[:12, :16]
+    depth = 1.0 + 0.1 * ((3 * rows + 5 * columns) % 7)
+    points = np.stack([(columns - 7.5) * depth / 20, (rows - 5.5) * depth / 20, depth], axis=2)
+    points[3, 4] = np.nan
+    return pcd_head("binary", 4, (16, 12)) + points.astype("<f4").tobytes()
+
+
 def pcd_head(data: str, size: int, shape: tuple[int, int]) -> bytes:
     width, height = shape
     text = (
         f"# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE {size} {size} {size}\nTYPE F F F\n"
         f"COUNT 1 1 1\nWIDTH {width}\nHEIGHT {height}\nVIEWPOINT 0 0 0 1 0 0 0\n"
-        f"POINTS {COUNT}\nDATA {data}\n"
+        f"POINTS {width * height}\nDATA {data}\n"
     )
     return text.encode()
 
@@ -169,6 +179,13 @@ def _clouds() -> tuple[Kind, ...]:
         ("npz", "cloud.npz", "npz", archive),
     ):
         kinds.append(_kind(name, file, form, seed, oracles.cloud))
+    organised = Kind(
+        "clouds/organised",
+        lambda: [{"cloud.pcd": pcd_of_camera()}],
+        {"cloud.pcd": "binary"},
+        lambda path: load_frame(path).points,
+        oracles.cloud,
+    )
     matrix = Kind(
         "clouds/matrix",
         matrices,
@@ -177,7 +194,7 @@ def _clouds() -> tuple[Kind, ...]:
         oracles.transform,
         weight=2.0,
     )
-    return (*kinds, matrix)
+    return (*kinds, organised, matrix)
 
 
 CLOUDS = _clouds()

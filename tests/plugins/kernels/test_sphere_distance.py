@@ -266,7 +266,9 @@ def test_sphere_behind_a_capsule_is_hidden(linkage):
         ends=np.array([[[-0.2, 0.0, 2.0], [0.2, 0.0, 2.0]], [[0.1, 0.0, 2.5]] * 2]),
         radii=np.array([[0.06, 0.05], [0.02, 0.02]]),
     )
-    np.testing.assert_allclose(visible_shares(placed_of(linkage, two)), [1.0, 0.0], atol=1e-12)
+    np.testing.assert_allclose(
+        visible_shares(placed_of(linkage, two), np.ones(2, dtype=bool)), [1.0, 0.0], atol=1e-12
+    )
 
 
 def test_template_without_capsules_is_refused(linkage):

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenes import recording, write_recording
+from scenes import frame_of, recording, write_recording
 
 from regkit.observation import Frame
 from regkit.system.errors import DataError
@@ -49,6 +49,15 @@ def test_what_stands_before_the_body_is_unknown_and_the_wall_is_free():
     left = Background().bind(scene, TEMPLATE).segmented(list(scene.frames())[-1], None)
     assert np.isnan(left.depth[CHAIR]).all()
     assert left.depth[120, 20] == 0.0
+
+
+def test_pixel_without_a_measurement_is_unknown_where_there_is_a_background():
+    depths = [room(person=False)] * 6
+    shadowed = room(person=True)
+    shadowed[40:100, 90:96] = 0.0
+    left = Background().bind(recording(*depths), TEMPLATE).segmented(frame_of(shadowed), None)
+    assert np.isnan(left.depth[40:100, 90:96]).all()
+    assert (left.depth[WINDOW] == 0.0).all()
 
 
 def test_pixel_out_of_range_has_no_background_unless_it_is_a_dropout():

@@ -60,6 +60,20 @@ def test_start_finds_the_size_too(search, lamp, size):
     assert np.linalg.norm(markers(found) - expected, axis=1).max() < 0.08
 
 
+def test_start_of_a_body_that_the_border_cuts_off_is_found(lamp):
+    """The foot is below the picture; arm and head are where they are seen."""
+    template = FileTemplate(path=lamp, size=1.0)
+    body = template.body(1.0)
+    pose = facing(body, 0.2, {"arm": 10.0, "head": -60.0})
+    pose.root[1, 3] = 1.05
+    observation = seen(body, pose, image=True)
+    expected = body.markers.place(body.place(pose).transforms)
+    inside = observation.silhouette.observable(expected)
+    assert inside.tolist() == [name in ("elbow", "bulb") for name in body.markers.names]
+    found = Exemplars(exemplars=1000).find(template, [observation])
+    assert np.linalg.norm(markers(found) - expected, axis=1)[inside].max() < 0.05
+
+
 def test_start_is_the_same_again(search, lamp):
     template = FileTemplate(path=lamp, size=1.0)
     observation = seen(template.body(1.0), facing(template.body(1.0), 0.2, {"head": -50.0}))

@@ -71,6 +71,18 @@ def test_hidden_primitive_takes_hardly_part(linkage):
     np.testing.assert_array_equal(term.bind(scene_of(linkage, behind)).factors, [1.0, 1.0])
 
 
+def test_what_may_be_missing_hides_nothing_and_may_be_in_free_space(linkage):
+    depth = np.zeros((CAMERA.height, CAMERA.width))
+    depth[:, 80:96] = 2.0
+    beside = before_camera([BALL, BALL], [[0.5, 0.0, 2.0], [0.0, 0.0, 2.1]])
+    behind = before_camera([BALL, BALL], [[0.0, 0.0, 2.0], [0.0, 0.0, 3.0]])
+    missing = replace(linkage, optional=(0,))
+    factors = Visibility().bind(scene_of(missing, behind, depth)).factors
+    np.testing.assert_array_equal(factors, [1.0, 1.0])
+    assert FreeSpace().bind(scene_of(missing, beside, depth))(beside).energy == 0.0
+    assert FreeSpace().bind(scene_of(linkage, beside, depth))(beside).energy > 0.0
+
+
 def test_half_hidden_primitive_takes_part_by_half(linkage):
     placed = before_camera([BALL, [0.3, 0.1, 0.1]], [[0.25, 0.0, 2.0], [0.0, 0.0, 2.6]])
     depth = np.zeros((CAMERA.height, CAMERA.width))

@@ -26,6 +26,7 @@ from regkit.system.arrays import Array
 from regkit.system.errors import DataError
 from regkit_plugins.segmenters.background.learned import StaticDepth
 from regkit_plugins.segmenters.sampling import sampled
+from regkit_plugins.segmenters.unmeasured import with_unmeasured
 
 FEWEST = 5
 """Fewer frames than this do not show what is static."""
@@ -86,8 +87,13 @@ class BoundBackground(BoundSegmenter):
     margin: float
 
     def segmented(self, frame: Frame, expected: Expected | None) -> Frame:
-        """Returns the frame with the points in front of the background."""
-        return frame.only(in_front(frame, self.static, self.margin))
+        """Returns the frame with the points in front of the background.
+
+        Where there is a background, a pixel without a measurement is unknown.
+        """
+        left = frame.only(in_front(frame, self.static, self.margin))
+        assert frame.depth is not None
+        return with_unmeasured(left, frame.depth, np.isfinite(self.static.depth))
 
 
 def in_front(frame: Frame, static: StaticDepth, margin: float) -> NDArray[np.bool_]:

@@ -50,6 +50,10 @@ class Comparison:
         prior = unlikely(body, found.pose, observation.camera is not None)
         return replace(found, unlikely=prior)
 
+    def registered(self, body: Body, pose: Pose, observation: Observation) -> Pose:
+        """Returns the pose after registration alone; the arguments are those of ``finalist``."""
+        return self._limbs(body).registrar.register(observation, [pose]).pose
+
     def _limbs(self, body: Body) -> LimbRecovery:
         if body.size not in self.bound:
             registrar = self.method.bind(body)

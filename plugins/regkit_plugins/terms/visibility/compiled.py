@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from regkit.system.arrays import Array
 from regkit.system.compiled import compiled
 
 
 @compiled
-def free_rays(targets: Array, centres: Array, axes: Array, radii: Array) -> Array:
+def free_rays(
+    targets: Array, centres: Array, axes: Array, radii: Array, hiding: NDArray[np.bool_]
+) -> Array:
     """Returns the fraction (K,) of each primitive's targets that a camera at the origin sees.
 
     A ray is occluded by any ellipsoid that it intersects and whose centre is nearer to the camera
@@ -20,6 +23,7 @@ def free_rays(targets: Array, centres: Array, axes: Array, radii: Array) -> Arra
         centres: Centres of the ellipsoids, (K, 3) [m].
         axes: Axes of the ellipsoids, (K, 3, 3).
         radii: Half axes of the ellipsoids, (K, 3) [m].
+        hiding: Whether each ellipsoid occludes others, (K,).
     """
     count, samples = targets.shape[:2]
     shares = np.ones(count)
@@ -28,7 +32,7 @@ def free_rays(targets: Array, centres: Array, axes: Array, radii: Array) -> Arra
         own = (centres[k] ** 2).sum()
         for sample in range(samples):
             for other in range(count):
-                if other == k or (centres[other] ** 2).sum() >= own:
+                if other == k or not hiding[other] or (centres[other] ** 2).sum() >= own:
                     continue
                 # Scaled by its radii, an ellipsoid is the unit ball, and rays remain rays.
                 along, square = 0.0, 0.0

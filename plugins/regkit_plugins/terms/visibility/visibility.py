@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Annotated, ClassVar, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field
 
 from regkit.interfaces import Scene, Term, VisibilityWeights
@@ -33,23 +34,28 @@ class Visibility(Term):
         """Returns the weights; all are one if the camera is unknown."""
         if scene.observation.camera is None:
             return VisibilityWeights(np.ones(len(scene.placed)))
-        shares = visible_shares(scene.placed, scene.observation.silhouette)
+        # What may be missing hides nothing.
+        hiding = ~scene.body.is_optional(scene.placed.primitives.segments)
+        shares = visible_shares(scene.placed, hiding, scene.observation.silhouette)
         return VisibilityWeights(np.maximum(shares, self.least))
 
 
-def visible_shares(placed: Placed[Primitives], silhouette: Silhouette | None = None) -> Array:
+def visible_shares(
+    placed: Placed[Primitives], hiding: NDArray[np.bool_], silhouette: Silhouette | None = None
+) -> Array:
     """Returns the fraction of each primitive that a camera at the origin sees, (K,), from 0 to 1.
 
     Primitives are treated as 2-sigma ellipsoids, and sampled at the centre and at four points
     half-way along their two longest axes.
 
     Args:
-        placed: The primitives.
+        placed: The primitives in the camera's frame.
+        hiding: Whether each primitive hides others, (K,).
         silhouette: What the picture shows; by default it has no end.
     """
     radii = 2.0 * placed.primitives.scales
     outline = _outline(placed, radii)
-    shares = free_rays(outline, placed.centres, placed.axes, radii)
+    shares = free_rays(outline, placed.centres, placed.axes, radii, hiding)
     if silhouette is None:
         return shares
     shown = silhouette.observable(outline.reshape(-1, 3)).reshape(outline.shape[:2])

@@ -7,6 +7,6 @@ Source: Greg Turk, The PLY polygon file format, 1994.
 - ``reading``: vertices and faces.
 """
 
-from regkit.clouds.formats.ply.reading import read_ply
+from regkit.clouds.formats.ply.reading import read_organised_ply, read_ply
 
-__all__ = ["read_ply"]
+__all__ = ["read_organised_ply", "read_ply"]

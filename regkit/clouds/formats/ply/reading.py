@@ -10,6 +10,7 @@ import numpy as np
 from regkit.clouds.formats.ply.header import read_header
 from regkit.clouds.formats.ply.values import BinaryValues, Column, TextValues
 from regkit.clouds.formats.polygons import Polygons
+from regkit.clouds.organised import OrganisedCloud
 from regkit.system.arrays import Array, Indices
 from regkit.system.errors import DataError
 from regkit.system.notes import note
@@ -24,6 +25,34 @@ def read_ply(path: Path) -> tuple[Array, Indices]:
     Raises:
         DataError: If the file is not what its header announces, or a face is invalid.
     """
+    place = str(path)
+    elements = _elements(path)
+    vertices = _vertices(elements.get("vertex", {}), place)
+    if elements.get("tristrips"):
+        note("triangle strips are passed over; faces are read", place=path)
+    return vertices, _polygons(elements.get("face", {}), place).triangles(vertices)
+
+
+def read_organised_ply(path: Path) -> OrganisedCloud | None:
+    """Returns a cloud whose file has PCL's element ``camera`` with the size of its image, or None.
+
+    Raises:
+        DataError: If the file is not what its header announces.
+    """
+    if not any(one.name == "camera" for one in read_header(path.read_bytes(), str(path)).elements):
+        return None
+    elements = _elements(path)
+    size = [elements["camera"].get(name) for name in ("viewportx", "viewporty")]
+    if any(not isinstance(one, np.ndarray) or one.shape != (1,) for one in size):
+        return None
+    width, height = (int(one[0]) for one in size if one is not None)
+    vertices = _vertices(elements.get("vertex", {}), str(path))
+    if min(width, height) < 2 or width * height != len(vertices):
+        return None
+    return OrganisedCloud(vertices.reshape(height, width, 3))
+
+
+def _elements(path: Path) -> dict[str, dict[str, Column]]:
     content, place = path.read_bytes(), str(path)
     header = read_header(content, place)
     values = (
@@ -36,10 +65,7 @@ def read_ply(path: Path) -> tuple[Array, Indices]:
     values.check_end()
     if len(elements) < len(header.elements):
         raise DataError("the header names an element twice", place=place)
-    vertices = _vertices(elements.get("vertex", {}), place)
-    if elements.get("tristrips"):
-        note("triangle strips are passed over; faces are read", place=path)
-    return vertices, _polygons(elements.get("face", {}), place).triangles(vertices)
+    return elements
 
 
 def _vertices(columns: dict[str, Column], place: str) -> Array:
