@@ -11,6 +11,7 @@ from regkit.geometry.rigid import rigid
 from regkit.observation import Observation
 from regkit.skeleton import Pose
 from regkit.start import judged
+from regkit_plugins.templates.human import Human
 
 
 @pytest.fixture(scope="module")
@@ -60,9 +61,15 @@ def test_doubts_of_the_search_are_told(lamp, pose, observation):
     assert (start.verdict, start.reason) == (Verdict.DOUBTFUL, "too small")
 
 
-def test_furniture_is_no_body(lamp, pose, random):
-    flat = random.uniform(-0.3, 0.3, size=(400, 2))
-    board = np.column_stack([flat, np.full(400, 2.4)]) + pose.root[:3, 3] * [1.0, 1.0, 0.0]
-    start = judged(lamp, pose, Observation(board, np.ones(400), np.full(400, 1e-4)))
+def test_cupboard_where_a_person_would_stand_is_furniture(random):
+    person = Human(height=1.7).body(1.7)
+    pose = person.skeleton.rest(rigid(np.diag([1.0, -1.0, -1.0]), np.array([0.0, 0.0, 3.0])))
+    placed = person.capsules.place(person.place(pose).transforms).ends.reshape(-1, 3)
+    low, high = np.percentile(placed, [10, 90], axis=0)
+    across, along, deep = random.uniform(low, high, size=(600, 3)).T
+    front = np.column_stack([across, along, np.full(600, low[2] - 0.1)])
+    side = np.column_stack([np.full(600, high[0]), along, deep])
+    points = np.concatenate([front, side])
+    start = judged(person, pose, Observation(points, np.ones(1200), np.full(1200, 1e-4)))
     assert start.verdict is Verdict.LOST
     assert "two planes" in start.reason
