@@ -28,8 +28,11 @@ body looks alike."""
 
 UNLIKE = 2.0
 """Cost of a full disagreement of the rendered body with a picture that cuts it off: with few data a
-wrong pose explains the points as well, but not the picture. Chosen on 60 bodies of which 65 %, and
-60 of which 50 % are in view (development set of ``benchmarks/starts.py``)."""
+wrong pose explains the points as well, but not the picture.
+
+Chosen on 120 bodies of which 65 % and 60 of which 50 % are in view (development set of
+``benchmarks/starts.py``), where it changes at most two of 60 for the better.
+"""
 
 PER_SIZE = 2
 """Least number of finalists of each candidate size."""
