@@ -129,7 +129,9 @@ def _track_all(
         Exit: With ``NOT_FOUND``, if a body was lost, or is doubtful and ``strict`` is set.
     """
     if not choices.start.searches:
-        raise ConfigError("a given start is that of one body; leave out --people all", place="start")
+        raise ConfigError(
+            "a given start is that of one body; leave out --people all", place="start"
+        )
     found = track_each(
         recording,
         choices.template,
