@@ -96,7 +96,7 @@ def _table(tracking: Tracking, figures: dict[str, Any]) -> Table:
         ("markers", str(len(tracking.joint_names))),
         ("surface distance", "-" if distance is None else f"{distance:.1f} mm (median)"),
         ("inliers", _percent(figures["inlier_share"], "the points")),
-        ("covered", _percent(figures["coverage"], "the body has data")),
+        ("covered", _percent(figures["coverage"], "the visible body has data")),
         ("converged", f"{figures['converged_frames']} of {len(tracking)}"),
         ("verdict", verdict),
         # The first frame includes the loading of data, so its speed says little.

@@ -128,8 +128,10 @@ def _track_all(
     Raises:
         Exit: With ``NOT_FOUND``, if a body was lost, or is doubtful and ``strict`` is set.
     """
-    if choices.start is not None:
-        raise ConfigError("a start is that of one body; leave out --people all", place="start")
+    if not choices.start.searches:
+        raise ConfigError(
+            "a given start is that of one body; leave out --people all", place="start"
+        )
     found = track_each(
         recording,
         choices.template,

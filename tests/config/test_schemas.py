@@ -76,7 +76,8 @@ def shortened(template: dict[str, Any]) -> dict[str, Any]:
     """A template of the first segments alone, which is as good and quicker to check."""
     segments = dict(list(template["segments"].items())[:5])
     for segment in segments.values():
-        segment["capsules"] = segment["capsules"][:2]
+        if "capsules" in segment:
+            segment["capsules"] = segment["capsules"][:2]
     shapes = {
         kind: {name: rows[:2] for name, rows in by_segment.items() if name in segments}
         for kind, by_segment in template["shapes"].items()

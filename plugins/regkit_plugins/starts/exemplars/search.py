@@ -28,8 +28,11 @@ body looks alike."""
 
 UNLIKE = 2.0
 """Cost of a full disagreement of the rendered body with a picture that cuts it off: with few data a
-wrong pose explains the points as well, but not the picture. Chosen on 60 bodies of which 65 %, and
-60 of which 50 % are in view (development set of ``benchmarks/starts.py``)."""
+wrong pose explains the points as well, but not the picture.
+
+Chosen on 120 bodies of which 65 % and 60 of which 50 % are in view (development set of
+``benchmarks/starts.py``), where it changes at most two of 60 for the better.
+"""
 
 PER_SIZE = 2
 """Least number of finalists of each candidate size."""
@@ -79,11 +82,14 @@ class Search:
 
     def doubts(self, body: Body, observation: Observation) -> list[str]:
         """Returns what speaks against a body of this size in a frame, whatever its pose."""
-        pictures = Pictures.of(observation, body.size)
+        pictures, doubts = Pictures.of(observation, body.size), []
+        if len(self._sizes) > 1 and not self._sizes[0] < body.size < self._sizes[-1]:
+            doubts.append(f"the size, {body.size:.3g} m, is at an end of the template's range")
         share = pictures.area / (self.atlas.least_area() * body.size**2)
-        if pictures.cut or share >= 1.0:
-            return []
-        return [f"the data show {100.0 * share:.0f} % of the least area that such a body shows"]
+        if not pictures.cut and share < 1.0:
+            told = f"the data show {100.0 * share:.0f} % of the least area that such a body shows"
+            doubts.append(told)
+        return doubts
 
     @property
     def _sizes(self) -> tuple[float, ...]:
