@@ -169,11 +169,9 @@ class Search:
             observation: The frame.
             finalists: Finalists of all sizes, the best first.
         """
-        scan, best_size = Scan.of(observation), finalists[0].body.size
+        scan = Scan.of(observation)
         bests = {one.body.size: one for one in reversed(finalists)}
-        ratio = self._sizes[1] / self._sizes[0]
-        near = [one for size, one in bests.items() if 0.9 / ratio < size / best_size < 1.1 * ratio]
-        fits = [fit(scan, one.body, one.pose, self._usual) for one in near]
+        fits = [fit(scan, one.body, one.pose, self._usual) for one in bests.values()]
         best = resized(scan, self.template, min(fits, key=_misfit), self._sizes)
         return self.comparison.finalist(best.body, best.pose, observation)
 
