@@ -33,8 +33,8 @@ seldom is as like one."""
 LIKELY = 4
 """Number of pieces, those most like the body, that are compared with all that belongs to them."""
 
-FARTHER = 1.0
-"""Cost of a piece that is e times as far away as the nearest one: of two bodies, the nearer."""
+ALIKE = 1.0
+"""Pieces whose costs differ by less, one deviation, fit alike: of them the nearest is chosen."""
 
 
 class Pieces(Segmenter):
@@ -158,10 +158,9 @@ class BoundPieces(BoundSegmenter):
         likely = sorted(found, key=self.figure.cost)[:LIKELY]
         wholes = [grown(one, pieces, self.figure) for one in likely]
         fits = [(piece, cost) for piece, cost in wholes if cost < LEAST_FIT]
-        # Adding a constant to the logarithm would change no order.
-        return min(fits, key=lambda fit: fit[1] + FARTHER * np.log(fit[0].depth), default=(None,))[
-            0
-        ]
+        least = min((cost for _, cost in fits), default=0.0)
+        alike = [piece for piece, cost in fits if cost <= least + ALIKE]
+        return min(alike, key=lambda piece: piece.depth, default=None)
 
     def _last(self, pieces: list[Piece], expected: Expected | None) -> Piece | None:
         """Returns the pieces where the last body was; None if that is unknown, or too little."""
