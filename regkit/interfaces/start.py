@@ -35,6 +35,14 @@ class Start(Brief):
     reason: str = ""
     margin: float = float("nan")
 
+    @property
+    def summary(self) -> str:
+        """The verdict in words, which the reason completes."""
+        if self.verdict is Verdict.FOUND:
+            return "the start is found"
+        missed = self.verdict is Verdict.LOST
+        return "the start is not found" if missed else "the start is doubtful"
+
 
 class StartSearch(Plugin, ABC):
     """A way to the pose and size in the first frame, the same for all methods."""

@@ -100,9 +100,7 @@ class Session:
         start = self.start.find(self.template, [first, *self._later(index)])
         tell_bound(start.body.size, self.template, place=self.recording.name)
         if start.verdict is not Verdict.FOUND:
-            missed = start.verdict is Verdict.LOST
-            told = "the body was not found" if missed else "the start is doubtful"
-            note(f"{told}: {start.reason}", place=self.recording.name)
+            note(f"{start.summary}: {start.reason}", place=self.recording.name)
         return start
 
     def tracked(self, registrar: Registrar, tracker: Tracker, pose: Pose) -> Iterator[TrackedFrame]:

@@ -52,15 +52,15 @@ class TrackVerdict:
         Args:
             track: The track.
             numbers: Frame numbers for the reason, (T,); from 0 by default.
-            start: The start; a track from a doubtful start is doubtful, however well its frames
-                fit, because a body that is turned round fits nearly as well.
+            start: The start. A track is doubtful or lost if its start is, however well its frames
+                fit: a body that is turned round, or furniture, fits nearly as well.
         """
         judged = cls._of_frames(track, numbers or range(len(track)))
         if start is None or start.verdict is Verdict.FOUND:
             return judged
-        told = f"the start is doubtful: {start.reason}"
-        verdict = Verdict.DOUBTFUL if judged.verdict is Verdict.FOUND else judged.verdict
-        return cls(verdict, f"{judged.reason}; {told}" if judged.reason else told)
+        lost = Verdict.LOST in (start.verdict, judged.verdict)
+        reasons = [*filter(None, [judged.reason]), f"{start.summary}: {start.reason}"]
+        return cls(Verdict.LOST if lost else Verdict.DOUBTFUL, "; ".join(reasons))
 
     @classmethod
     def _of_frames(cls, track: Track, numbers: Sequence[int]) -> TrackVerdict:

@@ -7,6 +7,7 @@ import pytest
 
 from regkit.body import BodyFit
 from regkit.geometry.rigid import rigid
+from regkit.interfaces import Start
 from regkit.system.errors import DataError
 from regkit.system.notes import RegkitWarning
 from regkit.tracking import Track, TrackVerdict, Verdict
@@ -151,3 +152,15 @@ def test_extent_does_not_depend_on_direction_or_stray_points(random):
     stray = np.concatenate([rod, 50.0 * random.normal(size=(5, 3))])
     assert extent_of(rod) == pytest.approx(2.0, rel=0.05)
     assert extent_of(stray) == pytest.approx(2.0, rel=0.1)
+
+
+@pytest.mark.parametrize(
+    ("start", "frames", "verdict"),
+    [(F, (F, F), F), (D, (F, F), D), (L, (F, F), L), (D, (F, L), L), (L, (F, D), L)],
+)
+def test_track_is_no_surer_than_its_start(start, frames, verdict):
+    body = Human(height=1.7).body(1.7)
+    begun = Start(body, body.skeleton.rest(), start, "a cupboard")
+    judged = TrackVerdict.of(track_with(*frames), start=begun)
+    assert judged.verdict is verdict
+    assert ("a cupboard" in judged.reason) == (start is not F)
