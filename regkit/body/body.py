@@ -32,11 +32,10 @@ class Markers(Brief):
     points: Array
 
     def place(self, transforms: Array) -> Array:
-        """Returns positions in the world, (M, 3) [m], for T_world_segment (S, 4, 4)."""
-        carriers = transforms[self.segments]
-        return np.asarray(
-            (carriers[:, :3, :3] @ self.points[:, :, None])[:, :, 0] + carriers[:, :3, 3]
-        )
+        """Returns positions in the world, (..., M, 3) [m], for T_world_segment (..., S, 4, 4)."""
+        carriers = transforms[..., self.segments, :, :]
+        rotated = (carriers[..., :3, :3] @ self.points[:, :, None])[..., 0]
+        return np.asarray(rotated + carriers[..., :3, 3])
 
 
 @dataclass(frozen=True)

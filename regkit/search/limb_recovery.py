@@ -11,6 +11,10 @@ from regkit.interfaces import Evaluation, Registrar, RegistrationResult
 from regkit.observation import Observation
 from regkit.search.limb_search import LimbSearch
 
+SAMPLES, STARTS, GAIN = 500, 2, 0.01
+"""Usual numbers of configurations per limb that are sampled and registered, and what one must
+gain."""
+
 
 @dataclass(frozen=True)
 class LimbRecovery:
@@ -29,7 +33,13 @@ class LimbRecovery:
     gain: float
 
     @classmethod
-    def of(cls, registrar: Registrar, samples: int, starts: int, gain: float) -> LimbRecovery:
+    def of(
+        cls,
+        registrar: Registrar,
+        samples: int = SAMPLES,
+        starts: int = STARTS,
+        gain: float = GAIN,
+    ) -> LimbRecovery:
         """Samples the configurations, which are the same for all frames.
 
         Args:

@@ -23,17 +23,17 @@ class Finalist:
         energy: Energy of its pose, bound to the frame at this pose, in the method's own units.
         misfit: Its two-sided misfit, of the visible body alone, and what an unusual size adds,
             dimensionless.
-        unlikely: Cost of the pose without regard to the data, dimensionless.
-        unlike: Cost of how the rendered body differs from the picture, dimensionless; zero if it
-            was not rendered.
+        prior: Cost of the pose without regard to the data, dimensionless.
+        disagreement: Cost of the rendered body's disagreement with the picture, dimensionless; zero
+            if it was not rendered.
     """
 
     body: Body
     result: RegistrationResult
     energy: float
     misfit: float
-    unlikely: float = 0.0
-    unlike: float = 0.0
+    prior: float = 0.0
+    disagreement: float = 0.0
 
     @classmethod
     def of(
@@ -73,5 +73,5 @@ class Finalist:
 
     @property
     def cost(self) -> float:
-        """Energy, misfit, prior and picture; lower is better."""
-        return self.energy + self.misfit + self.unlikely + self.unlike
+        """Energy, misfit, prior and disagreement; lower is better."""
+        return self.energy + self.misfit + self.prior + self.disagreement

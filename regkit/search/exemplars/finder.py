@@ -112,23 +112,20 @@ class Finder:
 
     def _distinct(self, found: Matches, scores: Array) -> list[int]:
         """Returns the best matches that differ from each other, equally many of each size."""
-        most = -(-self.kept // len(self.bodies))
+        each = -(-self.kept // len(self.bodies))
         chosen: list[int] = []
         for index, body in enumerate(self.bodies):
             some = np.flatnonzero(found.sizes == index)
-            if not len(some):
-                continue
             some = some[np.argsort(scores[some])]
             transforms = self._placed(found, some, body)[:, body.skeleton.segment_links]
-            places = np.stack([body.markers.place(one) for one in transforms])
-            left = np.ones(len(some), dtype=bool)
-            for row in range(len(some)):
-                if left[row] and most > 0:
-                    gaps = np.linalg.norm(places - places[row], axis=2).mean(axis=1)
-                    left &= gaps >= SAME * body.size
-                    chosen.append(int(some[row]))
-                    most -= 1
-            most = -(-self.kept // len(self.bodies))
+            places = body.markers.place(transforms)
+            for _ in range(each):
+                if not len(some):
+                    break
+                chosen.append(int(some[0]))
+                other = np.linalg.norm(places - places[0], axis=2).mean(axis=1) >= SAME * body.size
+                other[0] = False
+                some, places = some[other], places[other]
         return chosen
 
     def refined(self, body: Body, pose: Pose, pictures: Pictures) -> Exemplar:

@@ -64,7 +64,7 @@ class Pictures:
 
     @classmethod
     def of(cls, observation: Observation, size: float) -> Pictures:
-        """Returns the pictures of a frame: one of a depth image, three of a cloud.
+        """Returns the pictures of a frame: one of a camera, three of a cloud without one.
 
         Args:
             observation: The frame; without a camera, its points are the whole surface.
@@ -77,6 +77,8 @@ class Pictures:
             grid = grid_around(camera, depth, points)
             borders = cutting_borders(camera, depth, points)
             return cls(points, (Picture(np.eye(4), grid, towards, borders),), one_sided=True)
+        if camera is not None:
+            return cls(points, (_projected(points, size),), one_sided=True)
         views = [np.roll(np.eye(3), turn, axis=0) for turn in range(3)]
         spread = 0.75 * _spacing(points)
         pictures = [_virtual(points - middle, middle, view, size, spread) for view in views]
@@ -102,6 +104,26 @@ def _area(grid: Grid) -> float:
     """Returns the area of a picture's data [m^2]."""
     depths = grid.depth[np.isfinite(grid.depth) & (grid.depth > 0.0)]
     return float((depths**2).sum() / (grid.intrinsics[0] * grid.intrinsics[1]))
+
+
+def _projected(points: Array, size: float) -> Picture:
+    """Returns the picture of the points of a camera whose image is not known.
+
+    Where no point is, space is free; where the image ends is unknown.
+    """
+    middle = points.mean(axis=0)
+    ray = middle / middle[2]
+    # In the plane through the middle the image is to scale, so that blocks have the size of cells.
+    offsets = points / points[:, 2:] * middle[2] - ray * middle[2]
+    flat = np.column_stack([offsets[:, :2], points[:, 2]])
+    cell = WIDTH * size / CELLS
+    spread = max(0.75 * _spacing(points), 0.5 * cell)
+    image = points_image(flat, spread, 0.5 * WIDTH * size, CELLS, False)
+    focal, centre = middle[2] / cell, 0.5 * (CELLS - 1)
+    intrinsics = np.array([focal, focal, *(centre - focal * ray[:2])])
+    towards = rotation_between(middle / np.linalg.norm(middle), np.array([0.0, 0.0, 1.0]))
+    grid = Grid(image, nearest_shown(image), intrinsics)
+    return Picture(np.eye(4), grid, towards, np.zeros((0, 3)))
 
 
 def _virtual(around: Array, middle: Array, view: Array, size: float, spread: float) -> Picture:

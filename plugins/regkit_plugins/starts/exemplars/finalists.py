@@ -14,11 +14,7 @@ from regkit.search.limb_recovery import LimbRecovery
 from regkit.skeleton import Pose
 from regkit.start import Finalist
 from regkit.system.arrays import Array
-from regkit_plugins.starts.exemplars.prior import unlikely
-
-SAMPLES, TRIED, GAIN = 500, 2, 0.01
-"""Configurations of each limb that are sampled and registered, and what one must gain."""
-
+from regkit_plugins.starts.exemplars.prior import prior_cost
 
 OTHER = 0.12
 """Poses whose markers differ more than this on average are other ones [size]: 20 cm of a person."""
@@ -47,8 +43,8 @@ class Comparison:
             observation: The frame.
         """
         found = Finalist.of(self._limbs(body), pose, observation, self.usual)
-        prior = unlikely(body, found.pose, observation.camera is not None)
-        return replace(found, unlikely=prior)
+        prior = prior_cost(body, found.pose, one_sided=observation.camera is not None)
+        return replace(found, prior=prior)
 
     def registered(self, body: Body, pose: Pose, observation: Observation) -> Pose:
         """Returns the pose after registration alone; the arguments are those of ``finalist``."""
@@ -57,7 +53,7 @@ class Comparison:
     def _limbs(self, body: Body) -> LimbRecovery:
         if body.size not in self.bound:
             registrar = self.method.bind(body)
-            self.bound[body.size] = LimbRecovery.of(registrar, SAMPLES, TRIED, GAIN)
+            self.bound[body.size] = LimbRecovery.of(registrar)
         return self.bound[body.size]
 
 

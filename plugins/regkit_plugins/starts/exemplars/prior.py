@@ -15,7 +15,7 @@ UNUSUAL = 0.2
 """Cost of a mean squared difference of the joints to the nearest stance [1/rad^2]."""
 
 
-def unlikely(body: Body, pose: Pose, one_sided: bool) -> float:
+def prior_cost(body: Body, pose: Pose, *, one_sided: bool) -> float:
     """Returns the cost of a pose without regard to the data, dimensionless.
 
     ``AWAY`` and ``UNUSUAL`` were chosen on 70 frames of people before a depth camera (UTD-MHAD) and

@@ -26,7 +26,7 @@ MIRRORED = 2
 """Number of finalists whose mirror images are registered too: from the front and from behind a
 body looks alike."""
 
-UNLIKE = 2.0
+DISAGREEMENT = 2.0
 """Cost of a full disagreement of the rendered body with a picture that cuts it off: with few data a
 wrong pose explains the points as well, but not the picture.
 
@@ -134,7 +134,7 @@ class Search:
             if not pictures.cut:
                 return found
             differs = finder.disagreement(found.body, found.pose, pictures)
-            return replace(found, unlike=UNLIKE * differs)
+            return replace(found, disagreement=DISAGREEMENT * differs)
 
         finalists = sorted(map(finalist, chosen), key=_cost)
         mirroring = Mirroring.of(bodies[0].skeleton)

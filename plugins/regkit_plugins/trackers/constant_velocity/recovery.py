@@ -12,7 +12,7 @@ from regkit.config.model import Model
 from regkit.config.quantities import FrameCount
 from regkit.interfaces import Past, Registrar, RegistrationResult
 from regkit.observation import Observation
-from regkit.search.limb_recovery import LimbRecovery
+from regkit.search.limb_recovery import GAIN, SAMPLES, STARTS, LimbRecovery
 from regkit_plugins.trackers.constant_velocity.reinitialization import (
     BoundReinitialization,
     Reinitialization,
@@ -31,11 +31,11 @@ class Recovery(Model):
     outliers, the whole body is sought anew.
     """
 
-    samples: Annotated[int, Field(ge=2, le=100_000)] = 500
+    samples: Annotated[int, Field(ge=2, le=100_000)] = SAMPLES
     """Number of sampled configurations per limb."""
-    starts: Annotated[int, Field(ge=1, le=1000)] = 2
+    starts: Annotated[int, Field(ge=1, le=1000)] = STARTS
     """Number of configurations per limb that are registered."""
-    gain: Annotated[float, Field(ge=0.0, lt=1.0)] = 0.01
+    gain: Annotated[float, Field(ge=0.0, lt=1.0)] = GAIN
     """Minimum increase of the mean inlier probability for accepting a new configuration."""
     alarm: Annotated[float, Field(ge=1.0, le=1e6)] = 1.3
     """Search if the fraction of outliers exceeds the usual one by this factor, plus ``gain``."""
