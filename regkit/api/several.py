@@ -9,7 +9,16 @@ from regkit.api.frame import Intrinsics
 from regkit.api.recordings import Frames, recording_of
 from regkit.api.registering import tracked_through
 from regkit.api.tracking import Tracking
-from regkit.interfaces import Method, Preprocessor, Segmenter, Template, Tracker, each_body
+from regkit.interfaces import (
+    Method,
+    Preprocessor,
+    Segmenter,
+    StartSearch,
+    Template,
+    Tracker,
+    each_body,
+)
+from regkit.system.errors import ConfigError
 
 
 def track_each(
@@ -22,6 +31,7 @@ def track_each(
     segmentation: Choices[Segmenter] | None = None,
     preprocessor: Choice[Preprocessor] | None = None,
     tracker: Choice[Tracker] | None = None,
+    start: Choice[StartSearch] | None = None,
 ) -> tuple[Tracking, ...]:
     """Tracks every body that the segmentation tells apart in the first frame, each by itself.
 
@@ -37,6 +47,7 @@ def track_each(
         segmentation: As in ``track``; ``pieces`` and ``room`` tell bodies apart.
         preprocessor: As in ``track``.
         tracker: As in ``track``.
+        start: Search for pose and size of each body, as in ``track``; a given pose is that of one.
 
     Returns:
         A track for each body from the nearest to the farthest, named RECORDING-1, RECORDING-2, ...;
@@ -47,13 +58,17 @@ def track_each(
     """
     place = "regkit.track_each"
     recording, loaded = recording_of(frames, camera, fps), load_template(template)
+    start = StartSearch.default() if start is None else start
+    search = StartSearch.parse(start, place=place, field="start")
+    if not search.searches:
+        raise ConfigError("a given start is that of one body; use a search", place="start")
     recording.prepare()
     each = each_body(segmenters_of(segmentation, place=place), recording, loaded)
     # In a later frame the piece of the same number may be another's.
     sized_in = 3 if len(each) == 1 else 1
     tracks = [
         tracked_through(
-            recording, loaded, method, one, preprocessor, tracker, None, place, sized_in=sized_in
+            recording, loaded, method, one, preprocessor, tracker, search, place, sized_in=sized_in
         )
         for one in each
     ]

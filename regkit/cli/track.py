@@ -29,7 +29,6 @@ from regkit.cli.out_folder import check_out
 from regkit.cli.outcome import finish, show
 from regkit.cli.verdicts import conclude
 from regkit.interfaces import Dataset, Recording
-from regkit.system.errors import ConfigError
 from regkit.tracking import Verdict
 
 
@@ -128,10 +127,6 @@ def _track_all(
     Raises:
         Exit: With ``NOT_FOUND``, if a body was lost, or is doubtful and ``strict`` is set.
     """
-    if not choices.start.searches:
-        raise ConfigError(
-            "a given start is that of one body; leave out --people all", place="start"
-        )
     found = track_each(
         recording,
         choices.template,
@@ -139,6 +134,7 @@ def _track_all(
         segmentation=choices.segmentation,
         preprocessor=choices.preprocessor,
         tracker=choices.tracker,
+        start=choices.start,
     )
     for one in found:
         folder = out if len(found) == 1 else out / one.name

@@ -11,7 +11,8 @@
 
 from regkit.search.exemplars.atlas import Atlas, AtlasSettings
 from regkit.search.exemplars.finder import Exemplar, Finder
+from regkit.search.exemplars.lookup import even_rolls
 from regkit.search.exemplars.pictures import Pictures
 from regkit.search.exemplars.storage import atlas_of
 
-__all__ = ["Atlas", "AtlasSettings", "Exemplar", "Finder", "Pictures", "atlas_of"]
+__all__ = ["Atlas", "AtlasSettings", "Exemplar", "Finder", "Pictures", "atlas_of", "even_rolls"]

@@ -13,6 +13,17 @@ from regkit.search.exemplars.descriptors import cloud_descriptors
 from regkit.search.exemplars.pictures import Picture, Pictures
 from regkit.system.arrays import Array, Indices
 
+ROLLS = 24
+"""Number of rolls in a full turn."""
+
+
+def even_rolls(low: float = -np.pi, high: float = np.pi) -> Array:
+    """Returns evenly spaced rolls (R,) [rad] from ``low`` to ``high``; a full turn has no end."""
+    count = max(1, round(ROLLS * (high - low) / (2.0 * np.pi)))
+    if high - low > 2.0 * np.pi - 1e-6:
+        return np.linspace(low, high, count, endpoint=False)
+    return np.linspace(low, high, count + 1)
+
 
 @dataclass(frozen=True)
 class Matches:

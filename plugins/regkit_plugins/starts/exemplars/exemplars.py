@@ -13,19 +13,15 @@ from pydantic import AfterValidator, Field
 from regkit.config.plugin import slot_default
 from regkit.interfaces import Method, Start, StartSearch, Template
 from regkit.observation import Observation
-from regkit.search.exemplars import AtlasSettings, atlas_of
+from regkit.search.exemplars import AtlasSettings, atlas_of, even_rolls
 from regkit.skeleton.joints import in_order
 from regkit.start import judged, rigid_start
-from regkit.system.arrays import Array
 from regkit.system.optional import one_blas_thread
 from regkit_plugins.starts.exemplars.finalists import Comparison, margin
 from regkit_plugins.starts.exemplars.search import Search
 
 Elevation = Annotated[float, Field(ge=-90.0, le=90.0)]
 Roll = Annotated[float, Field(ge=-180.0, le=180.0)]
-
-ROLLS = 24
-"""Number of rolls in a full turn."""
 
 CUT = 4
 """Factor of the number of exemplars of a body that is cut off; their borders fix their rolls."""
@@ -87,16 +83,8 @@ class Exemplars(StartSearch):
             atlas=atlas_of(usual, whole),
             cut_atlas=partial(atlas_of, usual, cut),
             comparison=Comparison(self.method, usual.size),
-            rolls=self._rolls(),
+            rolls=even_rolls(*np.radians(self.roll_deg).tolist()),
             looked_up=self.looked_up,
             refined=self.refined,
             finalists=self.finalists,
         )
-
-    def _rolls(self) -> Array:
-        """Returns evenly spaced rolls (R,) [rad] of the allowed range."""
-        low, high = np.radians(self.roll_deg)
-        count = max(1, round(ROLLS * (high - low) / (2.0 * np.pi)))
-        if high - low > 2.0 * np.pi - 1e-6:
-            return np.linspace(low, high, count, endpoint=False)
-        return np.linspace(low, high, count + 1)

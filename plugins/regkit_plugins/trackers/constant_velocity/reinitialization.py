@@ -6,20 +6,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated
 
-import numpy as np
 from pydantic import Field
 
 from regkit.config.model import Model
 from regkit.interfaces import Past, RegistrationResult
 from regkit.interfaces.tracker import SEARCHES
 from regkit.observation import Observation
-from regkit.search.exemplars import AtlasSettings, Finder, Pictures, atlas_of
+from regkit.search.exemplars import AtlasSettings, Finder, Pictures, atlas_of, even_rolls
 from regkit.search.limb_recovery import LimbRecovery
 from regkit.skeleton import Pose
 from regkit.start import Finalist
-
-ROLLS = np.linspace(-np.pi, np.pi, 24, endpoint=False)
-"""Rolls of the body in the picture that are tried [rad]."""
 
 FEWEST_POINTS = 30
 """Fewer points than this show no body."""
@@ -141,7 +137,7 @@ class BoundReinitialization:
         settings, body = self.settings, self.limbs.registrar.body
         # A body that was turned meanwhile may have kept its pose.
         atlas = atlas_of(body, AtlasSettings(settings.exemplars)).with_pose(body, last, VIEWS)
-        finder = Finder([body], atlas, ROLLS, settings.looked_up, settings.refined)
+        finder = Finder([body], atlas, even_rolls(), settings.looked_up, settings.refined)
         candidates = finder.candidates(Pictures.of(observation, body.size))
         return [
             Finalist.of(self.limbs, one.pose, observation, body.size)
