@@ -7,7 +7,7 @@ from dataclasses import replace
 from regkit.api.choices import Choice, Choices, load_template, segmenters_of
 from regkit.api.frame import Intrinsics
 from regkit.api.recordings import Frames, recording_of
-from regkit.api.registering import tracked_through
+from regkit.api.running import tracked_through
 from regkit.api.tracking import Tracking
 from regkit.interfaces import (
     Method,
