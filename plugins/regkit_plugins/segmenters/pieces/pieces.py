@@ -51,8 +51,8 @@ class Pieces(Segmenter):
     choose: (
         Literal["fits", "nearest", "largest", "moving"] | Annotated[int, Field(ge=0, le=1000)]
     ) = "fits"
-    """The piece to keep: the one whose area, length and roundness fit the template, and of equal
-    ones the nearer (``fits``); the ``nearest``; the one that shows the ``largest`` area; the one
+    """The piece to keep: the nearest of those whose area, length and roundness fit the template
+    alike (``fits``); the ``nearest``; the one that shows the ``largest`` area; the one
     that moves most in the recording (``moving``); or its number, counted from 0 at the nearest."""
     gap: Length | None = None
     """Distance of pieces [m]; by default 3 % of the body's size."""
