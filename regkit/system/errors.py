@@ -44,6 +44,10 @@ class NotFoundError(RegkitError):
     """The input is valid, but the body is not in it, or was not found."""
 
 
+class NoBodyError(NoDataError, NotFoundError):
+    """A frame has measurements, but none that may be the body's; tracking bridges such frames."""
+
+
 class PluginError(RegkitError):
     """A plug-in is unknown or broken."""
 

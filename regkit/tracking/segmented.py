@@ -5,7 +5,7 @@ from __future__ import annotations
 from regkit.interfaces import BoundSegmenter, Expected
 from regkit.observation import Frame
 from regkit.system.arrays import checked_points
-from regkit.system.errors import NoDataError
+from regkit.system.errors import NoBodyError
 
 
 def segmented(segmenter: BoundSegmenter, frame: Frame, expected: Expected | None) -> Frame:
@@ -13,12 +13,12 @@ def segmented(segmenter: BoundSegmenter, frame: Frame, expected: Expected | None
 
     Raises:
         DataError: If a coordinate is not finite.
-        NoDataError: If it leaves no point of a frame that has some.
+        NoBodyError: If it leaves no point of a frame that has some.
     """
     checked_points(frame.points, place=frame.place)
     left = segmenter.segmented(frame, expected)
     if len(frame.points) and not len(left.points):
-        raise NoDataError(
+        raise NoBodyError(
             f"none of the frame's {len(frame.points)} points may be the body's (segmentation; "
             "regkit preview shows what is removed)",
             place=frame.place,

@@ -24,7 +24,7 @@ from regkit.interfaces import (
 )
 from regkit.observation import Frame, Observation
 from regkit.skeleton import Pose
-from regkit.system.errors import ConfigError, NoDataError, RegkitError
+from regkit.system.errors import ConfigError, NoBodyError, NoDataError, RegkitError
 from regkit.system.notes import note
 from regkit.tracking.extent import check_extent, check_unit, tell_bound
 from regkit.tracking.loop import TrackedFrame, tracked
@@ -81,8 +81,9 @@ class Session:
             left = self.segmenter.segmented(frame, None)
             if len(left.points):
                 return self.preprocessor(left)
-        raise NoDataError(
-            "no frame has a measurement that may be the body's (segmentation)",
+        raise NoBodyError(
+            "no frame has a measurement that may be the body's (segmentation; regkit preview shows "
+            "what is removed)",
             place=self.recording.name,
         )
 

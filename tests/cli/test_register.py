@@ -159,3 +159,12 @@ def test_image_without_a_camera_is_refused(regkit, tmp_path):
     ended = regkit("register", image)
     assert ended.code == 1
     assert "camera.json" in ended.err
+
+
+def test_wall_shows_no_body_and_is_no_error_of_the_file(regkit, tmp_path, random):
+    file = tmp_path / "wall.xyz"
+    across = random.uniform(-1.5, 1.5, size=(4000, 2))
+    np.savetxt(file, np.column_stack([across, 2.0 + 0.004 * random.normal(size=4000)]), fmt="%.4f")
+    ended = regkit("register", file)
+    assert ended.code == 3
+    assert "may be the body's" in ended.err
