@@ -45,9 +45,7 @@ class Visible(Seen):
     def of(cls, placed: Placed[Gaussians]) -> Visible:
         """Returns the visible sides of placed Gaussians."""
         return cls(
-            *visible_sides(
-                placed.centres, placed.axes, placed.primitives.scales, _DEPTH, _FLATTENING
-            )
+            *visible_sides(placed.centres, placed.axes, placed.primitives.scales, DEPTH, FLATTENING)
         )
 
     def precisions(self, variance: float) -> Array:
@@ -86,8 +84,8 @@ class Visible(Seen):
             self.rays,
             self.reaches,
             self.distances,
-            _DEPTH,
-            _FLATTENING,
+            DEPTH,
+            FLATTENING,
         )
 
 
@@ -98,8 +96,8 @@ def seen(placed: Placed[Gaussians], camera: Camera | None) -> Seen:
     return Volume.of(placed)
 
 
-_DEPTH = 2.0 / 3.0
+DEPTH = 2.0 / 3.0
 """Offset of the visible side's mean towards the camera, as a fraction of h."""
 
-_FLATTENING = 1.0 / 4.0 - 1.0 / 18.0
+FLATTENING = 1.0 / 4.0 - 1.0 / 18.0
 """Reduction of the variance along the ray by occlusion, as a fraction of h^2."""

@@ -1,5 +1,11 @@
 """The interfaces of plug-ins, as abstract base classes, and the types that pass between them."""
 
+from regkit.interfaces.compiled import (
+    CompiledEnergy,
+    CompiledJoints,
+    CompiledPart,
+    CompiledWeights,
+)
 from regkit.interfaces.dataset import Dataset, Recording
 from regkit.interfaces.expected import Expected
 from regkit.interfaces.kernel import Kernel, Response, Similarity
@@ -48,6 +54,10 @@ __all__ = [
     "BoundSegmenter",
     "BoundTracker",
     "Chain",
+    "CompiledEnergy",
+    "CompiledJoints",
+    "CompiledPart",
+    "CompiledWeights",
     "Constraints",
     "Dataset",
     "Evaluation",

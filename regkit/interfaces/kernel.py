@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from regkit.config.plugin import Plugin
+from regkit.interfaces.compiled import CompiledEnergy
 from regkit.interfaces.shape import ShapeModel
 from regkit.observation import Observation
 from regkit.primitives import Placed, Primitives
@@ -86,3 +87,11 @@ class Kernel(Plugin, ABC):
             smoothing: Standard deviation of a Gaussian that smooths the energy over space, for a
                 larger basin in coarse solutions [m].
         """
+
+    def compiled(self, primitives: Primitives) -> CompiledEnergy | None:
+        """Returns the kernel as compiled functions for some primitives; None if it has none.
+
+        They compute what ``bind`` and the bound kernel compute; a subclass that changes these
+        without overriding this method has none.
+        """
+        return None

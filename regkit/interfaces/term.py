@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 
 from regkit.body import Body
 from regkit.config.plugin import Plugin
+from regkit.interfaces.compiled import CompiledPart
 from regkit.interfaces.kernel import Similarity
 from regkit.observation import Observation
 from regkit.primitives import Placed, Primitives
@@ -87,3 +88,11 @@ class Term(Plugin, ABC):
     @abstractmethod
     def bind(self, scene: Scene) -> Effect:
         """Binds the term to a frame."""
+
+    def compiled(self, body: Body, primitives: Primitives) -> CompiledPart | None:
+        """Returns the term as compiled functions for a body's primitives; None if it has none.
+
+        They compute what ``bind`` and the bound term compute; a subclass that changes these without
+        overriding this method has none.
+        """
+        return None

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from regkit.geometry.camera import Camera
+from regkit.observation.arrays import ObservationArrays
 from regkit.observation.silhouette import Silhouette
 from regkit.system.arrays import Array
 from regkit.system.brief import Brief
@@ -59,3 +60,8 @@ class Observation(Brief):
         if self.camera is None or self.depth is None:
             return None
         return Silhouette(self.camera, self.depth)
+
+    @cached_property
+    def arrays(self) -> ObservationArrays | None:
+        """The data as compiled functions take them; None if the variances differ."""
+        return ObservationArrays.of(self)

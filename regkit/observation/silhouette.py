@@ -41,7 +41,8 @@ class Silhouette:
         self._scale = np.array([camera.fx, camera.fy]) / side
         middle = 0.5 * (side - 1)
         self._offset = (np.array([camera.cx, camera.cy]) - middle) / side
-        self._shown = (np.argwhere(np.isfinite(self._nearest)) - self._offset) / self._scale
+        shown = (np.argwhere(np.isfinite(self._nearest)) - self._offset) / self._scale
+        self._shown = np.ascontiguousarray(shown)
 
     def distances(self, points: Array, margins: Array) -> tuple[Array, Array]:
         """Returns how far points are inside free space, (M,) [m], and the gradients, (M, 3).
@@ -55,9 +56,12 @@ class Silhouette:
             points: Points in the camera frame, (M, 3) [m].
             margins: Allowed distance of each point in front of the measured depth, (M,) [m].
         """
-        return free_space_distances(
-            points, margins, self._nearest, self._shown, self._scale, self._offset, self._half
-        )
+        return free_space_distances(points, margins, *self.arrays)
+
+    @property
+    def arrays(self) -> tuple[Array, Array, Array, Array, float]:
+        """The last arguments of ``free_space_distances``."""
+        return self._nearest, self._shown, self._scale, self._offset, self._half
 
     def observable(self, points: Array, margins: Array | float = np.inf) -> NDArray[np.bool_]:
         """Returns which points (M,) the image would show if something were there.
@@ -83,4 +87,4 @@ def _block_minima(image: Array, side: int) -> Array:
     """Returns the minima of the blocks of an image, (columns, rows)."""
     rows, columns = image.shape[0] // side, image.shape[1] // side
     strips = image.reshape(rows, side, -1).min(axis=1)
-    return np.asarray(strips.T.reshape(columns, side, rows).min(axis=1))
+    return np.ascontiguousarray(strips.T.reshape(columns, side, rows).min(axis=1))

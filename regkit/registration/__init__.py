@@ -2,6 +2,9 @@
 
 from regkit.registration.charts import COORDINATES, CoordinatesName
 from regkit.registration.coordinates import Coordinates
+from regkit.registration.energy import FrameEnergy, SummedEnergy
+from regkit.registration.plan import Plan
+from regkit.registration.planned_energy import CompiledProblem, PlannedEnergy
 from regkit.registration.problem import RegistrationProblem
 from regkit.registration.quaternions import QuaternionCoordinates
 from regkit.registration.residuals import Residuals, ResidualSimilarity
@@ -10,13 +13,18 @@ from regkit.registration.tangent import TangentCoordinates
 
 __all__ = [
     "COORDINATES",
+    "CompiledProblem",
     "Coordinates",
     "CoordinatesName",
+    "FrameEnergy",
     "Loss",
+    "Plan",
+    "PlannedEnergy",
     "QuaternionCoordinates",
     "RegistrationProblem",
     "ResidualSimilarity",
     "Residuals",
     "Robust",
+    "SummedEnergy",
     "TangentCoordinates",
 ]

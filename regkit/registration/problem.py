@@ -5,24 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import reduce
 
-import numpy as np
-
-from regkit.interfaces import (
-    Constraints,
-    JointEnergy,
-    JointResponse,
-    Multipliers,
-    Problem,
-    Response,
-    Similarity,
-)
+from regkit.interfaces import JointEnergy, JointResponse, Multipliers, Response, Similarity
 from regkit.primitives import Placed, Primitives
 from regkit.registration.coordinates import Coordinates
-from regkit.skeleton import Placement
+from regkit.registration.pose_problem import PoseProblem
+from regkit.skeleton import Placement, Pose
 from regkit.system.arrays import Array
 
 
-class RegistrationProblem(Problem):
+class RegistrationProblem(PoseProblem):
     """The one chain rule for all shapes, kernels, terms and solvers: forces on bones.
 
     Coordinates -> pose -> segments -> primitives -> energy and wrenches. On the way back the
@@ -46,29 +37,29 @@ class RegistrationProblem(Problem):
         joints: Sequence[JointEnergy] = (),
         multipliers: Multipliers | None = None,
     ) -> None:
-        self._coordinates = coordinates
+        super().__init__(coordinates, multipliers)
         self._primitives = primitives
         self._similarities = dict(similarities)
         self._joints = tuple(joints)
-        self.multipliers = multipliers
-        self.start = coordinates.origin()
-        self._projected = (self.start.copy(), coordinates.pose(self.start))
-        self.lower, self.upper = coordinates.bounds()
 
-    def value_and_gradient(self, x: Array) -> tuple[float, Array]:
-        """Returns the energy at coordinates x (m,) and its gradient (m,), eqs. 11 to 13."""
-        placement, placed = self._placed(x)
+    def without_curvature(self) -> tuple[str, ...]:
+        """Returns the names of the kernel and terms without Gauss-Newton blocks."""
+        _, placed = self._placed(self._coordinates.pose(self.start))
+        return tuple(
+            name
+            for name, similarity in self._similarities.items()
+            if similarity(placed, curvature=True).stiffness is None
+        )
+
+    def value_and_force(self, pose: Pose) -> tuple[float, Array]:
+        """Returns the energy of a pose and its derivative to the degrees of freedom (n,)."""
+        placement, placed = self._placed(pose)
         response = self._response(placed, curvature=False)
-        joints = self._joint_responses(placement)
-        value, force = self._value_and_force(placement, placed, response, joints)
-        return value, self._coordinates.jacobian(x).T @ force
+        return self._value_and_force(placement, placed, response, self._joint_responses(placement))
 
-    def normal_equations(self, x: Array) -> tuple[float, Array, Array] | None:
-        """Returns the energy, its gradient (m,) and Gauss-Newton matrix (m, m) at x (m,).
-
-        None if the kernel or a term has no Gauss-Newton blocks.
-        """
-        placement, placed = self._placed(x)
+    def value_force_and_matrix(self, pose: Pose) -> tuple[float, Array, Array] | None:
+        """Returns energy, force (n,) and Gauss-Newton matrix (n, n); None without blocks."""
+        placement, placed = self._placed(pose)
         response = self._response(placed, curvature=True)
         if response.stiffness is None:
             return None
@@ -77,37 +68,9 @@ class RegistrationProblem(Problem):
         matrix = placement.normal_matrix(stiffness)
         for joint in joints:
             matrix += joint.stiffness
-        jacobian = self._coordinates.jacobian(x)
-        value, force = self._value_and_force(placement, placed, response, joints)
-        return value, jacobian.T @ force, jacobian.T @ matrix @ jacobian
+        return *self._value_and_force(placement, placed, response, joints), matrix
 
-    def without_curvature(self) -> tuple[str, ...]:
-        """Returns the names of the kernel and terms without Gauss-Newton blocks."""
-        _, placed = self._placed(self.start)
-        return tuple(
-            name
-            for name, similarity in self._similarities.items()
-            if similarity(placed, curvature=True).stiffness is None
-        )
-
-    def constraints(self) -> Constraints | None:
-        """Returns the limits of the ball joints as constraints; None without any."""
-        return self._coordinates.constraints()
-
-    def projected(self, x: Array) -> Array:
-        """Returns coordinates (m,) with hinges and ball joints projected onto their limits."""
-        pose = self._coordinates.pose(x)
-        within = self._coordinates.skeleton.limits.projected(pose)
-        same = within is pose and self._coordinates.unique
-        projected = x if same else self._coordinates.vector(within)
-        self._projected = (projected.copy(), within)
-        return projected
-
-    def _placed(self, x: Array) -> tuple[Placement, Placed[Primitives]]:
-        # A solver evaluates next at the point that it projected, whose pose is already known.
-        at, pose = self._projected
-        if not np.array_equal(at, x):
-            pose = self._coordinates.pose(x)
+    def _placed(self, pose: Pose) -> tuple[Placement, Placed[Primitives]]:
         placement = Placement.of(self._coordinates.skeleton, pose)
         return placement, self._primitives.place(placement.transforms)
 

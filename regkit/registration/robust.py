@@ -43,7 +43,12 @@ class Robust(Model):
             if residuals is None:
                 raise ConfigError("robust.scale is needed: the kernel does not estimate it")
             scale = max(median_scale(residuals), least)
-        return _LOSSES[self.loss](float(np.hypot(scale, smoothing)))
+        return self.kind(float(np.hypot(scale, smoothing)))
+
+    @property
+    def kind(self) -> type[Loss]:
+        """The loss without its scale."""
+        return _LOSSES[self.loss]
 
 
 def median_scale(residuals: Array) -> float:

@@ -18,6 +18,7 @@ from regkit.geometry.rotation import (
     to_vector,
     vector_to_matrix,
 )
+from regkit.skeleton.arrays import SkeletonArrays
 from regkit.skeleton.compiled_steps import retracted_balls, retracted_root
 from regkit.skeleton.limits import Limits
 from regkit.skeleton.pose import Pose, PoseDescription
@@ -87,6 +88,11 @@ class Skeleton(Brief):
     def hinge_dofs(self) -> slice:
         """Indices of the hinges among the degrees of freedom."""
         return slice(self.ball_dofs.stop, self.dofs)
+
+    @cached_property
+    def arrays(self) -> SkeletonArrays:
+        """The skeleton as compiled functions take it."""
+        return SkeletonArrays.of(self)
 
     @cached_property
     def ball_names(self) -> tuple[str, ...]:

@@ -5,9 +5,12 @@ from __future__ import annotations
 import importlib
 from collections.abc import Callable
 from functools import update_wrapper
-from typing import Any, Generic, ParamSpec, TypeVar, cast
+from typing import Any, Generic, ParamSpec, TypeVar, cast, overload
 
+from regkit.system.errors import PluginError
+from regkit.system.machine_types import machine_signature
 from regkit.system.optional import load_library
+from regkit.system.pointers import Pointer
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -20,13 +23,17 @@ _CALLBACKS: list[Callable[[], None]] = []
 
 
 class Compiled(Generic[P, R]):
-    """A function that Numba compiles on its first call and caches on disk.
+    """A function that Numba compiles when it is first needed and caches on disk.
 
-    Importing Numba takes half a second, which commands without a registration avoid.
+    If its annotations fix the types (``regkit.system.machine_types``), it is compiled for these
+    alone, and can be called by its address (``regkit.system.pointers``). Otherwise it is compiled
+    for the types of each call. Importing Numba takes half a second, which commands without a
+    registration avoid.
     """
 
-    def __init__(self, function: Callable[P, R]) -> None:
+    def __init__(self, function: Callable[P, R], *, reordered: bool) -> None:
         self.function = function
+        self._reordered = reordered
         self._dispatcher: Callable[P, R] | None = None
         update_wrapper(self, function)
 
@@ -40,22 +47,57 @@ class Compiled(Generic[P, R]):
             names = cast(Any, self.function).__globals__
             # Numba calls only its own functions: replace those in the globals of this one.
             for name in self.function.__code__.co_names:
-                if isinstance(names.get(name), Compiled):
+                if isinstance(names.get(name), Compiled | Pointer):
                     names[name] = names[name].dispatcher()
             _listen()
-            self._dispatcher = cast(
-                Callable[P, R], load_library("numba").njit(cache=True)(self.function)
+            signature = machine_signature(self.function)
+            # Division by zero gives inf or nan, as in NumPy, and its check does not end a loop.
+            options = {"error_model": "numpy"} if signature is not None else {}
+            compile_for = load_library("numba").njit(
+                signature, cache=True, fastmath=self._reordered, **options
             )
+            self._dispatcher = cast(Callable[P, R], compile_for(self.function))
             _DISPATCHERS.append(self._dispatcher)
         return self._dispatcher
 
+    def address(self) -> int:
+        """Returns the address of the machine code.
 
-def compiled(function: Callable[P, R]) -> Compiled[P, R]:
-    """Decorator: compiles a function by Numba on its first call and caches it on disk.
+        Raises:
+            PluginError: If the annotations do not fix the types.
+        """
+        signature = machine_signature(self.function)
+        if signature is None:
+            name = f"{self.function.__module__}.{self.function.__qualname__}"
+            raise PluginError(
+                f"the compiled function {name} needs annotations of regkit.system.machine_types"
+            )
+        result = cast(Any, self.dispatcher()).get_compile_result(signature)
+        return int(result.library.get_pointer_to_function(result.fndesc.llvm_func_name))
+
+
+@overload
+def compiled(function: Callable[P, R]) -> Compiled[P, R]: ...
+
+
+@overload
+def compiled(*, reordered: bool) -> Callable[[Callable[P, R]], Compiled[P, R]]: ...
+
+
+def compiled(
+    function: Callable[P, R] | None = None, *, reordered: bool = False
+) -> Compiled[P, R] | Callable[[Callable[P, R]], Compiled[P, R]]:
+    """Decorator: compiles a function by Numba when it is first needed and caches it on disk.
 
     If Numba is missing, the first call raises DependencyError.
+
+    Args:
+        function: The function.
+        reordered: Whether sums may be reordered, so that long loops use vector instructions.
     """
-    return Compiled(function)
+    if function is not None:
+        return Compiled(function, reordered=reordered)
+    return lambda decorated: Compiled(decorated, reordered=reordered)
 
 
 def loaded_loops() -> int:

@@ -17,7 +17,7 @@ from faults import KERNEL, KERNEL_FAULTS, SHAPE, SHAPE_FAULTS, SUPERQUADRIC
 from regkit.config import registry as registered
 from regkit.config.registry import run_plugin_file
 from regkit.interfaces import ShapeModel
-from regkit.registration.problem import RegistrationProblem
+from regkit.registration.pose_problem import PoseProblem
 from regkit.system.errors import PluginError
 from regkit.testing import conformance
 from regkit.testing.bound import Bound
@@ -141,14 +141,14 @@ def test_law_names_the_one_under_test_first(tmp_path):
 
 
 def test_problem_that_takes_an_array_for_its_point_breaks_the_law_of_steps(monkeypatch):
-    placed, last = RegistrationProblem._placed, []
+    pose, last = PoseProblem._pose, []
 
     def remembered(self, x):
         if not (last and last[0] is x):
-            last[:] = x, placed(self, x)
+            last[:] = x, pose(self, x)
         return last[1]
 
-    monkeypatch.setattr(RegistrationProblem, "_placed", remembered)
+    monkeypatch.setattr(PoseProblem, "_pose", remembered)
     pair = Pair(Correlation(), GeneralizedSumOfGaussians(), "correlation-gsog")
     with pytest.raises(pytest.fail.Exception, match="after a step in place"):
         KernelLaws().test_kernel_answers_for_the_point_after_a_step_in_place(

@@ -6,16 +6,18 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from regkit.interfaces import Kernel
+from regkit.interfaces import CompiledEnergy, Kernel
 from regkit.observation import Observation
 from regkit.primitives import Placed, Primitives, TaperedCapsules
 from regkit.registration import Residuals, ResidualSimilarity, Robust
+from regkit.registration.compiled_robust import loss_number
 from regkit.registration.robust import Squares
 from regkit.system.arrays import Array, Indices
 from regkit_plugins.kernels.sphere_distance.compiled import (
     nearest_capsules,
     residuals_and_rows,
 )
+from regkit_plugins.kernels.sphere_distance.compiled_kernel import bind, explain, respond
 
 
 class SphereDistance(Kernel):
@@ -45,6 +47,16 @@ class SphereDistance(Kernel):
     ) -> BoundSphereDistance:
         """Binds the kernel to the data of a frame; the loss keeps the scale of the start."""
         return BoundSphereDistance(self, observation, start, smoothing)
+
+    def compiled(self, primitives: Primitives) -> CompiledEnergy | None:
+        """Returns the kernel as compiled functions, for tapered capsules."""
+        if type(primitives) is not TaperedCapsules:
+            return None
+        scale = np.nan if self.robust.scale is None else self.robust.scale
+        numbers = (self.side == "front", loss_number(self.robust.kind), scale)
+        shape = (primitives.halves, primitives.radii.mean(axis=1), primitives.sines)
+        state = (len(primitives) + 1, 1)
+        return CompiledEnergy(respond, numbers, np.column_stack(shape), bind, state, explain)
 
 
 class BoundSphereDistance(ResidualSimilarity):

@@ -21,11 +21,10 @@ from regkit.interfaces import (
 )
 from regkit.interfaces.term import Effect
 from regkit.observation import Observation
-from regkit.primitives import Placed, Primitives
-from regkit.registration import COORDINATES
+from regkit.primitives import Primitives
+from regkit.registration import COORDINATES, FrameEnergy, Plan, PlannedEnergy, SummedEnergy
 from regkit.skeleton import Pose
 from regkit.system.errors import DataError, PluginError
-from regkit_plugins.methods.direct.energy import FrameEnergy
 
 if TYPE_CHECKING:
     from regkit_plugins.methods.direct.direct import Direct
@@ -42,11 +41,13 @@ class BoundDirect(Registrar):
         method: The method.
         body: The body.
         primitives: Primitives of its shape model.
+        plan: The same by compiled functions, if all parts offer them.
     """
 
     method: Direct
     body: Body
     primitives: Primitives
+    plan: Plan | None = None
 
     def register(
         self,
@@ -102,12 +103,12 @@ class BoundDirect(Registrar):
         All candidates are compared with the kernel bound to the first one.
         """
         first = candidates[0]
-        scene, weighted, kernel = self._kernel(observation, first, prior or first, smoothing)
+        energy = self._bound(observation, first, prior or first, smoothing)
         if len(candidates) > 1:
-            best = min(candidates, key=lambda pose: kernel.energy(self._placed(weighted, pose)))
+            best = min(candidates, key=energy.of_kernel)
             if best is not first:
                 return self._bound(observation, best, prior or first, smoothing), best
-        return self._completed(scene, weighted, kernel), first
+        return energy, first
 
     def _check_limits(self, pose: Pose) -> None:
         """Checks that the pose satisfies the hard limits.
@@ -131,43 +132,34 @@ class BoundDirect(Registrar):
         self, observation: Observation, pose: Pose, prior: Pose, smoothing: float
     ) -> FrameEnergy:
         """Returns the kernel and all terms bound to a frame at a pose."""
-        return self._completed(*self._kernel(observation, pose, prior, smoothing))
+        if self.plan is not None:
+            planned = PlannedEnergy.of(self.plan, observation, pose, prior, smoothing)
+            if planned is not None:
+                return planned
+        return self._summed(observation, pose, prior, smoothing)
 
-    def _kernel(
+    def _summed(
         self, observation: Observation, pose: Pose, prior: Pose, smoothing: float
-    ) -> tuple[Scene, Primitives, Similarity]:
-        """Returns the scene, the primitives weighted by visibility, and the bound kernel."""
-        placed = self._placed(self.primitives, pose)
+    ) -> SummedEnergy:
+        """Returns the same as the sum of the bound parts."""
+        placed = self.primitives.place(self.body.place(pose).transforms)
         scene = Scene(self.body, observation, prior, placed)
         primitives = self.primitives
-        for term in self.method.terms:
-            if term.weighs:
-                effect = term.bind(scene)
-                if not isinstance(effect, VisibilityWeights):
-                    raise _undeclared(term, effect)
-                primitives = replace(primitives, weights=primitives.weights * effect.factors)
-        placed = replace(placed, primitives=primitives)
-        kernel = self.method.kernel.bind(observation, placed, smoothing=smoothing)
-        return scene, primitives, kernel
-
-    def _completed(self, scene: Scene, primitives: Primitives, kernel: Similarity) -> FrameEnergy:
-        """Returns the kernel with all terms that are energies."""
         terms: dict[str, Similarity] = {}
         joints: list[JointEnergy] = []
         for index, term in enumerate(self.method.terms):
-            if term.weighs:
-                continue
             effect = term.bind(scene)
-            if isinstance(effect, VisibilityWeights):
+            if isinstance(effect, VisibilityWeights) is not term.weighs:
                 raise _undeclared(term, effect)
-            if isinstance(effect, JointEnergy):
+            if isinstance(effect, VisibilityWeights):
+                primitives = replace(primitives, weights=primitives.weights * effect.factors)
+            elif isinstance(effect, JointEnergy):
                 joints.append(effect)
             else:
                 terms[f"terms[{index}] ({term.kind})"] = effect
-        return FrameEnergy(self.body, primitives, kernel, terms, tuple(joints))
-
-    def _placed(self, primitives: Primitives, pose: Pose) -> Placed[Primitives]:
-        return primitives.place(self.body.place(pose).transforms)
+        placed = replace(placed, primitives=primitives)
+        kernel = self.method.kernel.bind(observation, placed, smoothing=smoothing)
+        return SummedEnergy(self.body, primitives, kernel, terms, tuple(joints))
 
 
 def _undeclared(term: Term, effect: Effect) -> PluginError:

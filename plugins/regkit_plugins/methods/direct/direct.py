@@ -15,7 +15,7 @@ from regkit.interfaces import (
     Solver,
     Term,
 )
-from regkit.registration import CoordinatesName
+from regkit.registration import CoordinatesName, Plan
 from regkit_plugins.methods.direct.bound import BoundDirect
 
 Smoothing = Annotated[float, Field(ge=0.0, le=1e4)]
@@ -44,6 +44,10 @@ class Direct(Method):
     annealing: Annotated[tuple[Smoothing, ...], Field(min_length=1)] = (0.0,)
     """Standard deviations of the smoothing of the energy [m], for one solution after the other.
     Smoothing beyond a limb's radius may lose the limbs."""
+
+    compiled: bool = True
+    """Whether a frame is registered by compiled functions where all parts offer them. The result is
+    the same up to rounding in single precision; the other way is for reading and comparing."""
 
     @model_validator(mode="after")
     def _shape_fits_kernel(self) -> Direct:
@@ -80,4 +84,8 @@ class Direct(Method):
         """
         for term in self.terms:
             term.check(body)
-        return BoundDirect(self, body, self.shape.bind(body))
+        primitives = self.shape.bind(body)
+        plan = None
+        if self.compiled:
+            plan = Plan.of(body, primitives, self.kernel, self.terms)
+        return BoundDirect(self, body, primitives, plan)

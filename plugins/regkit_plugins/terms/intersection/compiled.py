@@ -1,4 +1,4 @@
-"""Overlaps of pairs of primitives, in compiled loops."""
+"""Overlaps of pairs of primitives, in compiled loops, and the whole term, compiled."""
 
 from __future__ import annotations
 
@@ -6,8 +6,14 @@ from math import exp
 
 import numpy as np
 
+from regkit.interfaces.compiled import SceneArrays
 from regkit.system.arrays import Array, Indices
 from regkit.system.compiled import compiled
+from regkit.system.machine_types import Matrix, Stack, Vector
+
+WEIGHT, REACH = 2, 3
+"""Columns of the table, which has a row for each pair of primitives: both, their weight, and the
+distance from which on they do not meet. The state has a row more, and begins with their number."""
 
 
 @compiled
@@ -58,3 +64,57 @@ def overlaps(
                 for k in range(6):
                     blocks[owner, j, k] += overlap * direction[j] * direction[k]
     return energy, wrenches, blocks
+
+
+@compiled
+def bind(scene: SceneArrays, numbers: Vector, table: Matrix, state: Matrix) -> None:
+    """Writes the pairs that are near enough to intersect."""
+    near = 0
+    for row in range(len(table)):
+        one, two, square = int(table[row, 0]), int(table[row, 1]), 0.0
+        for i in range(3):
+            square += (scene.centres[one, i] - scene.centres[two, i]) ** 2
+        if square < table[row, REACH] ** 2:
+            near += 1
+            for column in range(REACH):
+                state[near, column] = table[row, column]
+    state[0, 0] = near
+
+
+@compiled
+def respond(
+    scene: SceneArrays,
+    centres: Matrix,
+    axes: Stack,
+    numbers: Vector,
+    table: Matrix,
+    state: Matrix,
+    order: int,
+    wrenches: Matrix,
+    stiffness: Stack,
+) -> float:
+    """Returns the energy of the near pairs, and adds its derivatives."""
+    near = int(state[0, 0])
+    if near == 0:
+        return 0.0
+    first, second = np.empty(near, np.int64), np.empty(near, np.int64)
+    weights, count = np.empty(near), len(centres)
+    for row in range(near):
+        first[row], second[row] = int(state[row + 1, 0]), int(state[row + 1, 1])
+        weights[row] = state[row + 1, WEIGHT]
+    covariances = np.empty((count, 3, 3))
+    for k in range(count):
+        for i in range(3):
+            for j in range(3):
+                entry = 0.0
+                for a in range(3):
+                    entry += axes[k, i, a] * scene.primitives.scales[k, a] ** 2 * axes[k, j, a]
+                covariances[k, i, j] = entry
+    energy, forces, blocks = overlaps(centres, covariances, first, second, weights)
+    if order:
+        for k in range(count):
+            for i in range(6):
+                wrenches[k, i] += forces[k, i]
+                for j in range(6):
+                    stiffness[k, i, j] += blocks[k, i, j]
+    return energy

@@ -7,12 +7,13 @@ from typing import Any, ClassVar, Literal
 
 import numpy as np
 
+from regkit.body import Body
 from regkit.config.quantities import Weight
-from regkit.interfaces import Response, Scene, Similarity, Term
+from regkit.interfaces import CompiledEnergy, Response, Scene, Similarity, Term
 from regkit.primitives import Placed, Primitives, Volumes
 from regkit.skeleton import Skeleton
 from regkit.system.arrays import Array, Indices
-from regkit_plugins.terms.intersection.compiled import overlaps
+from regkit_plugins.terms.intersection.compiled import bind, overlaps, respond
 
 REACH = 3.0
 """Maximum distance of a pair at the start, in units of the sum of their largest scales."""
@@ -33,16 +34,26 @@ class Intersection(Term):
 
     def bind(self, scene: Scene) -> BoundIntersection:
         """Binds the term to the pairs of primitives that may intersect."""
-        primitives = scene.placed.primitives
-        first, second = _non_adjacent_pairs(primitives.segments, scene.body.skeleton)
-        apart = scene.placed.centres[first] - scene.placed.centres[second]
-        reaches = REACH * primitives.scales.max(axis=1)
-        near = (apart**2).sum(axis=1) < (reaches[first] + reaches[second]) ** 2
-        first, second = first[near], second[near]
+        centres = scene.placed.centres
+        first, second, weights, reaches = self._pairs(scene.placed.primitives, scene.body.skeleton)
+        near = ((centres[first] - centres[second]) ** 2).sum(axis=1) < reaches**2
+        return BoundIntersection(first[near], second[near], weights[near])
+
+    def compiled(self, body: Body, primitives: Primitives) -> CompiledEnergy:
+        """Returns the term as compiled functions."""
+        table = np.column_stack(self._pairs(primitives, body.skeleton))
+        return CompiledEnergy(respond, table=table, bind=bind, state=(len(table) + 1, 3))
+
+    def _pairs(
+        self, primitives: Primitives, skeleton: Skeleton
+    ) -> tuple[Indices, Indices, Array, Array]:
+        """Returns both primitives of each pair that may intersect, its weight and its reach."""
+        first, second = _non_adjacent_pairs(primitives.segments, skeleton)
+        extents = REACH * primitives.scales.max(axis=1)
         sections = np.sort(primitives.scales, axis=1)[:, 1:].prod(axis=1)
         sizes = sections / sections.sum()
         weights = self.weight * np.minimum(sizes[first], sizes[second])
-        return BoundIntersection(first, second, weights)
+        return first, second, weights, extents[first] + extents[second]
 
 
 @dataclass(frozen=True)

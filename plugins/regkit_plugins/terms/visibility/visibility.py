@@ -8,11 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from regkit.interfaces import Scene, Term, VisibilityWeights
+from regkit.body import Body
+from regkit.interfaces import CompiledWeights, Scene, Term, VisibilityWeights
 from regkit.observation.silhouette import Silhouette
 from regkit.primitives import Placed, Primitives, Volumes
 from regkit.system.arrays import Array
 from regkit_plugins.terms.visibility.compiled import free_rays
+from regkit_plugins.terms.visibility.compiled_term import weigh
 
 
 class Visibility(Term):
@@ -38,6 +40,11 @@ class Visibility(Term):
         hiding = ~scene.body.is_optional(scene.placed.primitives.segments)
         shares = visible_shares(scene.placed, hiding, scene.observation.silhouette)
         return VisibilityWeights(np.maximum(shares, self.least))
+
+    def compiled(self, body: Body, primitives: Primitives) -> CompiledWeights:
+        """Returns the term as a compiled function."""
+        hiding = ~body.is_optional(primitives.segments)
+        return CompiledWeights(weigh, (self.least,), hiding[:, None].astype(float))
 
 
 def visible_shares(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -9,15 +10,37 @@ import numpy as np
 
 from regkit.body import Body
 from regkit.interfaces import JointEnergy, Multipliers, Similarity
-from regkit.primitives import Primitives
-from regkit.registration import Coordinates, RegistrationProblem
+from regkit.primitives import Placed, Primitives
+from regkit.registration.coordinates import Coordinates
+from regkit.registration.pose_problem import PoseProblem
+from regkit.registration.problem import RegistrationProblem
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 
 
+class FrameEnergy(ABC):
+    """The kernel and all terms, bound to a frame."""
+
+    @abstractmethod
+    def of_kernel(self, pose: Pose) -> float:
+        """Returns the energy of the kernel alone in a pose."""
+
+    @abstractmethod
+    def total(self, pose: Pose) -> float:
+        """Returns the energy of the kernel and all terms in a pose."""
+
+    @abstractmethod
+    def inlier_probability(self, pose: Pose) -> Array:
+        """Returns the inlier probability of each point in a pose, (N,); NaN if it is unknown."""
+
+    @abstractmethod
+    def problem(self, coordinates: Coordinates, multipliers: Multipliers | None) -> PoseProblem:
+        """Returns the registration problem in given coordinates of the pose."""
+
+
 @dataclass(frozen=True)
-class FrameEnergy:
-    """The kernel and all terms, bound to a frame.
+class SummedEnergy(FrameEnergy):
+    """The sum of a kernel and terms in their readable form.
 
     Attributes:
         body: The body.
@@ -33,16 +56,19 @@ class FrameEnergy:
     terms: Mapping[str, Similarity]
     joints: tuple[JointEnergy, ...]
 
+    def of_kernel(self, pose: Pose) -> float:
+        """Returns the energy of the kernel alone in a pose."""
+        return self.kernel.energy(self._placed(pose))
+
     def total(self, pose: Pose) -> float:
         """Returns the energy of the kernel and all terms in a pose."""
-        placed = self.primitives.place(self.body.place(pose).transforms)
+        placed = self._placed(pose)
         energies = [one.energy(placed) for one in (self.kernel, *self.terms.values())]
         return sum(energies) + sum(joint(pose).energy for joint in self.joints)
 
     def inlier_probability(self, pose: Pose) -> Array:
         """Returns the inlier probability of each point in a pose, (N,); NaN if it is unknown."""
-        placed = self.primitives.place(self.body.place(pose).transforms)
-        probability = self.kernel.inlier_probability(placed)
+        probability = self.kernel.inlier_probability(self._placed(pose))
         return np.array([np.nan]) if probability is None else probability
 
     def problem(
@@ -56,3 +82,6 @@ class FrameEnergy:
             self.joints,
             multipliers,
         )
+
+    def _placed(self, pose: Pose) -> Placed[Primitives]:
+        return self.primitives.place(self.body.place(pose).transforms)

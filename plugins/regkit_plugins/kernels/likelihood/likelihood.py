@@ -7,13 +7,15 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 from pydantic import Field
 
+from regkit.gaussians.compiled_similarity import COLUMNS, shows_surface
 from regkit.gaussians.similarity import GaussianSimilarity
 from regkit.gaussians.visible import seen
-from regkit.interfaces import Kernel
+from regkit.interfaces import CompiledEnergy, Kernel
 from regkit.observation import Observation
 from regkit.primitives import Gaussians, Placed, Primitives
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError
+from regkit_plugins.kernels.likelihood.compiled import bind, explain, respond
 
 
 class Likelihood(Kernel):
@@ -37,6 +39,15 @@ class Likelihood(Kernel):
     ) -> BoundLikelihood:
         """Binds the kernel to the data of a frame."""
         return BoundLikelihood(self, observation, start, smoothing)
+
+    def compiled(self, primitives: Primitives) -> CompiledEnergy | None:
+        """Returns the kernel as compiled functions, for Gaussians."""
+        surface = shows_surface(primitives)
+        if surface is None:
+            return None
+        numbers = (surface, self.covariance == "frozen", self.outliers)
+        state = (len(primitives) + 1, COLUMNS)
+        return CompiledEnergy(respond, numbers, bind=bind, state=state, explain=explain)
 
 
 class BoundLikelihood(GaussianSimilarity):

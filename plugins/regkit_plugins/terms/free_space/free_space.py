@@ -6,12 +6,22 @@ from typing import Any, Literal
 
 import numpy as np
 
+from regkit.body import Body
 from regkit.config.quantities import Margin, Weight
 from regkit.geometry.rotation import cross
-from regkit.interfaces import Scene, Term
-from regkit.primitives import Placed
+from regkit.interfaces import CompiledEnergy, Scene, Term
+from regkit.primitives import Placed, Primitives
 from regkit.registration import Residuals, ResidualSimilarity
 from regkit.registration.robust import PseudoHuber
+from regkit.system.arrays import Array
+from regkit_plugins.terms.free_space.compiled import (
+    MARGIN,
+    OFFSET,
+    OWNER,
+    WEIGHT,
+    WIDTH,
+    respond,
+)
 
 REACH = 1.0
 """Position of a primitive's samples along its longest axis, in units of its scale."""
@@ -36,6 +46,31 @@ class FreeSpace(Term):
         """Binds the term to the depth image of a frame."""
         return BoundFreeSpace(self, scene)
 
+    def compiled(self, body: Body, primitives: Primitives) -> CompiledEnergy:
+        """Returns the term as a compiled function."""
+        return CompiledEnergy(respond, table=self.samples(body, primitives))
+
+    def samples(self, body: Body, primitives: Primitives) -> Array:
+        """Returns the samples of K primitives: owner, offset in its axes, width, margin, weight.
+
+        There are three for each primitive, (3 K, 7); a single one is enough for balls, (K, 7).
+        """
+        scales = primitives.scales
+        ordered = np.sort(scales, axis=1)
+        sizes = ordered[:, 1:].prod(axis=1)
+        each = 1 if (ordered[:, 0] == ordered[:, 2]).all() else 3
+        sizes[body.is_optional(primitives.segments)] = 0.0
+        samples = np.zeros((len(scales), each, 7))
+        samples[:, :, OWNER] = np.arange(len(scales))[:, None]
+        samples[:, :, WIDTH] = ordered[:, :1]
+        samples[:, :, MARGIN] = self.margin * ordered[:, :1]
+        samples[:, :, WEIGHT] = (self.weight * sizes / sizes.sum() / each)[:, None]
+        longest = OFFSET + scales.argmax(axis=1)
+        for column, sign in ((1, 1.0), (2, -1.0))[: each - 1]:
+            outwards = sign * REACH * (ordered[:, 2] - ordered[:, 0])
+            samples[np.arange(len(scales)), column, longest] = outwards
+        return samples.reshape(-1, 7)
+
 
 class BoundFreeSpace(ResidualSimilarity):
     """``sum w (sqrt(1 + (d / s)^2) - 1)`` over samples of the primitives.
@@ -49,21 +84,14 @@ class BoundFreeSpace(ResidualSimilarity):
 
     def __init__(self, term: FreeSpace, scene: Scene) -> None:
         super().__init__(scene.observation, PseudoHuber(1.0))
-        scales = scene.placed.primitives.scales
-        count = len(scales)
-        ordered = np.sort(scales, axis=1)
-        sizes = ordered[:, 1:].prod(axis=1)
-        # Three samples per primitive; a single one is enough for balls.
-        self._each = 1 if (ordered[:, 0] == ordered[:, 2]).all() else 3
-        sizes[scene.body.is_optional(scene.placed.primitives.segments)] = 0.0
-        self._weights = np.repeat(term.weight * sizes / sizes.sum() / self._each, self._each)
-        self._widths = np.repeat(ordered[:, 0], self._each)
-        self._margins = term.margin * self._widths
-        self._owners = np.repeat(np.arange(count), self._each)
-        self._offsets = np.zeros((count, 3, self._each))
-        along = np.arange(count), scales.argmax(axis=1)
-        for column, sign in ((1, 1.0), (2, -1.0))[: self._each - 1]:
-            self._offsets[*along, column] = sign * REACH * (ordered[:, 2] - ordered[:, 0])
+        samples = term.samples(scene.body, scene.placed.primitives)
+        count = len(scene.placed)
+        self._each = len(samples) // count
+        self._owners = samples[:, OWNER].astype(np.intp)
+        self._weights, self._widths = samples[:, WEIGHT], samples[:, WIDTH]
+        self._margins = samples[:, MARGIN]
+        offsets = samples[:, OFFSET : OFFSET + 3].reshape(count, self._each, 3)
+        self._offsets = offsets.transpose(0, 2, 1)
         self._silhouette = scene.observation.silhouette
 
     def residuals(self, placed: Placed[Any]) -> Residuals:

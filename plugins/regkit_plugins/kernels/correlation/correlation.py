@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import ClassVar, Literal
 
+from regkit.gaussians.compiled_overlap import bind, explain, respond
+from regkit.gaussians.compiled_similarity import COLUMNS, shows_surface
 from regkit.gaussians.overlap import Overlap
-from regkit.interfaces import Kernel
+from regkit.interfaces import CompiledEnergy, Kernel
 from regkit.observation import Observation
 from regkit.primitives import Gaussians, Placed, Primitives
 
@@ -30,3 +32,12 @@ class Correlation(Kernel):
     ) -> Overlap:
         """Binds the kernel to the data of a frame."""
         return Overlap(observation, start, smoothing=smoothing, frozen=self.covariance == "frozen")
+
+    def compiled(self, primitives: Primitives) -> CompiledEnergy | None:
+        """Returns the kernel as compiled functions, for Gaussians."""
+        surface = shows_surface(primitives)
+        if surface is None:
+            return None
+        numbers = (surface, self.covariance == "frozen")
+        state = (len(primitives), COLUMNS)
+        return CompiledEnergy(respond, numbers, bind=bind, state=state, explain=explain)

@@ -6,9 +6,12 @@ from dataclasses import dataclass
 from math import radians
 from typing import Literal
 
+from regkit.body import Body
 from regkit.config.quantities import Spread, Weight
-from regkit.interfaces import JointEnergy, JointResponse, Scene, Term
+from regkit.interfaces import CompiledJoints, JointEnergy, JointResponse, Scene, Term
+from regkit.primitives import Primitives
 from regkit.skeleton import Pose, Skeleton
+from regkit_plugins.terms.limits.compiled import respond_joints
 
 
 class LimitsTerm(Term):
@@ -26,7 +29,16 @@ class LimitsTerm(Term):
 
     def bind(self, scene: Scene) -> BoundLimits:
         """Binds the term to the limits of the body."""
-        return BoundLimits(scene.body.skeleton, self.weight / radians(self.tolerance_deg) ** 2)
+        return BoundLimits(scene.body.skeleton, self._stiffness)
+
+    def compiled(self, body: Body, primitives: Primitives) -> CompiledJoints:
+        """Returns the term as a compiled function."""
+        return CompiledJoints(respond_joints, (self._stiffness,))
+
+    @property
+    def _stiffness(self) -> float:
+        """Weight of half the squared violation [1/rad^2]."""
+        return self.weight / radians(self.tolerance_deg) ** 2
 
 
 @dataclass(frozen=True)

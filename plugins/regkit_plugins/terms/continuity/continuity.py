@@ -10,10 +10,12 @@ from pydantic import Field
 
 from regkit.body import Body
 from regkit.config.quantities import Spread, Weight
-from regkit.interfaces import JointEnergy, JointResponse, Scene, Term
+from regkit.interfaces import CompiledJoints, JointEnergy, JointResponse, Scene, Term
+from regkit.primitives import Primitives
 from regkit.skeleton import Pose, Skeleton
 from regkit.skeleton.compiled_steps import ball_steps
 from regkit.system.arrays import Array
+from regkit_plugins.terms.continuity.compiled import respond_joints
 
 
 class Continuity(Term):
@@ -42,13 +44,21 @@ class Continuity(Term):
 
     def bind(self, scene: Scene) -> BoundContinuity:
         """Binds the term to the prior pose."""
-        skeleton = scene.body.skeleton
+        weights = self._weights(scene.body.skeleton)
+        return BoundContinuity(scene.body.skeleton, scene.prior, weights, np.diag(weights))
+
+    def compiled(self, body: Body, primitives: Primitives) -> CompiledJoints:
+        """Returns the term as a compiled function."""
+        return CompiledJoints(respond_joints, table=self._weights(body.skeleton)[:, None])
+
+    def _weights(self, skeleton: Skeleton) -> Array:
+        """Returns the weights (n,) of the squared steps; those of the root are zero."""
         usual = np.full(skeleton.dofs, self.joint_deg)
         for name, degrees in self.joints_deg.items():
             usual[skeleton.dofs_of(name)] = degrees
         weights = self.weight / np.radians(usual) ** 2
         weights[: skeleton.ball_dofs.start] = 0.0
-        return BoundContinuity(skeleton, scene.prior, weights, np.diag(weights))
+        return np.asarray(weights)
 
 
 @dataclass(frozen=True)

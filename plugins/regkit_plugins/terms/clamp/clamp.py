@@ -6,11 +6,15 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
+from regkit.body import Body
 from regkit.config.quantities import Weight
+from regkit.gaussians.compiled_overlap import bind
+from regkit.gaussians.compiled_similarity import COLUMNS, shows_surface
 from regkit.gaussians.overlap import SELF_OVERLAP, Overlap
-from regkit.interfaces import Response, Scene, Term
+from regkit.interfaces import CompiledEnergy, Response, Scene, Term
 from regkit.primitives import Gaussians, Placed, Primitives
 from regkit.system.arrays import Array
+from regkit_plugins.terms.clamp.compiled import respond
 
 
 class Clamp(Term):
@@ -32,6 +36,14 @@ class Clamp(Term):
     def bind(self, scene: Scene) -> BoundClamp:
         """Binds the term to the data of a frame."""
         return BoundClamp(self, scene)
+
+    def compiled(self, body: Body, primitives: Primitives) -> CompiledEnergy | None:
+        """Returns the term as compiled functions, for Gaussians."""
+        surface = shows_surface(primitives)
+        if surface is None:
+            return None
+        numbers = (surface, self.covariance == "frozen", self.weight)
+        return CompiledEnergy(respond, numbers, bind=bind, state=(len(primitives), COLUMNS))
 
 
 class BoundClamp(Overlap):

@@ -10,8 +10,11 @@ from pydantic import Field
 
 from regkit.config.quantities import Iterations, Tolerance, Weight
 from regkit.interfaces import LimitKeeping, Problem, Solution, Solver
+from regkit.registration import CompiledProblem
+from regkit.registration.compiled_problem import ProblemArrays
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError, DataError
+from regkit_plugins.solvers.gauss_newton.compiled import ENDED, MESSAGES, NOT_FINITE, minimize
 
 
 class GaussNewton(Solver):
@@ -42,6 +45,8 @@ class GaussNewton(Solver):
             ConfigError: If the kernel or a term does not provide curvature.
             DataError: If the value, gradient or matrix at the start is not finite.
         """
+        if isinstance(problem, CompiledProblem) and problem.arrays is not None:
+            return self._minimized(problem, problem.arrays)
         x = problem.projected(problem.start)
         value, gradient, matrix = _equations(problem, x)
         if not (np.isfinite(value) and np.isfinite(gradient).all() and np.isfinite(matrix).all()):
@@ -76,6 +81,16 @@ class GaussNewton(Solver):
             else:
                 damping *= 10.0
         return Solution(x, value, False, self.max_iterations, evaluations, "max_iterations reached")
+
+    def _minimized(self, problem: CompiledProblem, arrays: ProblemArrays) -> Solution:
+        """Returns the same point by compiled loops."""
+        x = problem.start.copy()
+        settings = (self.max_iterations, self.value_tolerance, self.damping, self.resting)
+        value, iterations, evaluations, why = minimize(arrays, np.array(settings, float), x)
+        if why == NOT_FINITE:
+            raise DataError(f"the energy ({value}) or its gradient at the start is not finite")
+        converged = why != ENDED
+        return Solution(x, value, converged, iterations, evaluations, MESSAGES[why])
 
 
 def _equations(problem: Problem, x: Array) -> tuple[float, Array, Array]:

@@ -1,0 +1,177 @@
+"""Compiled parts: what a kernel, a term or a solver may offer beside its readable form.
+
+A method runs compiled as a whole if all its parts offer a compiled function, and reads as before if
+one does not. The functions below are prototypes: a part's function has the same annotations, and
+the conformance tests hold it to the readable form. A part's constants are ``numbers`` and a
+``table``; what it computes once a frame goes into its ``state``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from regkit.observation.arrays import ObservationArrays
+from regkit.primitives.arrays import PrimitiveArrays
+from regkit.skeleton.arrays import SkeletonArrays
+from regkit.system.arrays import Array
+from regkit.system.compiled import Compiled
+from regkit.system.machine_types import Matrix, Stack, Vector
+from regkit.system.pointers import Pointer
+
+
+class SceneArrays(NamedTuple):
+    """The state at the start of a frame's registration; see ``Scene``.
+
+    Attributes:
+        data: The frame's data.
+        primitives: The primitives in the frames of their segments.
+        weights: Weights of the primitives in this frame, with their visibility, (K,).
+        centres: Positions of the primitives in the start pose, (K, 3) [m].
+        axes: R_world_primitive in the start pose, (K, 3, 3).
+        smoothing: Standard deviation of a Gaussian that smooths the energy over space [m].
+    """
+
+    data: ObservationArrays
+    primitives: PrimitiveArrays
+    weights: Vector
+    centres: Matrix
+    axes: Stack
+    smoothing: float
+
+
+def bind(scene: SceneArrays, numbers: Vector, table: Matrix, state: Matrix) -> None:
+    """Writes what an energy needs of a frame into its state."""
+
+
+def respond(
+    scene: SceneArrays,
+    centres: Matrix,
+    axes: Stack,
+    numbers: Vector,
+    table: Matrix,
+    state: Matrix,
+    order: int,
+    wrenches: Matrix,
+    stiffness: Stack,
+) -> float:  # type: ignore[empty-body]
+    """Returns the energy of placed primitives and adds its derivatives; see ``Response``.
+
+    Args:
+        scene: The state at the start.
+        centres: Positions of the primitives, (K, 3) [m].
+        axes: R_world_primitive, (K, 3, 3).
+        numbers: The part's numbers.
+        table: The part's table.
+        state: The part's state.
+        order: 0 for the energy alone, 1 for wrenches too, 2 for blocks too.
+        wrenches: Added to, (K, 6).
+        stiffness: Added to, (K, 6, 6).
+    """
+
+
+def explain(
+    scene: SceneArrays,
+    centres: Matrix,
+    axes: Stack,
+    numbers: Vector,
+    table: Matrix,
+    state: Matrix,
+    probability: Vector,
+) -> None:
+    """Writes the probability (N,) that each point is an inlier; NaN if it is unknown."""
+
+
+def weigh(scene: SceneArrays, numbers: Vector, table: Matrix, factors: Vector) -> None:
+    """Writes the factors (K,) of the primitives' weights; see ``VisibilityWeights``."""
+
+
+def respond_joints(
+    skeleton: SkeletonArrays,
+    prior_balls: Matrix,
+    prior_hinges: Vector,
+    balls: Matrix,
+    hinges: Vector,
+    numbers: Vector,
+    table: Matrix,
+    force: Vector,
+    matrix: Matrix,
+) -> float:  # type: ignore[empty-body]
+    """Returns an energy of the joints and adds its derivatives; see ``JointResponse``.
+
+    Args:
+        skeleton: The skeleton.
+        prior_balls: Quaternions of the prior pose, (n_ball, 4).
+        prior_hinges: Hinge angles of the prior pose, (n_hinge,) [rad].
+        balls: Quaternions of the pose, (n_ball, 4).
+        hinges: Hinge angles of the pose, (n_hinge,) [rad].
+        numbers: The part's numbers.
+        table: The part's table.
+        force: Added to, (n,).
+        matrix: Added to, (n, n).
+    """
+
+
+BIND, RESPOND, EXPLAIN = Pointer(bind), Pointer(respond), Pointer(explain)
+WEIGH, RESPOND_JOINTS = Pointer(weigh), Pointer(respond_joints)
+
+
+def _nothing() -> Array:
+    return np.zeros((0, 0))
+
+
+@dataclass(frozen=True)
+class CompiledEnergy:
+    """An energy of the primitives: a kernel, or a term that is one.
+
+    Attributes:
+        respond: Compiled ``respond``.
+        numbers: Numbers that it needs.
+        table: Rows of numbers that it needs, (R, C).
+        bind: Compiled ``bind``, if it has a state.
+        state: Shape of the state.
+        explain: Compiled ``explain``, of a kernel.
+    """
+
+    respond: Compiled[Any, float]
+    numbers: tuple[float, ...] = ()
+    table: Array = field(default_factory=_nothing)
+    bind: Compiled[Any, None] | None = None
+    state: tuple[int, int] = (0, 0)
+    explain: Compiled[Any, None] | None = None
+
+
+@dataclass(frozen=True)
+class CompiledWeights:
+    """Weights of the primitives.
+
+    Attributes:
+        weigh: Compiled ``weigh``.
+        numbers: Numbers that it needs.
+        table: Rows of numbers that it needs, (R, C).
+    """
+
+    weigh: Compiled[Any, None]
+    numbers: tuple[float, ...] = ()
+    table: Array = field(default_factory=_nothing)
+
+
+@dataclass(frozen=True)
+class CompiledJoints:
+    """An energy of the joints.
+
+    Attributes:
+        respond: Compiled ``respond_joints``.
+        numbers: Numbers that it needs.
+        table: Rows of numbers that it needs, (R, C).
+    """
+
+    respond: Compiled[Any, float]
+    numbers: tuple[float, ...] = ()
+    table: Array = field(default_factory=_nothing)
+
+
+CompiledPart = CompiledEnergy | CompiledWeights | CompiledJoints
+"""What a term may offer."""

@@ -1,0 +1,159 @@
+"""The energy of one frame by compiled functions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from regkit.interfaces import Multipliers
+from regkit.interfaces.compiled import SceneArrays
+from regkit.observation import Observation
+from regkit.registration.compiled_plan import (
+    PoseArrays,
+    bind_parts,
+    derivatives,
+    explained,
+    kernel_energy,
+)
+from regkit.registration.compiled_problem import ProblemArrays
+from regkit.registration.coordinates import Coordinates
+from regkit.registration.energy import FrameEnergy
+from regkit.registration.plan import Plan
+from regkit.registration.pose_problem import PoseProblem
+from regkit.registration.tangent import TangentCoordinates
+from regkit.skeleton import Pose
+from regkit.system.arrays import Array
+
+
+@dataclass(frozen=True, eq=False)
+class PlannedEnergy(FrameEnergy):
+    """A plan bound to a frame at a pose.
+
+    Attributes:
+        plan: The plan.
+        scene: The scene to which its parts are bound.
+        prior: Pose to which unobserved joints stay close.
+        states: States of the parts.
+    """
+
+    plan: Plan
+    scene: SceneArrays
+    prior: PoseArrays
+    states: Array
+
+    @classmethod
+    def of(
+        cls, plan: Plan, observation: Observation, pose: Pose, prior: Pose, smoothing: float
+    ) -> PlannedEnergy | None:
+        """Binds a plan to a frame; None if its points differ in variance.
+
+        Args:
+            plan: The plan.
+            observation: The frame's data.
+            pose: Pose at which everything is bound.
+            prior: Pose to which unobserved joints stay close.
+            smoothing: Standard deviation of a Gaussian that smooths the energy over space [m].
+        """
+        data, count = observation.arrays, len(plan.primitives.weights)
+        if data is None:
+            return None
+        scene = SceneArrays(
+            data,
+            plan.primitives,
+            np.empty(count),
+            np.empty((count, 3)),
+            np.empty((count, 3, 3)),
+            float(smoothing),
+        )
+        states = plan.states()
+        bind_parts(plan.arrays, plan.body.skeleton.arrays, scene, _arrays(pose), states)
+        return cls(plan, scene, _arrays(prior), states)
+
+    def of_kernel(self, pose: Pose) -> float:
+        """Returns the energy of the kernel alone in a pose."""
+        skeleton = self.plan.body.skeleton.arrays
+        return kernel_energy(self.plan.arrays, skeleton, self.scene, _arrays(pose), self.states)
+
+    def total(self, pose: Pose) -> float:
+        """Returns the energy of the kernel and all terms in a pose."""
+        return self.derivatives(pose, 0)[0]
+
+    def inlier_probability(self, pose: Pose) -> Array:
+        """Returns the inlier probability of each point in a pose, (N,); NaN if it is unknown."""
+        skeleton = self.plan.body.skeleton.arrays
+        probability = np.empty(len(self.scene.data.points))
+        explained(self.plan.arrays, skeleton, self.scene, _arrays(pose), self.states, probability)
+        return probability
+
+    def derivatives(self, pose: Pose, order: int) -> tuple[float, Array, Array]:
+        """Returns energy, force (n,) and Gauss-Newton matrix (n, n), up to an order."""
+        skeleton = self.plan.body.skeleton
+        force, matrix = np.zeros(skeleton.dofs), np.zeros((skeleton.dofs, skeleton.dofs))
+        energy = derivatives(
+            self.plan.arrays,
+            skeleton.arrays,
+            self.scene,
+            self.prior,
+            _arrays(pose),
+            self.states,
+            order,
+            force,
+            matrix,
+        )
+        return energy, force, matrix
+
+    def problem(self, coordinates: Coordinates, multipliers: Multipliers | None) -> CompiledProblem:
+        """Returns the registration problem in given coordinates of the pose."""
+        return CompiledProblem(self, coordinates, multipliers)
+
+
+class CompiledProblem(PoseProblem):
+    """The registration problem of a plan.
+
+    Args:
+        energy: The plan, bound to a frame.
+        coordinates: Coordinates around the start pose.
+        multipliers: Multipliers of a similar problem's solution, for a warm start.
+    """
+
+    def __init__(
+        self, energy: PlannedEnergy, coordinates: Coordinates, multipliers: Multipliers | None
+    ) -> None:
+        super().__init__(coordinates, multipliers)
+        self._energy = energy
+
+    def value_and_force(self, pose: Pose) -> tuple[float, Array]:
+        """Returns the energy of a pose and its derivative to the degrees of freedom (n,)."""
+        return self._energy.derivatives(pose, 1)[:2]
+
+    def value_force_and_matrix(self, pose: Pose) -> tuple[float, Array, Array]:
+        """Returns the energy, the force (n,) and the Gauss-Newton matrix (n, n)."""
+        return self._energy.derivatives(pose, 2)
+
+    @cached_property
+    def arrays(self) -> ProblemArrays | None:
+        """The problem as compiled solvers take it; None for other coordinates than steps."""
+        if not isinstance(self._coordinates, TangentCoordinates):
+            return None
+        energy = self._energy
+        return ProblemArrays(
+            energy.plan.arrays,
+            energy.plan.body.skeleton.arrays,
+            energy.scene,
+            energy.prior,
+            _arrays(self._coordinates.start),
+            energy.states,
+            self.lower,
+            self.upper,
+        )
+
+
+def _arrays(pose: Pose) -> PoseArrays:
+    """Returns a pose as compiled functions take it."""
+    return PoseArrays(
+        np.array(pose.root, dtype=np.float64),
+        np.array(pose.balls, dtype=np.float64),
+        np.array(pose.hinges, dtype=np.float64),
+    )
