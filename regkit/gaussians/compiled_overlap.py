@@ -21,7 +21,7 @@ from regkit.system.compiled import compiled
 from regkit.system.machine_types import Matrix, Stack, Vector
 
 
-@compiled
+@compiled(python=False)
 def bind(scene: SceneArrays, numbers: Vector, table: Matrix, state: Matrix) -> None:
     """Writes the logarithms of the weights."""
     start_view(scene, numbers, state)
@@ -29,7 +29,7 @@ def bind(scene: SceneArrays, numbers: Vector, table: Matrix, state: Matrix) -> N
         state[k, LOG_WEIGHT] = log(scene.weights[k])
 
 
-@compiled
+@compiled(python=False)
 def respond(
     scene: SceneArrays,
     centres: Matrix,
@@ -58,7 +58,7 @@ def respond(
     return energy
 
 
-@compiled
+@compiled(python=False)
 def explain(
     scene: SceneArrays,
     centres: Matrix,

@@ -19,7 +19,7 @@ from regkit.system.machine_types import (
 from regkit.system.single_precision import LOG2_E, logarithm, power_of_two
 
 
-@compiled(reordered=True)
+@compiled(reordered=True, python=False)
 def pair_densities(
     points: SingleMatrix,
     means: Matrix,
@@ -56,7 +56,7 @@ def pair_densities(
             total[j] += density
 
 
-@compiled(reordered=True)
+@compiled(reordered=True, python=False)
 def pair_moments(
     points: SingleMatrix,
     means: Matrix,
@@ -101,7 +101,7 @@ def pair_moments(
         own[2, 0], own[2, 1], own[2, 2], own[2, 3] = xz, yz, zz, sz
 
 
-@compiled(reordered=True)
+@compiled(reordered=True, python=False)
 def weighted_logarithms(weights: SingleVector, total: SingleVector) -> float:
     """Returns sum w log(total)."""
     energy = 0.0

@@ -30,10 +30,12 @@ LOG_WEIGHT, LOG_DETERMINANT, LOG_VOLUME, MEAN, PRECISION, COLUMNS = 0, 1, 2, 3, 
 
 def shows_surface(primitives: Primitives) -> bool | None:
     """Returns whether primitives show their visible side; None for other types of primitives."""
-    return {Gaussians: False, SurfaceGaussians: True}.get(type(primitives))
+    if type(primitives) is SurfaceGaussians:
+        return True
+    return False if type(primitives) is Gaussians else None
 
 
-@compiled
+@compiled(python=False)
 def start_view(scene: SceneArrays, numbers: Vector, state: Matrix) -> View:
     """Returns the view in the start pose, and writes it into the state."""
     variance = scene.data.variance + scene.smoothing**2
@@ -48,7 +50,7 @@ def start_view(scene: SceneArrays, numbers: Vector, state: Matrix) -> View:
     return view
 
 
-@compiled
+@compiled(python=False)
 def view_now(
     scene: SceneArrays, centres: Matrix, axes: Stack, numbers: Vector, state: Matrix
 ) -> View:
@@ -59,7 +61,7 @@ def view_now(
     return _view(scene, centres, axes, numbers, variance)
 
 
-@compiled
+@compiled(python=False)
 def densities_now(
     scene: SceneArrays,
     view: View,
@@ -89,7 +91,7 @@ def densities_now(
     return means
 
 
-@compiled
+@compiled(python=False)
 def _view(
     scene: SceneArrays, centres: Matrix, axes: Stack, numbers: Vector, variance: float
 ) -> View:
@@ -99,7 +101,7 @@ def _view(
     return view_of_volumes(centres, axes, scales, variance)
 
 
-@compiled
+@compiled(python=False)
 def _frozen(centres: Matrix, state: Matrix) -> View:
     """Returns the view in the start pose, moved with the centres."""
     count = len(centres)

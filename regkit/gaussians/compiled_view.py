@@ -44,7 +44,7 @@ class View(NamedTuple):
     distances: Matrix
 
 
-@compiled
+@compiled(python=False)
 def view_of_volumes(centres: Matrix, axes: Stack, scales: Matrix, variance: float) -> View:
     """Returns the view of whole Gaussians, for a data variance [m^2]."""
     count = len(centres)
@@ -64,7 +64,7 @@ def view_of_volumes(centres: Matrix, axes: Stack, scales: Matrix, variance: floa
     return View(centres, precisions, determinants, volumes, none, none, few, few, one, one)
 
 
-@compiled
+@compiled(python=False)
 def view_of_visible_sides(centres: Matrix, axes: Stack, scales: Matrix, variance: float) -> View:
     """Returns the view of the visible sides for a camera at the origin, for a data variance."""
     means, covariances, whole, pulled, rays, reaches, distances = visible_sides(
@@ -79,7 +79,7 @@ def view_of_visible_sides(centres: Matrix, axes: Stack, scales: Matrix, variance
     )
 
 
-@compiled
+@compiled(python=False)
 def add_forces(
     view: View,
     centres: Matrix,

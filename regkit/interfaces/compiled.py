@@ -17,9 +17,9 @@ from regkit.observation.arrays import ObservationArrays
 from regkit.primitives.arrays import PrimitiveArrays
 from regkit.skeleton.arrays import SkeletonArrays
 from regkit.system.arrays import Array
+from regkit.system.calls import Pointer
 from regkit.system.compiled import Compiled
 from regkit.system.machine_types import Matrix, Stack, Vector
-from regkit.system.pointers import Pointer
 
 
 class SceneArrays(NamedTuple):
@@ -56,7 +56,7 @@ def respond(
     order: int,
     wrenches: Matrix,
     stiffness: Stack,
-) -> float:  # type: ignore[empty-body]
+) -> float:
     """Returns the energy of placed primitives and adds its derivatives; see ``Response``.
 
     Args:
@@ -70,6 +70,7 @@ def respond(
         wrenches: Added to, (K, 6).
         stiffness: Added to, (K, 6, 6).
     """
+    raise NotImplementedError
 
 
 def explain(
@@ -98,7 +99,7 @@ def respond_joints(
     table: Matrix,
     force: Vector,
     matrix: Matrix,
-) -> float:  # type: ignore[empty-body]
+) -> float:
     """Returns an energy of the joints and adds its derivatives; see ``JointResponse``.
 
     Args:
@@ -112,6 +113,7 @@ def respond_joints(
         force: Added to, (n,).
         matrix: Added to, (n, n).
     """
+    raise NotImplementedError
 
 
 BIND, RESPOND, EXPLAIN = Pointer(bind), Pointer(respond), Pointer(explain)

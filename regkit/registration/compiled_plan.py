@@ -63,7 +63,7 @@ class PoseArrays(NamedTuple):
     hinges: Vector
 
 
-@compiled
+@compiled(python=False)
 def placed_primitives(
     skeleton: SkeletonArrays,
     primitives: PrimitiveArrays,
@@ -72,7 +72,7 @@ def placed_primitives(
     axes: Stack,
 ) -> Stack:
     """Writes centres (K, 3) [m] and axes (K, 3, 3) in a pose; returns T_world_link (L, 4, 4)."""
-    links = place_links(
+    links: Stack = place_links(
         skeleton.link_offsets,
         skeleton.link_parents,
         pose.root,
@@ -125,7 +125,8 @@ def kernel_energy(
     wrenches, stiffness = np.empty((0, 6)), np.empty((0, 6, 6))
     table, state = plan.table[: plan.table_rows[1]], states[: plan.state_rows[1]]
     arguments = (scene, centres, axes, plan.numbers[0], table, state, 0, wrenches, stiffness)
-    return RESPOND(plan.functions[0, 1], arguments)
+    energy: float = RESPOND(plan.functions[0, 1], arguments)
+    return energy
 
 
 @compiled
@@ -197,7 +198,7 @@ def derivatives(
     return energy
 
 
-@compiled
+@compiled(python=False)
 def force_on_bones(
     skeleton: SkeletonArrays,
     primitives: PrimitiveArrays,
@@ -227,7 +228,7 @@ def force_on_bones(
         force[dof] = total
 
 
-@compiled
+@compiled(python=False)
 def matrix_on_bones(
     skeleton: SkeletonArrays,
     primitives: PrimitiveArrays,
@@ -268,7 +269,7 @@ def matrix_on_bones(
                 matrix[dof, other] = 0.0
 
 
-@compiled
+@compiled(python=False)
 def _twists(skeleton: SkeletonArrays, pose: PoseArrays, links: Stack, dofs: int) -> Matrix:
     """Returns the world twist (n, 6) of each degree of freedom about the root's origin."""
     reference = np.empty(3)

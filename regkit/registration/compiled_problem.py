@@ -47,7 +47,7 @@ class ProblemArrays(NamedTuple):
     upper: Vector
 
 
-@compiled
+@compiled(python=False)
 def whole_step(limits: LimitArrays, hinges: int, x: Vector) -> Vector:
     """Returns the step (n,) of all degrees of freedom at x (m,), with those of coupled hinges.
 
@@ -64,7 +64,7 @@ def whole_step(limits: LimitArrays, hinges: int, x: Vector) -> Vector:
     return step
 
 
-@compiled
+@compiled(python=False)
 def coupled_hinges(limits: LimitArrays, hinges: Vector) -> Vector:
     """Returns angles (n_hinge,) [rad] with the followers set from their leaders."""
     coupled = np.empty(len(hinges))
@@ -76,7 +76,7 @@ def coupled_hinges(limits: LimitArrays, hinges: Vector) -> Vector:
     return coupled
 
 
-@compiled
+@compiled(python=False)
 def pose_at(skeleton: SkeletonArrays, start: PoseArrays, x: Vector) -> PoseArrays:
     """Returns the pose at coordinates x (m,)."""
     first, count = skeleton.first, len(start.balls)
@@ -94,7 +94,7 @@ def pose_at(skeleton: SkeletonArrays, start: PoseArrays, x: Vector) -> PoseArray
     return PoseArrays(root, balls, coupled_hinges(skeleton.limits, angles))
 
 
-@compiled
+@compiled(python=False)
 def project(skeleton: SkeletonArrays, start: PoseArrays, x: Vector) -> None:
     """Replaces x (m,) by the coordinates of its pose, projected onto all limits."""
     limits, pose = skeleton.limits, pose_at(skeleton, start, x)
@@ -117,7 +117,7 @@ def project(skeleton: SkeletonArrays, start: PoseArrays, x: Vector) -> None:
             x[at] = inside - start.hinges[hinge]
 
 
-@compiled
+@compiled(python=False)
 def equations(problem: ProblemArrays, x: Vector, gradient: Vector, matrix: Matrix) -> float:
     """Returns the energy at x (m,) and writes its gradient (m,) and Gauss-Newton matrix (m, m)."""
     skeleton = problem.skeleton
@@ -142,7 +142,7 @@ def equations(problem: ProblemArrays, x: Vector, gradient: Vector, matrix: Matri
     return energy
 
 
-@compiled
+@compiled(python=False)
 def _through_rotations(x: Vector, first: int, last: int, force: Vector, square: Matrix) -> None:
     """Applies D^T f and D^T H D with the right Jacobians of the rotation vectors in x, in place."""
     blocks = step_jacobian(x, first, last)
@@ -162,7 +162,7 @@ def _through_rotations(x: Vector, first: int, last: int, force: Vector, square: 
             force[i] = u * blocks[a, i] + v * blocks[a + 1, i] + w * blocks[a + 2, i]
 
 
-@compiled
+@compiled(python=False)
 def _through_couplings(
     limits: LimitArrays,
     hinges: int,

@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from regkit.body import Body
 from regkit.interfaces import (
@@ -22,9 +24,9 @@ from regkit.primitives import Primitives
 from regkit.primitives.arrays import PrimitiveArrays
 from regkit.registration.compiled_plan import PlanArrays
 from regkit.system.arrays import Array
+from regkit.system.calls import Pointer
 from regkit.system.compiled import Compiled
 from regkit.system.errors import PluginError
-from regkit.system.pointers import Pointer
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,7 +113,7 @@ def _addresses(part: CompiledPart) -> tuple[int, int, int]:
     return 0, _address(part.respond, RESPOND_JOINTS), 0
 
 
-def _address(function: Compiled[..., object], pointer: Pointer) -> int:
+def _address(function: Compiled[Any, Any], pointer: Pointer) -> int:
     """Returns a function's address.
 
     Raises:
@@ -121,7 +123,7 @@ def _address(function: Compiled[..., object], pointer: Pointer) -> int:
         name = f"{function.function.__module__}.{function.function.__qualname__}"
         wanted = f"{pointer.prototype.__module__}.{pointer.prototype.__qualname__}"
         raise PluginError(f"the compiled function {name} must have the annotations of {wanted}")
-    return function.address()
+    return function.address
 
 
 def _stacked(tables: Sequence[Array]) -> Array:
@@ -131,5 +133,5 @@ def _stacked(tables: Sequence[Array]) -> Array:
     return np.ascontiguousarray(np.concatenate(wide))
 
 
-def _ends(counts: Sequence[int]) -> Array:
+def _ends(counts: Sequence[int]) -> NDArray[np.int64]:
     return np.concatenate([[0], np.cumsum(counts)]).astype(np.int64)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import importlib
 from collections.abc import Callable
-from functools import update_wrapper
+from functools import cached_property, update_wrapper
+from types import FunctionType
 from typing import Any, Generic, ParamSpec, TypeVar, cast, overload
 
+from regkit.system.calls import Pointer, external
 from regkit.system.errors import PluginError
 from regkit.system.machine_types import machine_signature
 from regkit.system.optional import load_library
-from regkit.system.pointers import Pointer
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -26,53 +27,74 @@ class Compiled(Generic[P, R]):
     """A function that Numba compiles when it is first needed and caches on disk.
 
     If its annotations fix the types (``regkit.system.machine_types``), it is compiled for these
-    alone, and can be called by its address (``regkit.system.pointers``). Otherwise it is compiled
-    for the types of each call. Importing Numba takes half a second, which commands without a
-    registration avoid.
+    alone, once for all callers, and can be called by its address (``regkit.system.calls``).
+    Otherwise it is compiled for the types of each call, and becomes a part of its compiled caller.
+    Importing Numba takes half a second, which commands without a registration avoid.
     """
 
-    def __init__(self, function: Callable[P, R], *, reordered: bool) -> None:
+    def __init__(self, function: Callable[P, R], *, reordered: bool, python: bool) -> None:
         self.function = function
-        self._reordered = reordered
-        self._dispatcher: Callable[P, R] | None = None
+        self._reordered, self._python = reordered, python
         update_wrapper(self, function)
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
         """Calls the compiled function."""
-        return (self._dispatcher or self.dispatcher())(*args, **kwargs)
+        return self.dispatcher(*args, **kwargs)
 
+    @cached_property
+    def signature(self) -> Any:
+        """Numba's signature; None if the annotations do not fix the types."""
+        return machine_signature(self.function)
+
+    @cached_property
     def dispatcher(self) -> Callable[P, R]:
-        """Returns Numba's dispatcher of the function."""
-        if self._dispatcher is None:
-            names = cast(Any, self.function).__globals__
-            # Numba calls only its own functions: replace those in the globals of this one.
-            for name in self.function.__code__.co_names:
-                if isinstance(names.get(name), Compiled | Pointer):
-                    names[name] = names[name].dispatcher()
-            _listen()
-            signature = machine_signature(self.function)
+        """Numba's dispatcher of the function."""
+        # Numba calls only its own functions: replace those among the globals of this one.
+        names = dict(cast(Any, self.function).__globals__)
+        for name in self.function.__code__.co_names:
+            if isinstance(names.get(name), Compiled | Pointer):
+                names[name] = names[name].callee
+        own = cast(Any, self.function)
+        function = FunctionType(own.__code__, names, own.__name__, own.__defaults__)
+        update_wrapper(function, own)
+        _listen()
+        options: dict[str, bool | str] = {}
+        if self.signature is not None:
             # Division by zero gives inf or nan, as in NumPy, and its check does not end a loop.
-            options = {"error_model": "numpy"} if signature is not None else {}
-            compile_for = load_library("numba").njit(
-                signature, cache=True, fastmath=self._reordered, **options
-            )
-            self._dispatcher = cast(Callable[P, R], compile_for(self.function))
-            _DISPATCHERS.append(self._dispatcher)
-        return self._dispatcher
+            options = {"error_model": "numpy", "no_cfunc_wrapper": True}
+            if not self._python:
+                options["no_cpython_wrapper"] = True
+        compile_for = load_library("numba").njit(
+            self.signature, cache=True, fastmath=self._reordered, **options
+        )
+        dispatcher = cast(Callable[P, R], compile_for(function))
+        _DISPATCHERS.append(dispatcher)
+        return dispatcher
 
+    @cached_property
+    def callee(self) -> Any:
+        """What compiled functions call."""
+        if self.signature is None:
+            return self.dispatcher
+        return external(self.signature, self._name, self.address)
+
+    @property
+    def _name(self) -> str:
+        return f"{self.function.__module__}.{self.function.__qualname__}"
+
+    @cached_property
     def address(self) -> int:
-        """Returns the address of the machine code.
+        """The address of the machine code.
 
         Raises:
             PluginError: If the annotations do not fix the types.
         """
-        signature = machine_signature(self.function)
-        if signature is None:
-            name = f"{self.function.__module__}.{self.function.__qualname__}"
+        if self.signature is None:
             raise PluginError(
-                f"the compiled function {name} needs annotations of regkit.system.machine_types"
+                f"the compiled function {self._name} needs annotations of "
+                "regkit.system.machine_types"
             )
-        result = cast(Any, self.dispatcher()).get_compile_result(signature)
+        result = cast(Any, self.dispatcher).get_compile_result(self.signature)
         return int(result.library.get_pointer_to_function(result.fndesc.llvm_func_name))
 
 
@@ -81,11 +103,13 @@ def compiled(function: Callable[P, R]) -> Compiled[P, R]: ...
 
 
 @overload
-def compiled(*, reordered: bool) -> Callable[[Callable[P, R]], Compiled[P, R]]: ...
+def compiled(
+    *, reordered: bool = False, python: bool = True
+) -> Callable[[Callable[P, R]], Compiled[P, R]]: ...
 
 
 def compiled(
-    function: Callable[P, R] | None = None, *, reordered: bool = False
+    function: Callable[P, R] | None = None, *, reordered: bool = False, python: bool = True
 ) -> Compiled[P, R] | Callable[[Callable[P, R]], Compiled[P, R]]:
     """Decorator: compiles a function by Numba when it is first needed and caches it on disk.
 
@@ -94,10 +118,11 @@ def compiled(
     Args:
         function: The function.
         reordered: Whether sums may be reordered, so that long loops use vector instructions.
+        python: Whether Python calls it; one that only compiled functions call compiles faster.
     """
     if function is not None:
-        return Compiled(function, reordered=reordered)
-    return lambda decorated: Compiled(decorated, reordered=reordered)
+        return Compiled(function, reordered=reordered, python=python)
+    return lambda decorated: Compiled(decorated, reordered=reordered, python=python)
 
 
 def loaded_loops() -> int:

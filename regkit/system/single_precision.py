@@ -43,7 +43,8 @@ def power_of_two(exponent: np.float32) -> np.float32:
     whole = np.rint(x)
     r = x - whole
     power = ((((_P5 * r + _P4) * r + _P3) * r + _P2) * r + _P1) * r + _P0
-    return power * np.int32((np.int32(whole) + _BIAS) << _FRACTION).view(np.float32)
+    scale: np.float32 = np.int32((np.int32(whole) + _BIAS) << _FRACTION).view(np.float32)
+    return np.float32(power * scale)
 
 
 @compiled(reordered=True)

@@ -24,7 +24,7 @@ OUTLIERS = OWN
 """Index of the fraction of outliers among the numbers."""
 
 
-@compiled
+@compiled(python=False)
 def bind(scene: SceneArrays, numbers: Vector, table: Matrix, state: Matrix) -> None:
     """Writes the logarithms of the mixture weights, and the density of outliers."""
     view = start_view(scene, numbers, state)
@@ -45,7 +45,7 @@ def bind(scene: SceneArrays, numbers: Vector, table: Matrix, state: Matrix) -> N
     state[count, 0] = outliers / _box_volume(scene.data.points)
 
 
-@compiled
+@compiled(python=False)
 def _box_volume(points: Matrix) -> float:
     """Returns the volume [m^3] of the points' bounding box; see ``box_volume``."""
     sides, longest = np.empty(3), 0.0
@@ -61,7 +61,7 @@ def _box_volume(points: Matrix) -> float:
     return volume
 
 
-@compiled
+@compiled(python=False)
 def respond(
     scene: SceneArrays,
     centres: Matrix,
@@ -93,7 +93,7 @@ def respond(
     return energy
 
 
-@compiled
+@compiled(python=False)
 def explain(
     scene: SceneArrays,
     centres: Matrix,

@@ -21,7 +21,7 @@ HALF, RADIUS, SINE = 0, 1, 2
 _NORMAL_QUARTILE = 0.6744897501960817
 
 
-@compiled
+@compiled(python=False)
 def _residuals(
     scene: SceneArrays,
     centres: Matrix,
@@ -46,18 +46,18 @@ def _residuals(
     return owners, residuals, rows
 
 
-@compiled
+@compiled(python=False)
 def _scale(numbers: Vector, residuals: Vector, deviation: float) -> float:
     """Returns the loss's scale [m]: the given one, or that of the residuals."""
     if not isnan(numbers[SCALE]):
-        return numbers[SCALE]
+        return float(numbers[SCALE])
     sizes = np.empty(len(residuals))
     for j in range(len(sizes)):
         sizes[j] = abs(residuals[j])
     return max(np.median(sizes) / _NORMAL_QUARTILE, deviation)
 
 
-@compiled
+@compiled(python=False)
 def bind(scene: SceneArrays, numbers: Vector, table: Matrix, state: Matrix) -> None:
     """Writes what the capsules' weights cost, and in the last row the loss's scale."""
     count, most = len(scene.weights), 0.0
@@ -70,7 +70,7 @@ def bind(scene: SceneArrays, numbers: Vector, table: Matrix, state: Matrix) -> N
     state[count, 0] = hypot(_scale(numbers, residuals, deviation), scene.smoothing)
 
 
-@compiled
+@compiled(python=False)
 def respond(
     scene: SceneArrays,
     centres: Matrix,
@@ -99,7 +99,7 @@ def respond(
     return energy
 
 
-@compiled
+@compiled(python=False)
 def explain(
     scene: SceneArrays,
     centres: Matrix,

@@ -79,7 +79,7 @@ def minimize(problem: ProblemArrays, settings: Vector, x: Vector) -> tuple[float
     return value, iterations, evaluations, ENDED
 
 
-@compiled
+@compiled(python=False)
 def _are_finite(gradient: Vector, matrix: Matrix) -> bool:
     """Returns whether all entries are finite."""
     total = 0.0
@@ -90,7 +90,7 @@ def _are_finite(gradient: Vector, matrix: Matrix) -> bool:
     return total == 0.0
 
 
-@compiled
+@compiled(python=False)
 def _damped_step(
     gradient: Vector,
     matrix: Matrix,

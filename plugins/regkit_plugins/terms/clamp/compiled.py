@@ -16,7 +16,7 @@ WEIGHT = OWN
 """Index of the term's weight among the numbers."""
 
 
-@compiled
+@compiled(python=False)
 def respond(
     scene: SceneArrays,
     centres: Matrix,

@@ -8,7 +8,7 @@ from regkit.system.compiled import compiled
 from regkit.system.machine_types import Matrix, Vector
 
 
-@compiled
+@compiled(python=False)
 def respond_joints(
     skeleton: SkeletonArrays,
     prior_balls: Matrix,

@@ -15,7 +15,7 @@ OWNER, OFFSET, WIDTH, MARGIN, WEIGHT = 0, 1, 4, 5, 6
 """Columns of the table, which has a row for each sample."""
 
 
-@compiled
+@compiled(python=False)
 def respond(
     scene: SceneArrays,
     centres: Matrix,

@@ -66,7 +66,7 @@ def overlaps(
     return energy, wrenches, blocks
 
 
-@compiled
+@compiled(python=False)
 def bind(scene: SceneArrays, numbers: Vector, table: Matrix, state: Matrix) -> None:
     """Writes the pairs that are near enough to intersect."""
     near = 0
@@ -81,7 +81,7 @@ def bind(scene: SceneArrays, numbers: Vector, table: Matrix, state: Matrix) -> N
     state[0, 0] = near
 
 
-@compiled
+@compiled(python=False)
 def respond(
     scene: SceneArrays,
     centres: Matrix,

@@ -41,7 +41,7 @@ class Intersection(Term):
 
     def compiled(self, body: Body, primitives: Primitives) -> CompiledEnergy:
         """Returns the term as compiled functions."""
-        table = np.column_stack(self._pairs(primitives, body.skeleton))
+        table = np.column_stack(self._pairs(primitives, body.skeleton)).astype(np.float64)
         return CompiledEnergy(respond, table=table, bind=bind, state=(len(table) + 1, 3))
 
     def _pairs(

@@ -12,7 +12,7 @@ from regkit.system.compiled import compiled
 from regkit.system.machine_types import Matrix, Vector
 
 
-@compiled
+@compiled(python=False)
 def respond_joints(
     skeleton: SkeletonArrays,
     prior_balls: Matrix,
@@ -49,7 +49,7 @@ def respond_joints(
     return energy
 
 
-@compiled
+@compiled(python=False)
 def _ball_violation(
     skeleton: SkeletonArrays, balls: Matrix, ball: int, swings: bool, slope: Vector
 ) -> float:
@@ -77,7 +77,7 @@ def _ball_violation(
         below, above = limits.twists[ball, 0] - twist, twist - limits.twists[ball, 1]
         sign = 1.0 if above > below else -1.0
         slope[0], slope[1], slope[2] = sign * to_twist[0], sign * to_twist[1], sign * to_twist[2]
-        return max(below, above)
+        return float(max(below, above))
     sine, cosine = sin(half), cos(half)
     x, y, z, w = hamilton_product(x, y, z, w, -sine * a, -sine * b, -sine * c, cosine)
     if w < 0.0:

@@ -13,7 +13,7 @@ NEAREST = 1e-3
 """As in ``Silhouette``."""
 
 
-@compiled
+@compiled(python=False)
 def weigh(scene: SceneArrays, numbers: Vector, table: Matrix, factors: Vector) -> None:
     """Writes the visible fractions; the table has a row for each primitive: whether it hides."""
     count = len(factors)
@@ -47,7 +47,7 @@ def weigh(scene: SceneArrays, numbers: Vector, table: Matrix, factors: Vector) -
         factors[k] = max(shares[k] * shown / 5.0, numbers[0])
 
 
-@compiled
+@compiled(python=False)
 def _shown(scene: SceneArrays, x: float, y: float, z: float) -> bool:
     """Returns whether the picture would show a point if something were there."""
     image = scene.data.silhouette
@@ -60,4 +60,4 @@ def _shown(scene: SceneArrays, x: float, y: float, z: float) -> bool:
     row = int(np.rint(y / depth * image.scale[1] + image.offset[1]))
     if not (0 <= column < image.nearest.shape[0] and 0 <= row < image.nearest.shape[1]):
         return False
-    return image.nearest[column, row] > 0.0
+    return bool(image.nearest[column, row] > 0.0)

@@ -1,0 +1,98 @@
+"""Calls between compiled functions that are compiled apart.
+
+Numba makes a callee a part of every caller, and compiles it again with each. Here a call is by name
+or by address, so that a function is compiled once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cached_property
+from typing import Any
+
+from regkit.system.machine_types import machine_signature
+from regkit.system.optional import load_library
+
+
+def external(signature: Any, name: str, address: int) -> Any:
+    """Returns what compiled functions call to reach a compiled function by its name.
+
+    Args:
+        signature: Its signature.
+        name: Unique name by which machine code refers to it.
+        address: Its address in this process.
+    """
+    load_library("llvmlite.binding").add_symbol(name, address)
+    cgutils = load_library("numba.core.cgutils")
+
+    types = load_library("numba").types
+    packed = types.StarArgTuple.from_types(signature.args)
+
+    def generated(context: Any, builder: Any, _: Any, given: Any) -> Any:
+        values = cgutils.unpack_tuple(builder, given[0], len(signature.args))
+        kind = context.call_conv.get_function_type(signature.return_type, signature.args)
+        function = cgutils.get_or_insert_function(builder.module, kind, name)
+        return _called(signature, context, builder, function, values)
+
+    def call(context: Any, *arguments: Any) -> Any:
+        return signature.return_type(packed), generated
+
+    return load_library("numba.extending").intrinsic(call)
+
+
+class Pointer:
+    """A call of any compiled function with the annotations of a prototype, by its address.
+
+    In a compiled function, ``pointer(address, (argument, ...))`` calls it. So what is chosen at run
+    time, as plug-ins are, needs no compilation of its caller.
+
+    Args:
+        prototype: A function with the types; its body is never run.
+    """
+
+    def __init__(self, prototype: Callable[..., Any]) -> None:
+        self.prototype = prototype
+
+    def __call__(self, address: int, arguments: tuple[Any, ...]) -> Any:
+        """Calls the function at an address, from a compiled function only."""
+        raise TypeError("a pointer is called from compiled functions only")
+
+    def accepts(self, function: Callable[..., Any]) -> bool:
+        """Whether a function has the types of the prototype."""
+        return bool(machine_signature(function) == self._signature)
+
+    @cached_property
+    def _signature(self) -> Any:
+        return machine_signature(self.prototype)
+
+    @cached_property
+    def callee(self) -> Any:
+        """What compiled functions call."""
+        signature = self._signature
+        cgutils = load_library("numba.core.cgutils")
+        types = load_library("numba").types
+        packed = types.BaseTuple.from_types(signature.args)
+
+        def generated(context: Any, builder: Any, _: Any, given: Any) -> Any:
+            address, arguments = given
+            values = cgutils.unpack_tuple(builder, arguments, len(signature.args))
+            kind = context.call_conv.get_function_type(signature.return_type, signature.args)
+            function = builder.inttoptr(address, kind.as_pointer())
+            return _called(signature, context, builder, function, values)
+
+        def call(context: Any, address: Any, arguments: Any) -> Any:
+            return signature.return_type(types.int64, packed), generated
+
+        return load_library("numba.extending").intrinsic(call)
+
+
+def _called(signature: Any, context: Any, builder: Any, function: Any, values: Any) -> Any:
+    """Generates the call of a function; its errors are the caller's."""
+    convention = context.call_conv
+    status, result = convention.call_function(
+        builder, function, signature.return_type, signature.args, values
+    )
+    cgutils = load_library("numba.core.cgutils")
+    with cgutils.if_unlikely(builder, status.is_error):
+        convention.return_status_propagate(builder, status)
+    return result
