@@ -109,7 +109,7 @@ class LimbSearch:
         if len(self.rest):
             rest = self.rest.place(placement.transforms)
             near = near[rest.surface_distance(near) > float(self.axes.radii.max())]
-        return np.asarray(near[:: max(1, len(near) // MOST_POINTS)])
+        return np.ascontiguousarray(near[:: max(1, len(near) // MOST_POINTS)])
 
     def _data_to_model(self, places: Array, bare: Array) -> Array:
         """Returns the misfit (N,) of the unexplained points to the limb's surface."""
