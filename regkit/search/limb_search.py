@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import KDTree
+import scipy
 
 from regkit.body import Body
 from regkit.geometry.capsules import AxisPoints, Capsules
@@ -74,7 +74,11 @@ class LimbSearch:
             yield cls(body, limb, axes, body.capsules.selected(~own), balls, hinges, places)
 
     def starts(
-        self, cloud: KDTree, pose: Pose, most: int, silhouette: Silhouette | None = None
+        self,
+        cloud: scipy.spatial.KDTree,
+        pose: Pose,
+        most: int,
+        silhouette: Silhouette | None = None,
     ) -> Iterator[Pose]:
         """Yields up to ``most`` poses whose limb best covers what the rest leaves unexplained.
 
@@ -115,7 +119,9 @@ class LimbSearch:
         """Returns the misfit (N,) of the unexplained points to the limb's surface."""
         return mean_gaps(places, self.axes.radii, bare, self._cutoff)
 
-    def _model_to_data(self, places: Array, cloud: KDTree, silhouette: Silhouette | None) -> Array:
+    def _model_to_data(
+        self, places: Array, cloud: scipy.spatial.KDTree, silhouette: Silhouette | None
+    ) -> Array:
         """Returns the misfit (N,) of the limb's surface to the points."""
         gaps = np.maximum(cloud.query(places)[0] - self.axes.radii, 0.0)
         if silhouette is not None:
