@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.spatial import KDTree
+import scipy
 
 from regkit.body import Body
 from regkit.clouds import spacing
@@ -149,7 +149,7 @@ class BoundRigidMethod(Registrar):
 
     def evaluate(self, observation: Observation, pose: Pose) -> Evaluation:
         """Evaluates the distances of the data to the body's points, in units of their spacing."""
-        tree = KDTree(transformed(pose.root, self.primitives.centres))
+        tree = scipy.spatial.KDTree(transformed(pose.root, self.primitives.centres))
         distances = tree.query(observation.points)[0] / self._spacing
         inliers = np.exp(-0.5 * distances**2)
         return Evaluation(float(1.0 - inliers.mean()), inliers)

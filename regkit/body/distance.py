@@ -9,8 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.spatial import KDTree
 
 from regkit.geometry.capsules import AxisPoints, Capsules
 from regkit.skeleton import Placement
@@ -81,7 +81,7 @@ def data_to_model(
 
 
 def model_to_data(
-    axes: AxisPoints, cloud: KDTree, observable: NDArray[np.bool_] | None = None
+    axes: AxisPoints, cloud: scipy.spatial.KDTree, observable: NDArray[np.bool_] | None = None
 ) -> SurfaceDistances:
     """Returns the distances of spheres on a body's axes, in the world, to the nearest points.
 

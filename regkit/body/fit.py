@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import KDTree
+import scipy
 
 from regkit.body.body import Body
 from regkit.body.distance import model_to_data
@@ -72,7 +72,7 @@ class BodyFit:
             near = body.required.limb_radius()
             required = body.required.place(transforms)
             axes = required.axis_points(SPACING * body.size)
-            bare = model_to_data(axes, KDTree(points)).lengths
+            bare = model_to_data(axes, scipy.spatial.KDTree(points)).lengths
             if silhouette is not None:
                 bare = bare[silhouette.observable(axes.points, axes.radii + near)]
             # A body of which nothing is visible is not in sight.
@@ -83,7 +83,7 @@ class BodyFit:
             relief = _least_deviation(points) / near
         elif body.surface is not None:
             placed = body.surface.place(transforms)
-            gaps = np.asarray(KDTree(placed).query(points)[0])
+            gaps = np.asarray(scipy.spatial.KDTree(placed).query(points)[0])
             near = NEAR * body.size
             # The far side of an object is never seen, and an object may be flat.
             coverage = misfit = relief = float("nan")

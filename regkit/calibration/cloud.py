@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import KDTree
+import scipy
 
 from regkit.body.distance import SurfaceDistances, data_to_model, model_to_data
 from regkit.geometry.capsules import Capsules
@@ -34,13 +34,15 @@ class Cloud:
 
     observation: Observation
     points: Array
-    tree: KDTree
+    tree: scipy.spatial.KDTree
 
     @classmethod
     def of(cls, observation: Observation) -> Cloud:
         """Returns the cloud of a frame."""
         step = max(1, -(-len(observation.points) // MOST_POINTS))
-        return cls(observation, observation.points[::step], KDTree(observation.points))
+        return cls(
+            observation, observation.points[::step], scipy.spatial.KDTree(observation.points)
+        )
 
     def data_to_model(self, capsules: Capsules, span: float) -> SurfaceDistances:
         """Returns the distances of the points to the surface, with noise along the rays.

@@ -52,7 +52,7 @@ def align(
             autocompletion=plugin_names("method"),
             help="Method: a preset or kind, such as open3d_icp, or a mapping such as "
             "'{kind: open3d_icp, estimation: generalized}'. "
-            f"(default: {default_of(Method, 'rigid')})",
+            f"(default: {default_of('methods', 'rigid')})",
             show_default=False,
         ),
     ] = None,

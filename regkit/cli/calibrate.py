@@ -17,7 +17,6 @@ from regkit.cli.console import errors, output
 from regkit.cli.options import PluginFiles, Segmentation, Strict, default_of, run_plugin_files
 from regkit.cli.template_file import check_replaceable, write_template
 from regkit.cli.verdicts import conclude
-from regkit.interfaces import Template
 from regkit.tracking import Verdict
 
 OPENING = """\
@@ -51,7 +50,7 @@ def calibrate(
             autocompletion=plugin_names("template"),
             help="Body in the recording: a name such as hand, a template's YAML file, or a mapping "
             "such as '{kind: hand, side: left}'. "
-            f"(default: the experiment's template, or {default_of(Template)})",
+            f"(default: the experiment's template, or {default_of('templates')})",
             show_default=False,
         ),
     ] = None,

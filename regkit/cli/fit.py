@@ -18,7 +18,6 @@ from regkit.cli.template_file import check_replaceable, write_template
 from regkit.fitting.bones import read_bone_map
 from regkit.fitting.template import FittedTemplate, parameters_of
 from regkit.interchange.meshes import read_mesh
-from regkit.interfaces import Template
 from regkit.system.errors import RegkitError
 from regkit.system.progress import working
 
@@ -44,7 +43,7 @@ def fit(
             metavar="TEMPLATE",
             autocompletion=plugin_names("template"),
             help="Template that provides the joints: a name such as hand, a YAML file, or a "
-            f"mapping such as '{{kind: hand, side: left}}'. (default: {default_of(Template)})",
+            f"mapping such as '{{kind: hand, side: left}}'. (default: {default_of('templates')})",
             show_default=False,
         ),
     ] = None,

@@ -11,16 +11,14 @@ import typer
 
 from regkit.cli.completion import plugin_names
 from regkit.config.defaults import default_name
-from regkit.config.plugin import Plugin
 from regkit.config.registry import run_plugin_file
-from regkit.interfaces import Method, Segmenter, Template
 from regkit.system.errors import PluginError, RegkitError
 
 
-def default_of(slot: type[Plugin], purpose: str = "") -> str:
-    """Returns the name of a slot's declared default for a help text."""
+def default_of(group: str, purpose: str = "") -> str:
+    """Returns the name of the declared default of a group, such as methods, for a help text."""
     try:
-        return default_name(slot.group, purpose)
+        return default_name(f"regkit.{group}", purpose)
     except PluginError:
         return "none is installed"
 
@@ -33,7 +31,7 @@ TemplateName = Annotated[
         autocompletion=plugin_names("template"),
         help="Body to register: a name such as human or hand, a template's YAML file, a rigid "
         "cloud or mesh, or a mapping such as '{kind: hand, side: left}'. "
-        f"(default: {default_of(Template)})",
+        f"(default: {default_of('templates')})",
         show_default=False,
     ),
 ]
@@ -45,7 +43,7 @@ MethodName = Annotated[
         metavar="METHOD",
         autocompletion=plugin_names("method"),
         help="Method: a preset such as best or spheres, a kind, a preset's YAML file, or a mapping "
-        f"such as '{{preset: best, terms: []}}'. (default: {default_of(Method)})",
+        f"such as '{{preset: best, terms: []}}'. (default: {default_of('methods')})",
         show_default=False,
     ),
 ]
@@ -70,7 +68,7 @@ Segmentation = Annotated[
         autocompletion=plugin_names("segmentation"),
         help="Segmenters that take the body out of the scene, in order: names such as "
         "background,pieces, a YAML list such as '[planes, {kind: pieces, choose: moving}]', or [] "
-        f"for none. (default: {default_of(Segmenter)})",
+        f"for none. (default: {default_of('segmenters')})",
         show_default=False,
     ),
 ]

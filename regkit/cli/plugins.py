@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-import inspect
-from typing import Annotated
+import importlib
+import json
+from dataclasses import asdict
+from typing import Annotated, Any
 
 import typer
 from rich.markup import escape
@@ -12,13 +14,9 @@ from rich.table import Table
 from regkit.cli.completion import plugin_names
 from regkit.cli.console import output
 from regkit.cli.options import PluginFiles, run_plugin_files
-from regkit.config.first_sentence import opening_sentence
-from regkit.config.installed import OWN, Installed
-from regkit.config.model import did_you_mean
-from regkit.config.plugin import Plugin
-from regkit.config.preset import preset_file, presets_of
-from regkit.interfaces import SLOTS, Solver
-from regkit.system.errors import PluginError, RegkitError
+from regkit.config.fingerprint import plugins_fingerprint
+from regkit.config.registry import any_registered
+from regkit.system.cache import cache_folder
 
 WIDTH = 20
 """Width of the column of names."""
@@ -42,18 +40,43 @@ def plugins(
     """
     run_plugin_files(plugin)
     if kind is not None:
-        _print_fields(kind)
+        importlib.import_module("regkit.cli.plugin_fields").print_fields(kind)
         return
-    for slot in SLOTS:
-        group = slot.group.removeprefix("regkit.")
-        kinds = slot.available().items()
-        _print_list(group, {name: _summary(slot, name) + _by(one) for name, one in kinds})
-        presets = presets_of(slot.group).items()
-        _print_list(
-            f"{group}, presets",
-            {name: _preset_summary(slot.group, name) + _by(point) for name, point in presets},
-        )
-    output.print(_limits_table())
+    listed = _listed()
+    for title, summaries in listed["groups"].items():
+        _print_list(title, summaries)
+    table = Table(
+        "solver", "hinges", "ball joints (swing, twist)", "hard_limits", title="joint limits"
+    )
+    for row in listed["limits"]:
+        table.add_row(*map(escape, row))
+    output.print(table)
+
+
+def _listed() -> dict[str, Any]:
+    """Returns a ``PluginList`` as data.
+
+    To import all plug-ins takes more than a second. The list is kept in the cache folder, under the
+    fingerprint of all plug-ins, and only if none of them is broken.
+    """
+    file, fingerprint = cache_folder() / "plugins.json", plugins_fingerprint()
+    if not any_registered():
+        try:
+            kept = json.loads(file.read_text(encoding="utf-8"))
+            if kept["fingerprint"] == fingerprint:
+                return {"groups": kept["groups"], "limits": kept["limits"]}
+        except (OSError, ValueError, KeyError, TypeError):
+            pass  # There is no list yet, or an incomplete one.
+    made = importlib.import_module("regkit.cli.plugin_list").PluginList.made()
+    found: dict[str, Any] = asdict(made)
+    if not (made.broken or any_registered()):
+        write_json = importlib.import_module("regkit.system.json_files").write_json
+        try:
+            file.parent.mkdir(parents=True, exist_ok=True)
+            write_json(file, {"fingerprint": fingerprint, **found})
+        except OSError:
+            pass  # A folder that cannot be written only costs time.
+    return found
 
 
 def _print_list(title: str, summaries: dict[str, str]) -> None:
@@ -67,68 +90,3 @@ def _print_list(title: str, summaries: dict[str, str]) -> None:
     output.print(title, style="bold")
     output.print(table)
     output.print()
-
-
-def _limits_table() -> Table:
-    """Returns a table of how each solver enforces joint limits."""
-    table = Table(
-        "solver", "hinges", "ball joints (swing, twist)", "hard_limits", title="joint limits"
-    )
-    for name in Solver.available():
-        try:
-            limits = Solver.load(name).limits
-        except PluginError:
-            continue  # The list of plug-ins reports why it is broken.
-        table.add_row(
-            name, escape(limits.hinges), escape(limits.balls), "yes" if limits.hard else "refused"
-        )
-    return table
-
-
-def _print_fields(kind: str) -> None:
-    named = [slot for slot in SLOTS if kind in slot.available()]
-    presets = [slot for slot in SLOTS if kind in presets_of(slot.group)]
-    for slot in presets:
-        file = preset_file(slot.group, kind)
-        output.print(f"# {file}")
-        text = file.read_text(encoding="utf-8")
-        output.print(text)
-    if not named and not presets:
-        kinds = [name for slot in SLOTS for name in (*slot.available(), *presets_of(slot.group))]
-        raise PluginError(f"no plug-in '{kind}' in any group" + did_you_mean(kind, kinds))
-    for slot in named:
-        found = slot.load(kind)
-        table = Table("field", "default", "description", title=f"{slot.group}: {kind}")
-        for name, field in found.model_fields.items():
-            default = "required"
-            if not field.is_required():
-                default = str(field.get_default(call_default_factory=True, validated_data={}))
-            table.add_row(
-                name, escape(default), escape(" ".join((field.description or "").split()))
-            )
-        output.print(table)
-        output.print(inspect.cleandoc(found.__doc__ or ""), soft_wrap=False)
-
-
-def _summary(slot: type[Plugin], kind: str) -> str:
-    try:
-        documentation = inspect.cleandoc(slot.load(kind).__doc__ or "")
-    except PluginError as error:
-        return f"broken: {error}"
-    return documentation.splitlines()[0] if documentation else "(its class has no docstring)"
-
-
-def _preset_summary(group: str, name: str) -> str:
-    """Returns the first sentence of the comment at the top of a preset's file."""
-    try:
-        text = preset_file(group, name).read_text(encoding="utf-8")
-    except (RegkitError, OSError) as error:
-        return f"broken: {error}"
-    return opening_sentence(text)
-
-
-def _by(origin: Installed | type[Plugin]) -> str:
-    """Returns the distribution of a plug-in that is not of regkit itself."""
-    if isinstance(origin, Installed):
-        return "" if origin.distributions == (OWN,) else f" [{origin.versions}]"
-    return f" [{origin.__module__}]"

@@ -93,7 +93,18 @@ def installed(group: str) -> dict[str, Installed]:
 
 def entry_points(group: str) -> list[EntryPoint]:
     """Returns the entry points of a group from all distributions."""
-    return _points(_path()).get(group, [])
+    return all_entry_points().get(group, [])
+
+
+def all_entry_points() -> dict[str, list[EntryPoint]]:
+    """Returns the entry points of all distributions by group."""
+    return _points(search_path())
+
+
+def search_path() -> tuple[tuple[str, float], ...]:
+    """Returns the search path of distributions, with the time of the last change of each folder."""
+    return tuple((entry, folder.stat().st_mtime) for entry in sys.path
+                 if (folder := Path(entry or ".")).exists())  # fmt: skip
 
 
 @contextmanager
@@ -113,12 +124,6 @@ def same_distribution(name: str, other: str) -> bool:
 
 def _normalized(name: str) -> str:
     return re.sub(r"[-_.]+", "-", name).lower()
-
-
-def _path() -> tuple[tuple[str, float], ...]:
-    """Returns the search path of distributions, with the time of the last change of each folder."""
-    return tuple((entry, folder.stat().st_mtime) for entry in sys.path
-                 if (folder := Path(entry or ".")).exists())  # fmt: skip
 
 
 @lru_cache(maxsize=1)

@@ -23,6 +23,11 @@ def registered(group: str) -> dict[str, type[Any]]:
     return dict(_REGISTERED.get(group, {}))
 
 
+def any_registered() -> bool:
+    """Whether any plug-in is registered in this process."""
+    return any(_REGISTERED.values())
+
+
 def add(group: str, kind: str, plugin: type[Any]) -> None:
     """Registers a plug-in that passed ``check_complete``."""
     _REGISTERED.setdefault(group, {})[kind] = plugin

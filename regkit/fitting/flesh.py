@@ -6,9 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
-from scipy.spatial import cKDTree
+import scipy
 
 from regkit.fitting.layout import Layout, SegmentFrame
 from regkit.geometry.rigid import transformed
@@ -76,7 +74,7 @@ def divided(
     edges = corners[:, 1:] - corners[:, :1]
     areas = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1) / 2.0
     inside = interior_points(vertices, mesh.faces, spacing)
-    tree = cKDTree(vertices)
+    tree = scipy.spatial.cKDTree(vertices)
     owner_of_point = owner_of_vertex[tree.query(inside)[1]]
     owner_of_face = owner_of_vertex[tree.query(centres)[1]]
     return {
@@ -121,8 +119,10 @@ def closed(vertices: Array, faces: Indices) -> tuple[Array, Indices]:
     if not len(rim):
         return vertices, faces
     count = len(vertices)
-    adjacency = coo_array((np.ones(len(rim)), (rim[:, 0], rim[:, 1])), shape=(count, count))
-    _, hole = connected_components(adjacency, directed=False)
+    adjacency = scipy.sparse.coo_array(
+        (np.ones(len(rim)), (rim[:, 0], rim[:, 1])), shape=(count, count)
+    )
+    _, hole = scipy.sparse.csgraph.connected_components(adjacency, directed=False)
     holes, hole_of_edge = np.unique(hole[rim[:, 0]], return_inverse=True)
     middles = [
         vertices[rim[hole_of_edge == index]].mean(axis=(0, 1)) for index in range(len(holes))

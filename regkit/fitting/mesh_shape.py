@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 from regkit.body import BodyDescription, ShapeParameters
 from regkit.body.groups import Groups
@@ -115,7 +115,7 @@ class MeshShape:
         centres = np.array([one.moments()[0] for one in before])
         spread_ratio = points.std(axis=0) / np.sqrt(np.diag(_mixture(before)))
         guess = points.mean(axis=0) + spread_ratio * (centres - centres.mean(axis=0))
-        owners = clusters(points, points[cKDTree(points).query(guess)[1]])
+        owners = clusters(points, points[scipy.spatial.cKDTree(points).query(guess)[1]])
         return tuple(
             type(one).fitted(points[owners == index], one) for index, one in enumerate(before)
         )

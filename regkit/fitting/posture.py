@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import nnls
+import scipy
 
 from regkit.body import BodyDescription
 from regkit.fitting.flesh import Flesh
@@ -70,7 +70,7 @@ class Posture:
         if len(offsets):
             # Find non-negative weights that sum to one and combine the joints to the root's origin.
             equations = np.vstack([offsets.T / np.abs(offsets).max(), np.ones(len(offsets))])
-            shares, missed = nnls(equations, np.array([0.0, 0.0, 0.0, 1.0]))
+            shares, missed = scipy.optimize.nnls(equations, np.array([0.0, 0.0, 0.0, 1.0]))
             if missed < 1e-3:
                 origin = shares @ np.array([self.joints[child] for child in self._children(name)])
                 pairs = self.pairs(name, origin)

@@ -5,9 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
-from scipy.spatial import cKDTree
+import scipy
 
 from regkit.body import BodyDescription
 from regkit.fitting.clusters import spread
@@ -67,7 +65,7 @@ def decimated(mesh: SkinnedMesh, count: int) -> SkinnedMesh:
         [mesh.vertices, _spacing(mesh, count) * vertex_normals(mesh.vertices, mesh.faces)], axis=1
     )
     kept = spread(features, count)
-    cluster = np.asarray(cKDTree(features[kept]).query(features)[1])
+    cluster = np.asarray(scipy.spatial.cKDTree(features[kept]).query(features)[1])
     corners = cluster[mesh.faces]
     ordered = np.sort(corners, axis=1)
     triangles = corners[(ordered[:, 0] < ordered[:, 1]) & (ordered[:, 1] < ordered[:, 2])]
@@ -78,8 +76,10 @@ def decimated(mesh: SkinnedMesh, count: int) -> SkinnedMesh:
 def _largest_piece(mesh: SkinnedMesh) -> SkinnedMesh:
     count = len(mesh.vertices)
     ends = np.concatenate([mesh.faces[:, :2], mesh.faces[:, 1:]])
-    adjacency = coo_array((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=(count, count))
-    _, piece = connected_components(adjacency, directed=False)
+    adjacency = scipy.sparse.coo_array(
+        (np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=(count, count)
+    )
+    _, piece = scipy.sparse.csgraph.connected_components(adjacency, directed=False)
     largest = np.bincount(piece).argmax()
     own = replace(mesh, faces=mesh.faces[piece[mesh.faces[:, 0]] == largest])
     return _subset(own, np.flatnonzero(piece == largest))

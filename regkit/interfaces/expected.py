@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.spatial import KDTree
 
 from regkit.body import Body
 from regkit.geometry.capsules import Capsules
@@ -66,11 +66,11 @@ class Expected(Brief):
         return near
 
     @cached_property
-    def _shape(self) -> Capsules | KDTree:
+    def _shape(self) -> Capsules | scipy.spatial.KDTree:
         """The placed capsules, or the points of a body without capsules."""
         if len(self.body.capsules):
             return self.body.capsules.place(self.body.place(self.pose).transforms)
-        return KDTree(self._points(self.pose))
+        return scipy.spatial.KDTree(self._points(self.pose))
 
     def _points(self, pose: Pose) -> Array:
         """Returns points (N, 3) [m] that span the body in a pose."""

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.ndimage import maximum_filter, minimum_filter
 
 from regkit.geometry.camera import Camera
 from regkit.system.arrays import Array
@@ -80,7 +80,9 @@ def wide_part(unknown: NDArray[np.bool_], width: int) -> NDArray[np.bool_]:
     padded = np.pad(unknown, width, constant_values=True).astype(np.uint8)
     # Of an even width, the second filter is the mirror image of the first.
     origin = -1 if width % 2 == 0 else 0
-    opened = maximum_filter(minimum_filter(padded, width), width, origin=origin)
+    opened = scipy.ndimage.maximum_filter(
+        scipy.ndimage.minimum_filter(padded, width), width, origin=origin
+    )
     return np.asarray(opened[width:-width, width:-width] > 0)
 
 

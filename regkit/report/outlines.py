@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from scipy.spatial import ConvexHull
+import scipy
 
 from regkit.report.frame_drawing import DrawnPrimitives
 from regkit.system.arrays import Array
@@ -42,5 +42,5 @@ def outlines(primitives: DrawnPrimitives, view: tuple[int, int]) -> Iterator[Arr
 
 def _hull(points: Array) -> Array:
     """Returns the convex hull of points (N, 2) as a closed line (2, P)."""
-    around = ConvexHull(points).vertices
+    around = scipy.spatial.ConvexHull(points).vertices
     return np.asarray(points[[*around, around[0]]].T)

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from matplotlib.colors import to_hex, to_rgb
-
 PALETTE = ("#0072B2", "#D55E00", "#009E73", "#E69F00", "#CC79A7", "#56B4E9", "#7F7F7F")
 """The colour-blind safe palette of Okabe and Ito, without yellow, which is too pale."""
 
@@ -68,7 +66,7 @@ def styles(shapes: Mapping[str, str]) -> dict[str, Style]:
 
 
 def _shaded(colour: str, shade: float) -> str:
-    """Returns a colour mixed with white, or with black if the shade is negative."""
-    goal = 1.0 if shade > 0.0 else 0.0
-    red, green, blue = (part + abs(shade) * (goal - part) for part in to_rgb(colour))
-    return to_hex((red, green, blue))
+    """Returns a colour ``#RRGGBB`` mixed with white, or with black if the shade is negative."""
+    goal = 255.0 if shade > 0.0 else 0.0
+    parts = bytes.fromhex(colour.removeprefix("#"))
+    return "#" + bytes(round(part + abs(shade) * (goal - part)) for part in parts).hex()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import KDTree
+import scipy
 
 from regkit.interfaces import Evaluation, Registrar, RegistrationResult
 from regkit.observation import Observation
@@ -55,7 +55,7 @@ class LimbRecovery:
     def recovered(self, observation: Observation, found: RegistrationResult) -> RegistrationResult:
         """Returns the best registration after searching all limbs in turn."""
         best, evaluation = found, self.registrar.evaluate(observation, found.pose)
-        cloud = KDTree(observation.points)
+        cloud = scipy.spatial.KDTree(observation.points)
         for search in self.searches:
             starts = search.starts(cloud, best.pose, self.starts, observation.silhouette)
             for start in starts:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import KDTree
+import scipy
 
 from regkit.body import Body
 from regkit.geometry.capsules import AxisPoints, Capsules
@@ -74,7 +74,11 @@ class LimbSearch:
             yield cls(body, limb, axes, body.capsules.selected(~own), balls, hinges, places)
 
     def starts(
-        self, cloud: KDTree, pose: Pose, most: int, silhouette: Silhouette | None = None
+        self,
+        cloud: scipy.spatial.KDTree,
+        pose: Pose,
+        most: int,
+        silhouette: Silhouette | None = None,
     ) -> Iterator[Pose]:
         """Yields up to ``most`` poses whose limb best covers what the rest leaves unexplained.
 
@@ -109,13 +113,15 @@ class LimbSearch:
         if len(self.rest):
             rest = self.rest.place(placement.transforms)
             near = near[rest.surface_distance(near) > float(self.axes.radii.max())]
-        return np.asarray(near[:: max(1, len(near) // MOST_POINTS)])
+        return np.ascontiguousarray(near[:: max(1, len(near) // MOST_POINTS)])
 
     def _data_to_model(self, places: Array, bare: Array) -> Array:
         """Returns the misfit (N,) of the unexplained points to the limb's surface."""
         return mean_gaps(places, self.axes.radii, bare, self._cutoff)
 
-    def _model_to_data(self, places: Array, cloud: KDTree, silhouette: Silhouette | None) -> Array:
+    def _model_to_data(
+        self, places: Array, cloud: scipy.spatial.KDTree, silhouette: Silhouette | None
+    ) -> Array:
         """Returns the misfit (N,) of the limb's surface to the points."""
         gaps = np.maximum(cloud.query(places)[0] - self.axes.radii, 0.0)
         if silhouette is not None:

@@ -36,8 +36,10 @@ def place_links(
     links = np.empty((poses, count, 4, 4))
     rotations = np.empty((count, 3, 3))
     rotated = np.zeros(count, dtype=np.bool_)
-    rotated[ball_links] = True
-    rotated[hinge_links] = True
+    for index in range(len(ball_links)):
+        rotated[ball_links[index]] = True
+    for index in range(len(hinge_links)):
+        rotated[hinge_links[index]] = True
     local = np.empty((3, 3))
     for pose in range(poses):
         for index in range(len(ball_links)):
@@ -53,39 +55,29 @@ def place_links(
             set_rotation(rotations[hinge_links[index]], x, y, z, w)
         for link in range(count):
             parent = root if parents[link] < 0 else links[pose, parents[link]]
-            offset = offsets[link]
             for i in range(3):
                 for j in range(3):
+                    local[i, j] = 0.0 if rotated[link] else offsets[link, i, j]
                     if rotated[link]:
-                        local[i, j] = (
-                            offset[i, 0] * rotations[link, 0, j]
-                            + offset[i, 1] * rotations[link, 1, j]
-                            + offset[i, 2] * rotations[link, 2, j]
-                        )
-                    else:
-                        local[i, j] = offset[i, j]
-            own = links[pose, link]
+                        for k in range(3):
+                            local[i, j] += offsets[link, i, k] * rotations[link, k, j]
             for i in range(3):
+                place = 0.0
                 for j in range(3):
-                    own[i, j] = (
-                        parent[i, 0] * local[0, j]
-                        + parent[i, 1] * local[1, j]
-                        + parent[i, 2] * local[2, j]
-                    )
-                own[i, 3] = parent[i, 3] + (
-                    parent[i, 0] * offset[0, 3]
-                    + parent[i, 1] * offset[1, 3]
-                    + parent[i, 2] * offset[2, 3]
-                )
-                own[3, i] = 0.0
-            own[3, 3] = 1.0
+                    entry = 0.0
+                    for k in range(3):
+                        entry += parent[i, k] * local[k, j]
+                    links[pose, link, i, j] = entry
+                    place += parent[i, j] * offsets[link, j, 3]
+                links[pose, link, i, 3] = parent[i, 3] + place
+                links[pose, link, 3, i] = 0.0
+            links[pose, link, 3, 3] = 1.0
     return links
 
 
 @compiled
 def joint_twists(
     links: Array,
-    reference: Array,
     first: int,
     ball_links: Indices,
     hinge_links: Indices,
@@ -95,9 +87,10 @@ def joint_twists(
 ) -> Array:
     """Returns the world twist (n, 6), linear first, of each degree of freedom at unit rate.
 
+    The twists refer to the root's origin.
+
     Args:
         links: T_world_link, (L, 4, 4).
-        reference: The point that the twists refer to, in the world, (3,) [m].
         first: Number of degrees of freedom of the root, 6 or 0.
         ball_links: Link of each ball joint, (n_ball,).
         hinge_links: Link of each hinge, (n_hinge,).
@@ -111,23 +104,23 @@ def joint_twists(
             twists[i, i] = 1.0
             for j in range(3):
                 twists[3 + i, 3 + j] = root[j, i]
-    row = first
-    axis = np.empty(3)
-    for index in range(len(ball_links) + len(hinge_links)):
-        ball = index < len(ball_links)
-        link = links[ball_links[index]] if ball else links[hinge_links[index - len(ball_links)]]
-        x, y, z = link[0, 3] - reference[0], link[1, 3] - reference[1], link[2, 3] - reference[2]
+    row, balls = first, len(ball_links)
+    axis, arm = np.empty(3), np.empty(3)
+    for index in range(balls + len(hinge_links)):
+        ball = index < balls
+        link = ball_links[index] if ball else hinge_links[index - balls]
+        for i in range(3):
+            arm[i] = links[link, i, 3] - root[i, 3]
         for part in range(3 if ball else 1):
             for i in range(3):
-                if ball:
-                    axis[i] = link[i, part]
-                else:
-                    own = hinge_axes[index - len(ball_links)]
-                    axis[i] = link[i, 0] * own[0] + link[i, 1] * own[1] + link[i, 2] * own[2]
-            twists[row, 0] = y * axis[2] - z * axis[1]
-            twists[row, 1] = z * axis[0] - x * axis[2]
-            twists[row, 2] = x * axis[1] - y * axis[0]
-            twists[row, 3:] = axis
+                axis[i] = links[link, i, part] if ball else 0.0
+                if not ball:
+                    for j in range(3):
+                        axis[i] += links[link, i, j] * hinge_axes[index - balls, j]
+            for i in range(3):
+                j, k = (i + 1) % 3, (i + 2) % 3
+                twists[row, i] = arm[j] * axis[k] - arm[k] * axis[j]
+                twists[row, 3 + i] = axis[i]
             row += 1
     return twists
 

@@ -21,15 +21,13 @@ def retracted_root(root: Array, step: Array) -> Array:
     rotation = np.empty((3, 3))
     x, y, z, w = exponential(step[3], step[4], step[5])
     set_rotation(rotation, x, y, z, w)
-    retracted = root.copy()
+    retracted = np.zeros((4, 4))
     for i in range(3):
-        retracted[i, 3] += step[i]
+        retracted[i, 3] = root[i, 3] + step[i]
         for j in range(3):
-            retracted[i, j] = (
-                root[i, 0] * rotation[0, j]
-                + root[i, 1] * rotation[1, j]
-                + root[i, 2] * rotation[2, j]
-            )
+            for k in range(3):
+                retracted[i, j] += root[i, k] * rotation[k, j]
+    retracted[3, 3] = 1.0
     return retracted
 
 
@@ -73,10 +71,14 @@ def step_jacobian(step: Array, first: int, last: int) -> Array:
         first: Index in ``step`` of the first rotation vector [rad].
         last: Index after the last rotation vector.
     """
-    jacobian = np.eye(len(step))
+    jacobian, v = np.zeros((len(step), len(step))), np.empty(3)
+    for dof in range(len(step)):
+        jacobian[dof, dof] = 1.0
     for start in range(first, last, 3):
-        v = step[start : start + 3]
-        square = v[0] ** 2 + v[1] ** 2 + v[2] ** 2
+        square = 0.0
+        for i in range(3):
+            v[i] = step[start + i]
+            square += v[i] * v[i]
         angle = sqrt(square)
         if angle < 1e-4:
             one, two = 0.5 - square / 24.0, 1.0 / 6.0 - square / 120.0

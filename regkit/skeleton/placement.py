@@ -65,7 +65,6 @@ class Placement(Brief):
         bones = self.skeleton
         return joint_twists(
             self.links,
-            self._reference,
             bones.ball_dofs.start,
             bones.ball_links,
             bones.hinge_links,

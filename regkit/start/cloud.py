@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.spatial import KDTree
 
 from regkit.body import Body
 from regkit.clouds import normals
@@ -44,7 +44,7 @@ def cloud_pose(body: Body, surface: SkinnedSurface, observation: Observation) ->
     """
     points = surface.place(body.place(body.skeleton.rest()).transforms)
     sample = observation.points[:: max(1, len(observation.points) // SKETCH)]
-    fitting = _Fitting(KDTree(points), points, normals(points), sample)
+    fitting = _Fitting(scipy.spatial.KDTree(points), points, normals(points), sample)
     centre, aim = points.mean(axis=0), sample.mean(axis=0)
     rough = [
         fitting.to_points(rigid(rotation, aim - rotation @ centre)) for rotation in icosahedral()
@@ -57,7 +57,7 @@ def cloud_pose(body: Body, surface: SkinnedSurface, observation: Observation) ->
 class _Fitting:
     """The surface's points and normals (N, 3) at rest, and a subset of the data (M, 3)."""
 
-    tree: KDTree
+    tree: scipy.spatial.KDTree
     points: Array
     directions: Array
     sample: Array

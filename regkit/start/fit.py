@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import least_squares
+import scipy
 
 from regkit.body import Body
 from regkit.registration import TangentCoordinates
@@ -53,7 +53,7 @@ def _fitted(scan: Scan, body: Body, pose: Pose, stage: Stage) -> Pose:
     # SciPy requires some room between the bounds, even for a hinge that must not move.
     room = np.where(upper - lower < 1e-9, 1e-9, 0.0)
     at = _ResidualsAt(scan, body, coordinates, stage)
-    solution = least_squares(
+    solution = scipy.optimize.least_squares(
         at.residuals,
         coordinates.origin(),
         jac=at.jacobian,

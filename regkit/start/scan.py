@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import KDTree
+import scipy
 
 from regkit.body import Body
 from regkit.body.distance import SurfaceDistances, data_to_model, model_to_data
@@ -34,7 +34,7 @@ class Scan:
         step = max(1, len(points) // MOST_POINTS)
         self._centre = points.mean(axis=0)
         self._points = points[::step]
-        self._tree = KDTree(points)
+        self._tree = scipy.spatial.KDTree(points)
         self._silhouette = silhouette
 
     @classmethod

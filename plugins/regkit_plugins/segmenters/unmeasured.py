@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.ndimage import uniform_filter
 
 from regkit.interfaces import Chain, Expected
 from regkit.observation import Frame
@@ -37,7 +37,9 @@ class Surroundings(Chain):
             return left
         measured = (frame.depth > 0.0).astype(np.float64)
         side = max(1, round(AROUND * max(measured.shape)))
-        return with_unmeasured(left, frame.depth, uniform_filter(measured, side) > MOST)
+        return with_unmeasured(
+            left, frame.depth, scipy.ndimage.uniform_filter(measured, side) > MOST
+        )
 
 
 def with_unmeasured(left: Frame, depth: Array, region: NDArray[np.bool_]) -> Frame:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import ClassVar, Literal
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 from regkit.body import Body
 from regkit.interfaces import ShapeModel
@@ -48,5 +48,7 @@ class Mesh(ShapeModel):
 
 def _spacings(vertices: Array) -> Array:
     """Returns the mean distance (V,) [m] of each vertex (V, 3) to its nearest neighbours."""
-    distances, _ = cKDTree(vertices).query(vertices, k=min(NEIGHBOURS + 1, len(vertices)))
+    distances, _ = scipy.spatial.cKDTree(vertices).query(
+        vertices, k=min(NEIGHBOURS + 1, len(vertices))
+    )
     return np.asarray(np.asarray(distances)[:, 1:].mean(axis=1))

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from pydantic import Field, field_validator, model_validator
-from scipy.interpolate import PchipInterpolator
 
 from regkit.config.model import Model
 from regkit.config.quantities import Coordinate, Duration
@@ -118,8 +118,8 @@ class KeyframedMotion(Motion):
     """
 
     length: float
-    curves: Mapping[str, PchipInterpolator]
-    feet: PchipInterpolator
+    curves: Mapping[str, scipy.interpolate.PchipInterpolator]
+    feet: scipy.interpolate.PchipInterpolator
 
     @property
     def duration(self) -> float:
@@ -139,13 +139,15 @@ class KeyframedMotion(Motion):
         return SourcePose(self.feet(within) + way - _below(rotations), rotations)
 
 
-def _curve(keys: list[tuple[float, Triple]]) -> PchipInterpolator:
+def _curve(keys: list[tuple[float, Triple]]) -> scipy.interpolate.PchipInterpolator:
     """Returns the interpolation of keyframe values, at rest in the first and the last one."""
     times = [time for time, _ in keys]
     values = [value for _, value in keys]
     # The value is the same before the first key and after the last one, where it comes to rest.
     times = [times[0] - 1.0, *times, times[-1] + 1.0]
-    return PchipInterpolator(times, [values[0], *values, values[-1]], axis=0, extrapolate=True)
+    return scipy.interpolate.PchipInterpolator(
+        times, [values[0], *values, values[-1]], axis=0, extrapolate=True
+    )
 
 
 def _turned(angles: Array) -> Array:

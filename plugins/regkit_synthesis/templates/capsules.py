@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from scipy.optimize import least_squares
+import scipy
 
 from regkit.body.deformation import REFLECT
 from regkit.body.vectors import rounded
@@ -77,7 +77,9 @@ def fitted(
         springs = stiffness * (parameters - guess) / scale
         return np.concatenate([shares * robust, springs])
 
-    solution = least_squares(residuals, guess, bounds=(lower, np.inf), max_nfev=60, x_scale=scale)
+    solution = scipy.optimize.least_squares(
+        residuals, guess, bounds=(lower, np.inf), max_nfev=60, x_scale=scale
+    )
     found = _capsules(pieces, solution.x)
     return tuple(
         _described(ends, radii) for ends, radii in zip(found.ends, found.radii, strict=True)

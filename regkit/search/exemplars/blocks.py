@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.ndimage import distance_transform_edt
+import scipy
 
 from regkit.geometry.camera import Camera
 from regkit.search.exemplars.model import Grid
@@ -53,7 +53,9 @@ def grid_around(camera: Camera, depth: Array, points: Array) -> Grid:
 def nearest_shown(depth: Array) -> Array:
     """Returns row and column (2, H, W) of the nearest block with depth to each block (H, W)."""
     missing = ~(np.isfinite(depth) & (depth > 0.0))
-    indices = distance_transform_edt(missing, return_distances=False, return_indices=True)
+    indices = scipy.ndimage.distance_transform_edt(
+        missing, return_distances=False, return_indices=True
+    )
     return np.asarray(indices, dtype=float)
 
 

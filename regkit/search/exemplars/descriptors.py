@@ -8,7 +8,7 @@ import numpy as np
 
 from regkit.search.exemplars.images import (
     cut_image,
-    described,
+    describe,
     image_centre,
     offset_of_share,
     points_image,
@@ -28,6 +28,45 @@ DEEPEST = 0.22
 
 
 @compiled
+def there(
+    places: Array, radii: Array, far: Array, view: Array, reach: float
+) -> tuple[Array, Array]:
+    """Returns the centres (Q, 3) and radii (Q,) of the spheres of a body that are there, in a view.
+
+    Args:
+        places: Centres of its spheres, (P, 3) [size].
+        radii: Radii of the spheres, (P,) [size].
+        far: How far each sphere is along a part that the data may lack, (P,) [size]; else 0.
+        view: R_view_body, (3, 3).
+        reach: How far the parts that the data may lack are there [size].
+    """
+    count = 0
+    for sphere in range(len(radii)):
+        count += 1 if far[sphere] <= reach else 0
+    seen, thick = np.zeros((count, 3)), np.empty(count)
+    row = 0
+    for sphere in range(len(radii)):
+        if far[sphere] > reach:
+            continue
+        thick[row] = radii[sphere]
+        for i in range(3):
+            for j in range(3):
+                seen[row, i] += view[i, j] * places[sphere, j]
+        row += 1
+    return seen, thick
+
+
+@compiled
+def mean_place(points: Array) -> Array:
+    """Returns the mean (3,) of points (N, 3)."""
+    mean = np.zeros(3)
+    for point in range(len(points)):
+        for i in range(3):
+            mean[i] += points[point, i] / len(points)
+    return mean
+
+
+@compiled
 def exemplar_descriptors(
     places: Array, radii: Array, far: Array, views: Array, cuts: Array, reaches: Array
 ) -> tuple[Singles, Array]:
@@ -42,38 +81,26 @@ def exemplar_descriptors(
             that is in view, (N, C, 3). A line with the share 1 cuts nothing off.
         reaches: How far the parts that the data may lack are there, (N,) [size].
     """
-    count = len(places)
-    descriptors = np.empty((count, 2 * (SIDE // POOLING) ** 2), dtype=np.float32)
-    centres = np.empty((count, 3))
-    for index in range(count):
-        there = np.flatnonzero(far <= reaches[index])
-        seen, thick = np.empty((len(there), 3)), radii[there]
-        middle = np.zeros(3)
-        for row, sphere in enumerate(there):
-            for i in range(3):
-                seen[row, i] = (
-                    views[index, i, 0] * places[index, sphere, 0]
-                    + views[index, i, 1] * places[index, sphere, 1]
-                    + views[index, i, 2] * places[index, sphere, 2]
-                )
-            middle += seen[row] / len(there)
-        image = spheres_image(seen - middle, thick, WIDE, SIDE)
-        offsets = np.full(cuts.shape[1], np.inf)
+    descriptors = np.empty((len(places), 2 * (SIDE // POOLING) ** 2), dtype=np.float32)
+    centres, offsets = np.empty((len(places), 3)), np.empty(cuts.shape[1])
+    for index in range(len(places)):
+        seen, thick = there(places[index], radii, far, views[index], reaches[index])
+        middle = mean_place(seen)
+        image = spheres_image(seen, thick, middle, WIDE, SIDE)
         for line in range(len(offsets)):
-            direction, share = cuts[index, line, :2], cuts[index, line, 2]
+            offsets[line], share = np.inf, cuts[index, line, 2]
             if share < 1.0:
-                offsets[line] = offset_of_share(image, WIDE, direction, share)
-                cut_image(image, WIDE, direction, offsets[line])
+                offsets[line] = offset_of_share(image, WIDE, cuts[index, line], share)
+                cut_image(image, WIDE, cuts[index, line], offsets[line])
         shift = image_centre(image, WIDE)
-        centre = middle + shift
-        image = spheres_image(seen - centre, thick, HALF, SIDE)
+        for i in range(3):
+            middle[i] += shift[i]
+            centres[index, i] = middle[i]
+        image = spheres_image(seen, thick, middle, HALF, SIDE)
         for line in range(len(offsets)):
-            direction = cuts[index, line, :2]
-            if np.isfinite(offsets[line]):
-                beside = direction[0] * shift[0] + direction[1] * shift[1]
-                cut_image(image, HALF, direction, offsets[line] - beside)
-        descriptors[index] = described(image, POOLING, DEEPEST)
-        centres[index] = centre
+            beside = cuts[index, line, 0] * shift[0] + cuts[index, line, 1] * shift[1]
+            cut_image(image, HALF, cuts[index, line], offsets[line] - beside)
+        describe(descriptors, index, image, POOLING, DEEPEST)
     return descriptors, centres
 
 
@@ -90,14 +117,15 @@ def cloud_descriptors(
         nearest: Whether a cell shows its nearest point.
     """
     centre = image_centre(points_image(points, spread, WIDE, SIDE, nearest), WIDE)
-    around = points - centre
     descriptors = np.empty((len(rolls), 2 * (SIDE // POOLING) ** 2), dtype=np.float32)
-    rolled = around.copy()
+    rolled = np.empty((len(points), 3))
     for index in range(len(rolls)):
         cosine, sine = cos(rolls[index]), sin(rolls[index])
-        for point in range(len(around)):
-            rolled[point, 0] = cosine * around[point, 0] + sine * around[point, 1]
-            rolled[point, 1] = cosine * around[point, 1] - sine * around[point, 0]
+        for point in range(len(points)):
+            x, y = points[point, 0] - centre[0], points[point, 1] - centre[1]
+            rolled[point, 0] = cosine * x + sine * y
+            rolled[point, 1] = cosine * y - sine * x
+            rolled[point, 2] = points[point, 2] - centre[2]
         image = points_image(rolled, spread, HALF, SIDE, nearest)
-        descriptors[index] = described(image, POOLING, DEEPEST)
+        describe(descriptors, index, image, POOLING, DEEPEST)
     return descriptors, centre

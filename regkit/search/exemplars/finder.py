@@ -11,7 +11,7 @@ import numpy as np
 from regkit.body import Body
 from regkit.search.exemplars.atlas import SPACING, Atlas
 from regkit.search.exemplars.lookup import Matches, cut_matches, matches
-from regkit.search.exemplars.model import Bones, Hull, Spheres
+from regkit.search.exemplars.model import Spheres
 from regkit.search.exemplars.pictures import Pictures
 from regkit.search.exemplars.refinement import refined
 from regkit.search.exemplars.rendering import disagreements
@@ -138,12 +138,9 @@ class Finder:
         """
         points = pictures.points
         points = np.ascontiguousarray(points[:: max(1, len(points) // POINTS)])
-        root, balls, hinges = refined(
-            pose.root,
-            pose.balls,
-            pose.hinges,
-            Bones.of(body),
-            Hull.of(body),
+        stepped = refined(
+            body,
+            pose,
             self._spheres(body),
             points,
             pictures.pictures[0].grid,
@@ -152,7 +149,7 @@ class Finder:
             1.0 if pictures.one_sided else 0.0,
             pictures.one_sided,
         )
-        found = body.skeleton.limits.hinged(Pose(root, balls, hinges))
+        found = body.skeleton.limits.hinged(stepped)
         return Exemplar(body, found, self.disagreement(body, found, pictures))
 
     def _spheres(self, body: Body) -> Spheres:

@@ -6,7 +6,7 @@ depth along z relative to the image's centre, infinite where nothing is.
 
 from __future__ import annotations
 
-from math import floor, sqrt
+from math import floor, isfinite, sqrt
 
 import numpy as np
 
@@ -18,19 +18,30 @@ BLUR = np.array([0.25, 0.5, 0.25])
 
 
 @compiled
-def spheres_image(centres: Array, radii: Array, half: float, side: int) -> Array:
+def empty_image(side: int) -> Array:
+    """Returns an image (side, side) that shows nothing."""
+    image = np.empty((side, side))
+    for row in range(side):
+        for column in range(side):
+            image[row, column] = np.inf
+    return image
+
+
+@compiled
+def spheres_image(centres: Array, radii: Array, middle: Array, half: float, side: int) -> Array:
     """Returns the depth image (side, side) of spheres, seen along z.
 
     Args:
-        centres: Centres of the spheres relative to the image's centre, (P, 3).
+        centres: Centres of the spheres, (P, 3).
         radii: Their radii, (P,).
+        middle: Centre of the image, (3,).
         half: Half the width of the image.
         side: Number of cells along each side.
     """
-    image = np.full((side, side), np.inf)
+    image = empty_image(side)
     cell = 2.0 * half / side
     for sphere in range(len(radii)):
-        x, y, z = centres[sphere]
+        x, y = centres[sphere, 0] - middle[0], centres[sphere, 1] - middle[1]
         radius = radii[sphere]
         # A sphere thinner than a cell still shows.
         shown = max(radius, 0.6 * cell)
@@ -46,7 +57,8 @@ def spheres_image(centres: Array, radii: Array, half: float, side: int) -> Array
                 right = (column + 0.5) * cell - half - x
                 square = right * right + down * down
                 if square <= shown * shown:
-                    depth = z - sqrt(max(radius * radius - square, 0.0))
+                    depth = centres[sphere, 2] - middle[2]
+                    depth -= sqrt(max(radius * radius - square, 0.0))
                     image[row, column] = min(image[row, column], depth)
     return image
 
@@ -63,11 +75,11 @@ def points_image(points: Array, spread: float, half: float, side: int, nearest: 
         nearest: Whether a cell shows its nearest point, for clouds with a far side; otherwise it
             shows the mean of its points.
     """
-    image = np.full((side, side), np.inf)
+    image = empty_image(side)
     total, count = np.zeros((side, side)), np.zeros((side, side))
     cell = 2.0 * half / side
     for point in range(len(points)):
-        x, y, z = points[point]
+        x, y, z = points[point, 0], points[point, 1], points[point, 2]
         for row in range(
             max(0, floor((y - spread + half) / cell)),
             min(side - 1, floor((y + spread + half) / cell)) + 1,
@@ -95,12 +107,14 @@ def image_centre(image: Array, half: float) -> Array:
     sums, count = np.zeros(3), 0
     for row in range(side):
         for column in range(side):
-            if np.isfinite(image[row, column]):
+            if isfinite(image[row, column]):
                 sums[0] += (column + 0.5) * cell - half
                 sums[1] += (row + 0.5) * cell - half
                 sums[2] += image[row, column]
                 count += 1
-    return sums / max(count, 1)
+    for i in range(3):
+        sums[i] /= max(count, 1)
+    return sums
 
 
 @compiled
@@ -118,13 +132,46 @@ def offset_of_share(image: Array, half: float, normal: Array, share: float) -> f
     heights, count = np.empty(side * side), 0
     for row in range(side):
         for column in range(side):
-            if np.isfinite(image[row, column]):
+            if isfinite(image[row, column]):
                 x, y = (column + 0.5) * cell - half, (row + 0.5) * cell - half
                 heights[count] = normal[0] * x + normal[1] * y
                 count += 1
     if not count:
         return 0.0
-    return float(np.quantile(heights[:count], share))
+    # The quantile lies between two neighbours in the order of the heights.
+    position = share * (count - 1)
+    rank = floor(position)
+    lower = ranked(heights, count, rank)
+    if rank == count - 1:
+        return lower
+    return lower + (position - rank) * (ranked(heights, count, rank + 1) - lower)
+
+
+@compiled
+def ranked(values: Array, count: int, rank: int) -> float:
+    """Returns the value of a rank, from 0, among the first ``count`` values; reorders them.
+
+    Source: Hoare's selection, C. A. R. Hoare, Algorithm 65: Find, Communications of the ACM 4(7),
+    1961.
+    """
+    first, last = 0, count - 1
+    while first < last:
+        pivot = values[rank]
+        low, high = first, last
+        while low <= high:
+            while values[low] < pivot:
+                low += 1
+            while pivot < values[high]:
+                high -= 1
+            if low <= high:
+                values[low], values[high] = values[high], values[low]
+                low += 1
+                high -= 1
+        if high < rank:
+            first = low
+        if rank < low:
+            last = high
+    return float(values[rank])
 
 
 @compiled
@@ -147,10 +194,12 @@ def cut_image(image: Array, half: float, normal: Array, offset: float) -> None:
 
 
 @compiled
-def described(image: Array, pooling: int, deepest: float) -> Singles:
-    """Returns the descriptor of an image: pooled and blurred occupancy and depth, (2 n^2,).
+def describe(descriptors: Singles, index: int, image: Array, pooling: int, deepest: float) -> None:
+    """Writes the descriptor of an image: pooled and blurred occupancy and depth, (2 n^2,).
 
     Args:
+        descriptors: The descriptors, (N, 2 n^2).
+        index: Row of the descriptor.
         image: The image, (side, side).
         pooling: Number of cells along each side of a pooled cell; side = n pooling.
         deepest: Depth beyond which differences count no more.
@@ -160,20 +209,17 @@ def described(image: Array, pooling: int, deepest: float) -> Singles:
     share = 1.0 / pooling**2
     for row in range(side * pooling):
         for column in range(side * pooling):
-            depth = image[row, column]
-            if np.isfinite(depth):
-                occupancy[row // pooling + 1, column // pooling + 1] += share
-                bounded = min(max(depth / deepest, -1.0), 1.0)
-                depths[row // pooling + 1, column // pooling + 1] += share * bounded
-    descriptor = np.empty(2 * side * side, dtype=np.float32)
+            if isfinite(image[row, column]):
+                i, j = row // pooling + 1, column // pooling + 1
+                occupancy[i, j] += share
+                depths[i, j] += share * min(max(image[row, column] / deepest, -1.0), 1.0)
     for row in range(side):
         for column in range(side):
-            shown = deep = 0.0
+            shown, deep = 0.0, 0.0
             for i in range(3):
                 for j in range(3):
                     weight = BLUR[i] * BLUR[j]
                     shown += weight * occupancy[row + i, column + j]
                     deep += weight * depths[row + i, column + j]
-            descriptor[row * side + column] = shown
-            descriptor[side * side + row * side + column] = deep
-    return descriptor
+            descriptors[index, row * side + column] = shown
+            descriptors[index, (side + row) * side + column] = deep

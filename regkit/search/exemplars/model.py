@@ -11,42 +11,6 @@ from regkit.body import Body
 from regkit.system.arrays import Array, Indices
 
 
-class Bones(NamedTuple):
-    """Kinematics and limits; see ``Skeleton`` and ``Limits``."""
-
-    offsets: Array
-    parents: Indices
-    ball_links: Indices
-    hinge_links: Indices
-    hinge_axes: Array
-    dof_mask: Array
-    segment_links: Indices
-    hinge_limits: Array
-    centre: Array
-    twist_axis: Array
-    cone: Array
-    twist_limits: Array
-
-    @classmethod
-    def of(cls, body: Body) -> Bones:
-        """Returns the kinematics of a body."""
-        bones, limits = body.skeleton, body.skeleton.limits
-        return cls(
-            bones.link_offsets,
-            bones.link_parents,
-            bones.ball_links,
-            bones.hinge_links,
-            bones.hinge_axes,
-            bones.dof_mask,
-            bones.segment_links,
-            limits.hinge,
-            limits.centre,
-            limits.twist_axis,
-            limits.cone,
-            limits.twist,
-        )
-
-
 class Hull(NamedTuple):
     """The surface as capsules.
 

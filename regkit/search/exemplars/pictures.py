@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.spatial import KDTree
+import scipy
 
 from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import rotation_between
@@ -144,5 +144,5 @@ def _spacing(points: Array) -> float:
     some = points[:: max(1, len(points) // SAMPLE)]
     if len(points) < 2:
         return 0.0
-    distances = np.asarray(KDTree(points).query(some, k=2)[0])
+    distances = np.asarray(scipy.spatial.KDTree(points).query(some, k=2)[0])
     return float(np.median(distances[:, 1]))

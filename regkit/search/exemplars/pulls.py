@@ -52,10 +52,10 @@ def add_pull(
         weight: Its weight.
     """
     row = np.empty(6)
-    row[:3] = direction
-    row[3] = arm[1] * direction[2] - arm[2] * direction[1]
-    row[4] = arm[2] * direction[0] - arm[0] * direction[2]
-    row[5] = arm[0] * direction[1] - arm[1] * direction[0]
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        row[i] = direction[i]
+        row[3 + i] = arm[j] * direction[k] - arm[k] * direction[j]
     for i in range(6):
         gradients[segment, i] += weight * residual * row[i]
         for j in range(6):
@@ -87,24 +87,32 @@ def pull_to_data(
     count = len(segments)
     starts, units = np.empty((count, 3)), np.empty((count, 3))
     lengths, tangents, widening = np.empty(count), np.empty(count), np.empty(count)
+    bounds = np.empty(count)
     for capsule in range(count):
-        T = transforms[segments[capsule]]
-        start = placed_point(T, ends[capsule, 0])
-        end = placed_point(T, ends[capsule, 1])
         square = 0.0
         for i in range(3):
-            starts[capsule, i] = start[i]
-            units[capsule, i] = end[i] - start[i]
+            starts[capsule, i] = transforms[segments[capsule], i, 3]
+            units[capsule, i] = 0.0
+            for j in range(3):
+                entry = transforms[segments[capsule], i, j]
+                starts[capsule, i] += entry * ends[capsule, 0, j]
+                units[capsule, i] += entry * (ends[capsule, 1, j] - ends[capsule, 0, j])
             square += units[capsule, i] ** 2
         lengths[capsule] = sqrt(square)
         safe = max(lengths[capsule], 1e-9)
-        units[capsule] /= safe
-        sine = min(max((radii[capsule, 0] - radii[capsule, 1]) / safe, -0.999), 0.999)
+        for i in range(3):
+            units[capsule, i] /= safe
+        slope = (radii[capsule, 1] - radii[capsule, 0]) / safe
+        sine = min(max(-slope, -0.999), 0.999)
         tangents[capsule] = sine / sqrt(1.0 - sine * sine)
-        widening[capsule] = (radii[capsule, 1] - radii[capsule, 0]) / safe
+        widening[capsule] = slope
+        bounds[capsule] = lengths[capsule] + max(radii[capsule, 0], radii[capsule, 1])
     offset, away, direction, arm = np.empty(3), np.empty(3), np.empty(3), np.empty(3)
     for index in range(len(points)):
-        ray = sqrt((points[index] ** 2).sum()) + 1e-12
+        ray = 0.0
+        for i in range(3):
+            ray += points[index, i] ** 2
+        ray = sqrt(ray) + 1e-12
         least, nearest, residual = np.inf, 0, 0.0
         for capsule in range(count):
             height, square = 0.0, 0.0
@@ -112,6 +120,9 @@ def pull_to_data(
                 offset[i] = points[index, i] - starts[capsule, i]
                 height += offset[i] * units[capsule, i]
                 square += offset[i] * offset[i]
+            # The sphere about the start that holds the capsule excludes those that are too far.
+            if square > (least + bounds[capsule]) ** 2:
+                continue
             side = sqrt(max(square - height * height, 0.0))
             along = min(max(height - side * tangents[capsule], 0.0), lengths[capsule])
             distance = sqrt(side * side + (height - along) ** 2)
@@ -127,7 +138,8 @@ def pull_to_data(
                 cost += HIDDEN * radii[capsule, 0] * turned
             if cost < least:
                 least, nearest, residual = cost, capsule, gap
-                direction[:] = -away
+                for i in range(3):
+                    direction[i] = -away[i]
         weight = 1.0 / (1.0 + (residual / scale) ** 2)
         segment = segments[nearest]
         for i in range(3):
@@ -164,7 +176,9 @@ def pull_from_free_space(
     fx, fy, cx, cy = intrinsics
     rows, columns = image.shape
     direction, arm = np.empty(3), np.empty(3)
-    required = len(radii) - optional.sum()
+    required = 0
+    for sphere in range(len(radii)):
+        required += 0 if optional[sphere] else 1
     for sphere in range(len(radii)):
         if optional[sphere]:
             continue
@@ -176,7 +190,7 @@ def pull_from_free_space(
         seen = image[row, column]
         if seen < 0.0:
             continue
-        direction[:] = 0.0
+        direction[0], direction[1], direction[2] = 0.0, 0.0, 0.0
         if np.isfinite(seen):
             gap = seen - (z - 0.5 * radii[sphere])
             if gap <= 0.0:

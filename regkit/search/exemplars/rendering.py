@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from math import ceil, floor, sqrt
+from math import ceil, floor, isfinite, sqrt
 
 import numpy as np
 
 from regkit.search.exemplars.model import Grid, Spheres
+from regkit.search.exemplars.pulls import placed_point
 from regkit.system.arrays import Array, Indices
 from regkit.system.compiled import compiled
 
@@ -43,20 +44,20 @@ def disagreements(
     fx, fy, cx, cy = intrinsics
     rows, columns = blocks.shape
     means = np.empty(len(links))
-    image, extra = np.empty((rows, columns)), np.empty((rows, columns))
+    # The first image shows the spheres that must show, the second the optional ones.
+    images = np.empty((2, rows, columns))
     for body in range(len(links)):
-        image[:] = np.inf
-        extra[:] = np.inf
+        for image in range(2):
+            for row in range(rows):
+                for column in range(columns):
+                    images[image, row, column] = np.inf
         behind = False
         for sphere in range(len(radii)):
-            T = links[body, segment_links[segments[sphere]]]
-            p = points[sphere]
-            x = T[0, 0] * p[0] + T[0, 1] * p[1] + T[0, 2] * p[2] + T[0, 3]
-            y = T[1, 0] * p[0] + T[1, 1] * p[1] + T[1, 2] * p[2] + T[1, 3]
-            z = T[2, 0] * p[0] + T[2, 1] * p[1] + T[2, 2] * p[2] + T[2, 3]
+            x, y, z = placed_point(links[body, segment_links[segments[sphere]]], points[sphere])
             if z < NEAREST:
                 behind = True
                 break
+            image = 1 if optional[sphere] else 0
             u, v, width = fx * x / z + cx, fy * y / z + cy, max(fx * radii[sphere] / z, 0.5)
             for row in range(max(0, ceil(v - width)), min(rows - 1, floor(v + width)) + 1):
                 for column in range(
@@ -65,28 +66,21 @@ def disagreements(
                     square = ((row - v) ** 2 + (column - u) ** 2) / (width * width)
                     if square <= 1.0:
                         depth = z - radii[sphere] * sqrt(1.0 - square)
-                        if optional[sphere]:
-                            extra[row, column] = min(extra[row, column], depth)
-                        else:
-                            image[row, column] = min(image[row, column], depth)
+                        images[image, row, column] = min(images[image, row, column], depth)
         if behind:
             means[body] = 1.0
             continue
         total, count = 0.0, 0
         for row in range(rows):
             for column in range(columns):
-                seen, shown = blocks[row, column], image[row, column]
-                if np.isfinite(seen) and abs(seen - extra[row, column]) < abs(seen - shown):
-                    shown = extra[row, column]
-                if seen < 0.0:
-                    if np.isfinite(shown):
-                        total += OUTSIDE
-                        count += 1
-                elif np.isfinite(seen) and np.isfinite(shown):
+                seen, shown = blocks[row, column], images[0, row, column]
+                if isfinite(seen) and abs(seen - images[1, row, column]) < abs(seen - shown):
+                    shown = images[1, row, column]
+                if isfinite(seen) and seen >= 0.0:
                     total += min(abs(seen - shown) / tolerance, 1.0)
                     count += 1
-                elif np.isfinite(seen) or np.isfinite(shown):
-                    total += 1.0
+                elif isfinite(shown):
+                    total += OUTSIDE if seen < 0.0 else 1.0
                     count += 1
         means[body] = total / max(count, 1)
     return means

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 from regkit.geometry.rotation import cross
 from regkit.observation import Observation
@@ -72,7 +72,9 @@ class BoundMatching(ResidualSimilarity):
                 self._facing = np.where(away[:, None], -self._facing, self._facing)
         self._point_share, self._normals = point_share, normals
         self._visible = visible(start) if self._oriented else np.arange(len(start))
-        self._cloud = cKDTree(observation.points) if kernel.reverse_weight > 0.0 else None
+        self._cloud = (
+            scipy.spatial.cKDTree(observation.points) if kernel.reverse_weight > 0.0 else None
+        )
         self.loss = self._bound_loss(float(np.sqrt(observation.variances.mean())), start, smoothing)
         self._max_distance = kernel.max_correspondence_distance * self.loss.scale
         self._fixed = self._matched(start) if kernel.matches == "fixed" else None
@@ -143,7 +145,7 @@ class BoundMatching(ResidualSimilarity):
 
     def _nearest(self, placed: Placed[Surfels], reach: float) -> tuple[Array, Indices]:
         """Returns distances (N,) [m] and indices (N,) of the nearest among the visible surfels."""
-        tree = cKDTree(placed.centres[self._visible])
+        tree = scipy.spatial.cKDTree(placed.centres[self._visible])
         distances, nearest = tree.query(self.points, distance_upper_bound=reach)
         return np.asarray(distances), np.asarray(nearest)
 

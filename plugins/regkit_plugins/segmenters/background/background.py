@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Annotated, Literal
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 from pydantic import Field
-from scipy.ndimage import minimum_filter
 
 from regkit.config.model import InputPath
 from regkit.config.quantities import Count, Length, Share
@@ -112,7 +112,7 @@ def in_front(frame: Frame, static: StaticDepth, margin: float) -> NDArray[np.boo
             place=frame.place,
         )
     # At an edge the background of a pixel is now the near and now the far side.
-    nearest = minimum_filter(static.depth - static.noise - margin, size=3)
+    nearest = scipy.ndimage.minimum_filter(static.depth - static.noise - margin, size=3)
     return np.asarray(frame.points[:, 2] < nearest.flat[pixels])
 
 

@@ -5,9 +5,7 @@ from __future__ import annotations
 from itertools import product
 
 import numpy as np
-from scipy.ndimage import label
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
+import scipy
 
 from regkit.clouds import spacing
 from regkit.observation import Frame
@@ -52,7 +50,7 @@ def _of_image(depth: Array, gap: float) -> Indices:
     bonds[1::2, ::2] = _bonded(inner[:-1], inner[1:], gap)
     bonds[::2, 1::2] = _bonded(inner[:, :-1], inner[:, 1:], gap)
     found = np.zeros(depth.shape, dtype=np.intp)
-    found[box] = label(bonds)[0][::2, ::2]
+    found[box] = scipy.ndimage.label(bonds)[0][::2, ::2]
     return found
 
 
@@ -79,8 +77,12 @@ def _of_cloud(points: Array, gap: float) -> Indices:
         firsts.append(first)
         seconds.append(at[first])
     first, second = np.concatenate(firsts), np.concatenate(seconds)
-    bonds = coo_array((np.ones(len(first), dtype=bool), (first, second)), 2 * (len(occupied),))
-    return np.asarray(connected_components(bonds, directed=False)[1][cell.ravel()])
+    bonds = scipy.sparse.coo_array(
+        (np.ones(len(first), dtype=bool), (first, second)), 2 * (len(occupied),)
+    )
+    return np.asarray(
+        scipy.sparse.csgraph.connected_components(bonds, directed=False)[1][cell.ravel()]
+    )
 
 
 HALF_AROUND = np.array([step for step in product((-1, 0, 1), repeat=3) if step > (0, 0, 0)])

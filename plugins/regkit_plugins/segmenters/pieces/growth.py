@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from scipy.ndimage import binary_dilation
-from scipy.spatial import KDTree
+import scipy
 
 from regkit_plugins.segmenters.pieces.figure import Figure
 from regkit_plugins.segmenters.pieces.piece import Piece
@@ -77,7 +76,7 @@ def with_fragments(body: Piece, others: Sequence[Piece], figure: Figure) -> Piec
     Noise cuts off hands, which a tracker that lost them does not expect there.
     """
     small = [piece for piece in others if piece.area <= FRAGMENT * figure.area]
-    tree, close = KDTree(body.sample), CLOSE * figure.size
+    tree, close = scipy.spatial.KDTree(body.sample), CLOSE * figure.size
     near = [piece.at for piece in small if np.min(tree.query(piece.sample)[0]) <= close]
     return replace(body, at=np.sort(np.concatenate([body.at, *near])))
 
@@ -87,7 +86,7 @@ def _grace(first: Piece, second: Piece, figure: Figure) -> float | None:
     frame = first.frame
     if frame.camera is None or frame.depth is None or frame.pixels is None:
         return None
-    distances, nearest = map(np.asarray, KDTree(first.sample).query(second.sample))
+    distances, nearest = map(np.asarray, scipy.spatial.KDTree(first.sample).query(second.sample))
     at = int(distances.argmin())
     if distances[at] > FAR * figure.size:
         return None
@@ -108,5 +107,5 @@ def _grace(first: Piece, second: Piece, figure: Figure) -> float | None:
 
 def _touch(first: Piece, second: Piece) -> bool:
     """Returns whether two pieces are beside each other in the image."""
-    around = binary_dilation(first.mask, iterations=TOUCHING)
+    around = scipy.ndimage.binary_dilation(first.mask, iterations=TOUCHING)
     return bool((around & second.mask).any())

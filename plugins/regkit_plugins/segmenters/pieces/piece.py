@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.spatial import KDTree
 
 from regkit.observation import Frame
 from regkit.system.arrays import Array, Indices
@@ -112,7 +112,7 @@ def roundness(points: Array, size: float) -> float:
         points: Points of the surface, evenly spread, (N, 3) [m].
         size: Size of the body [m].
     """
-    tree, centres = KDTree(points), points[:: max(1, len(points) // CENTRES)]
+    tree, centres = scipy.spatial.KDTree(points), points[:: max(1, len(points) // CENTRES)]
 
     def thinness(radius: float) -> float:
         """Returns the median variance [m^2] of neighbourhoods along their thinnest directions."""

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from typing import Annotated, Literal
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 from pydantic import Field
-from scipy.ndimage import minimum_filter, uniform_filter
 
 from regkit.interfaces import BoundSegmenter, Expected, Recording, Segmenter, Template
 from regkit.observation import Frame
@@ -115,7 +115,7 @@ def _beside(frame: Frame, kept: NDArray[np.bool_]) -> NDArray[np.bool_]:
         return np.zeros_like(kept)
     image = np.zeros(frame.depth.shape)
     image.flat[pixels[kept]] = 1.0
-    return np.asarray(uniform_filter(image, BESIDE).flat[pixels] >= MANY)
+    return np.asarray(scipy.ndimage.uniform_filter(image, BESIDE).flat[pixels] >= MANY)
 
 
 def _touching(frame: Frame, kept: NDArray[np.bool_], distance: float) -> NDArray[np.bool_]:
@@ -133,5 +133,5 @@ def _touching(frame: Frame, kept: NDArray[np.bool_], distance: float) -> NDArray
         return np.zeros_like(kept)
     image = np.full(frame.depth.shape, np.inf)
     image.flat[pixels[kept]] = frame.points[kept, 2]
-    near = minimum_filter(image, BESIDE).flat[pixels]
+    near = scipy.ndimage.minimum_filter(image, BESIDE).flat[pixels]
     return np.asarray(np.abs(near - frame.points[:, 2]) <= distance)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.spatial import KDTree
 
 from regkit.clouds import voxel_downsampled
 from regkit.system.arrays import Array
@@ -74,7 +74,7 @@ def bounding_planes(points: Array, size: float, least: float, most: int) -> Iter
 def _largest(points: Array, margin: float, random: np.random.Generator) -> Plane | None:
     """Returns the plane with the most points (N, 3), or None if all candidates are degenerate."""
     seeds = random.choice(len(points), TRIALS)
-    around = np.asarray(KDTree(points).query(points[seeds], k=NEIGHBOURS)[1])
+    around = np.asarray(scipy.spatial.KDTree(points).query(points[seeds], k=NEIGHBOURS)[1])
     chosen = random.integers(1, NEIGHBOURS, (2, TRIALS))
     first, second = (points[around[np.arange(TRIALS), one]] - points[seeds] for one in chosen)
     normals = np.cross(first, second)

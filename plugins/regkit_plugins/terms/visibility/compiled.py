@@ -25,14 +25,17 @@ def free_rays(
         radii: Half axes of the ellipsoids, (K, 3) [m].
         hiding: Whether each ellipsoid occludes others, (K,).
     """
-    count, samples = targets.shape[:2]
-    shares = np.ones(count)
+    count, samples, _ = targets.shape
+    shares, squares = np.empty(count), np.zeros(count)
+    for k in range(count):
+        for i in range(3):
+            squares[k] += centres[k, i] ** 2
     ray, eye = np.empty(3), np.empty(3)
     for k in range(count):
-        own = (centres[k] ** 2).sum()
+        shares[k] = 1.0
         for sample in range(samples):
             for other in range(count):
-                if other == k or not hiding[other] or (centres[other] ** 2).sum() >= own:
+                if other == k or not hiding[other] or squares[other] >= squares[k]:
                     continue
                 # Scaled by its radii, an ellipsoid is the unit ball, and rays remain rays.
                 along, square = 0.0, 0.0
