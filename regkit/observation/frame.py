@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,7 +34,7 @@ class Frame(Brief):
     depth: Array | None = None
     place: str | None = None
 
-    @property
+    @cached_property
     def pixels(self) -> Indices | None:
         """Flat indices of the points' pixels, (N,); None if the points are not an image's."""
         if self.depth is None:
