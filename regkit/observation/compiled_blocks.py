@@ -11,6 +11,9 @@ from regkit.system.compiled import compiled
 NEAREST = 1e-3
 """Points nearer than this are projected as if they were as far [m]."""
 
+UNKNOWN = 1e300
+"""Stands for an unknown depth; any measured one is nearer."""
+
 
 @compiled
 def block_depths(depth: Array, side: int) -> tuple[Array, Indices]:
@@ -26,25 +29,26 @@ def block_depths(depth: Array, side: int) -> tuple[Array, Indices]:
         block, and at or below it, (columns, rows, 2), -1 where there is none.
     """
     rows, columns = depth.shape[0] // side, depth.shape[1] // side
-    nearest = np.full((columns, rows), np.inf)
-    for pixel_row in range(rows * side):
-        row = pixel_row // side
+    nearest, width = np.empty((columns, rows)), columns * side
+    strip = np.empty(width)
+    for row in range(rows):
+        for at in range(width):
+            strip[at] = np.inf
+        # Without branches, these loops over whole rows run on several pixels at once.
+        for line in range(row * side, (row + 1) * side):
+            for at in range(width):
+                value = depth[line, at]
+                value = value if value > 0.0 else (np.inf if value <= 0.0 else UNKNOWN)
+                strip[at] = value if value < strip[at] else strip[at]
         for column in range(columns):
-            least = nearest[column, row]
-            for pixel_column in range(column * side, (column + 1) * side):
-                value = depth[pixel_row, pixel_column]
-                if value > 0.0:
-                    # A negative minimum marks a block of which only unknown pixels were met.
-                    if value < least or least < 0.0:
-                        least = value
-                elif np.isnan(value) and least == np.inf:
-                    least = -1.0
-            nearest[column, row] = least
+            least = np.inf
+            for at in range(column * side, (column + 1) * side):
+                least = min(least, strip[at])
+            nearest[column, row] = 0.0 if least == UNKNOWN else least
     shown = np.empty((columns, rows, 2), dtype=np.intp)
     for column in range(columns):
         last = -1
         for row in range(rows):
-            nearest[column, row] = max(nearest[column, row], 0.0)
             if nearest[column, row] < np.inf:
                 last = row
             shown[column, row, 0] = last

@@ -70,6 +70,45 @@ def test_constant_velocity_offers_the_last_step_again_within_the_limits(linkage)
     np.testing.assert_allclose(predicted.hinges.max(), np.radians(140.0))
 
 
+@pytest.mark.parametrize("turn", [0.0, 1e-6, 0.3, 3.0])
+def test_constant_velocity_repeats_the_difference_of_the_last_poses(raised, random, turn):
+    body, before, _ = raised
+    bones = body.skeleton
+    step = random.normal(size=bones.dofs)
+    # Each rotation of the step has the angle ``turn``.
+    vectors = step[3 : bones.ball_dofs.stop].reshape(-1, 3)
+    step[3 : bones.ball_dofs.stop] = (
+        turn * vectors / np.linalg.norm(vectors, axis=1)[:, None]
+    ).ravel()
+    last = bones.retract(before, step)
+    last = Pose(last.root, -last.balls, last.hinges)
+    recorder = Recorder(body)
+    past = Past.start(before).followed_by(seen(before)).followed_by(seen(last))
+    ConstantVelocity(recovery=None).bind(recorder).step(NOTHING, past)
+    ((_, predicted),) = recorder.calls
+    expected = bones.limits.projected(bones.retract(last, bones.difference(before, last)))
+    for name in ("root", "balls", "hinges"):
+        np.testing.assert_allclose(
+            getattr(predicted, name), getattr(expected, name), atol=1e-12, err_msg=name
+        )
+
+
+def test_repeated_motions_stay_rotations(raised, random):
+    """However often, predictions that are taken as they are do not add up their rounding."""
+    body, before, _ = raised
+    bones = body.skeleton
+    last = bones.retract(before, 0.01 * random.normal(size=bones.dofs))
+    recorder = Recorder(body)
+    bound = ConstantVelocity(recovery=None).bind(recorder)
+    past = Past.start(before).followed_by(seen(before)).followed_by(seen(last))
+    for _ in range(300):
+        bound.step(NOTHING, past)
+        past = past.followed_by(seen(recorder.calls[-1][1]))
+    rotation = past.last.pose.root[:3, :3]
+    np.testing.assert_allclose(rotation.T @ rotation, np.eye(3), atol=1e-12)
+    np.testing.assert_allclose(np.linalg.norm(past.last.pose.balls, axis=1), 1.0, atol=1e-12)
+
+
 def test_constant_velocity_has_no_step_to_repeat_at_first(linkage):
     recorder = Recorder(linkage)
     rest = linkage.skeleton.rest()
