@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import sqrt
+
 import numpy as np
 
 from regkit.system.arrays import Array
@@ -22,13 +24,15 @@ def nearest_distances(queries: Array, points: Array, most: float) -> Array:
     count = len(queries)
     # In one array for each axis, the inner loop runs on several places at once.
     x, y, z = np.empty(count), np.empty(count), np.empty(count)
-    low, high = np.full(3, np.inf), np.full(3, -np.inf)
+    squares, low, high = np.empty(count), np.empty(3), np.empty(3)
+    for i in range(3):
+        low[i], high[i] = np.inf, -np.inf
     for k in range(count):
         x[k], y[k], z[k] = queries[k, 0], queries[k, 1], queries[k, 2]
+        squares[k] = np.inf
         for i in range(3):
             low[i] = min(low[i], queries[k, i] - most)
             high[i] = max(high[i], queries[k, i] + most)
-    squares = np.full(count, np.inf)
     for n in range(len(points)):
         a, b, c = points[n, 0], points[n, 1], points[n, 2]
         if not (low[0] <= a <= high[0] and low[1] <= b <= high[1] and low[2] <= c <= high[2]):
@@ -37,5 +41,5 @@ def nearest_distances(queries: Array, points: Array, most: float) -> Array:
             square = (x[k] - a) ** 2 + (y[k] - b) ** 2 + (z[k] - c) ** 2
             squares[k] = square if square < squares[k] else squares[k]
     for k in range(count):
-        squares[k] = np.sqrt(squares[k])
+        squares[k] = sqrt(squares[k])
     return squares

@@ -74,9 +74,9 @@ def observable_points(
         offset: Block coordinates of the principal point, (2,).
     """
     columns, rows = nearest.shape
-    shown = np.zeros(len(points), dtype=np.bool_)
+    shown = np.empty(len(points), dtype=np.bool_)
     for k in range(len(points)):
-        z = points[k, 2]
+        z, shown[k] = points[k, 2], False
         if not z > 0.0:
             continue
         far = max(z, NEAREST)

@@ -34,9 +34,10 @@ def free_space_distances(
         half: Radius of a block in normalised image coordinates; a ray closer than this to a block
             with depth is inside the silhouette.
     """
-    distances, gradients = np.zeros(len(points)), np.zeros((len(points), 3))
+    distances, gradients = np.empty(len(points)), np.empty((len(points), 3))
     columns, rows = nearest.shape
     for k in range(len(points)):
+        distances[k] = gradients[k, 0] = gradients[k, 1] = gradients[k, 2] = 0.0
         z = max(points[k, 2], NEAREST)
         x, y = points[k, 0] / z, points[k, 1] / z
         column = int(np.rint(x * scale[0] + offset[0]))
@@ -54,7 +55,8 @@ def free_space_distances(
         # than the best block so far hold no better one.
         least, best_x, best_y, step = np.inf, 0.0, 0.0, 0
         while step < columns and ((step - 0.5) / scale[0]) ** 2 < least:
-            for other in range(column - step, column + step + 1, max(2 * step, 1)):
+            for side in range(2):
+                other = column - step if side == 0 else column + step
                 if not 0 <= other < columns:
                     continue
                 centre_x = (other - offset[0]) / scale[0]

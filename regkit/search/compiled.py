@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import sqrt
+
 import numpy as np
 
 from regkit.geometry.compiled_capsules import cone_distance, cones_of
@@ -20,7 +22,9 @@ def mean_gaps(places: Array, radii: Array, points: Array, most: float) -> Array:
         most: Upper bound of each distance [m].
     """
     count = places.shape[2]
-    means, least = np.zeros(count), np.empty(count)
+    means, least = np.empty(count), np.empty(count)
+    for n in range(count):
+        means[n] = 0.0
     for point in range(len(points)):
         a, b, c = points[point, 0], points[point, 1], points[point, 2]
         for n in range(count):
@@ -33,7 +37,7 @@ def mean_gaps(places: Array, radii: Array, points: Array, most: float) -> Array:
                     places[sphere, 1, n] - b,
                     places[sphere, 2, n] - c,
                 )
-                gap = abs(np.sqrt(x * x + y * y + z * z) - radius)
+                gap = abs(sqrt(x * x + y * y + z * z) - radius)
                 least[n] = gap if gap < least[n] else least[n]
         for n in range(count):
             means[n] += least[n]
@@ -76,4 +80,4 @@ def unexplained(
         if not explained:
             chosen[count] = n
             count += 1
-    return chosen[:count].copy()
+    return chosen[:count]
