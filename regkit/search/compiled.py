@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from math import sqrt
-
 import numpy as np
 
 from regkit.geometry.compiled_capsules import cone_distance, cones_of
-from regkit.system.arrays import Array, Indices
+from regkit.system.arrays import Array, Indices, Singles
 from regkit.system.compiled import compiled
 
 
 @compiled
-def mean_gaps(places: Array, radii: Array, points: Array, most: float) -> Array:
+def mean_gaps(places: Singles, radii: Singles, points: Singles, most: np.float32) -> Array:
     """Returns the mean distance (N,) of points to the spheres' surface, in units of ``most``.
+
+    Square roots take most of the time, and several times less of it in single precision, whose
+    rounding is a ten thousandth of a millimetre.
 
     Args:
         places: Centres of the spheres in N configurations, (P, 3, N) [m].
@@ -22,7 +23,7 @@ def mean_gaps(places: Array, radii: Array, points: Array, most: float) -> Array:
         most: Upper bound of each distance [m].
     """
     count = places.shape[2]
-    means, least = np.empty(count), np.empty(count)
+    means, least = np.empty(count), np.empty(count, dtype=np.float32)
     for n in range(count):
         means[n] = 0.0
     for point in range(len(points)):
@@ -37,7 +38,7 @@ def mean_gaps(places: Array, radii: Array, points: Array, most: float) -> Array:
                     places[sphere, 1, n] - b,
                     places[sphere, 2, n] - c,
                 )
-                gap = abs(sqrt(x * x + y * y + z * z) - radius)
+                gap = abs(np.sqrt(x * x + y * y + z * z) - radius)
                 least[n] = gap if gap < least[n] else least[n]
         for n in range(count):
             means[n] += least[n]

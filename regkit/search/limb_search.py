@@ -15,7 +15,7 @@ from regkit.observation.silhouette import Silhouette
 from regkit.search.compiled import mean_gaps, unexplained
 from regkit.search.limbs import Limb, limbs_of
 from regkit.skeleton import Placement, Pose
-from regkit.system.arrays import Array, loop_input
+from regkit.system.arrays import Array, Singles, loop_input
 
 SPACING = 0.05
 """Distance of the points on a limb's axis, as a fraction of the body's size."""
@@ -50,7 +50,7 @@ class LimbSearch:
     rest: Capsules
     balls: Array
     hinges: Array
-    places: Array
+    places: Singles
 
     @classmethod
     def of_all(cls, body: Body, random: np.random.Generator, samples: int) -> Iterator[LimbSearch]:
@@ -72,8 +72,8 @@ class LimbSearch:
             transforms = Placement.of(body.skeleton, poses).transforms
             places = axes.place(transforms) - transforms[:, limb.parent, None, :3, 3]
             places = places @ transforms[:, limb.parent, :3, :3]
-            places = np.ascontiguousarray(places.transpose(1, 2, 0))
-            yield cls(body, limb, axes, body.capsules.selected(~own), balls, hinges, places)
+            singles = np.ascontiguousarray(places.transpose(1, 2, 0), dtype=np.float32)
+            yield cls(body, limb, axes, body.capsules.selected(~own), balls, hinges, singles)
 
     def starts(
         self, points: Array, pose: Pose, most: int, silhouette: Silhouette | None = None
@@ -110,9 +110,12 @@ class LimbSearch:
         bare = unexplained(points, root, 1.2 * self._length, rest.ends, rest.radii, width)
         return points[bare[:: max(1, len(bare) // MOST_POINTS)]]
 
-    def _data_to_model(self, places: Array, bare: Array) -> Array:
+    def _data_to_model(self, places: Array | Singles, bare: Array) -> Array:
         """Returns the misfit (N,) of the unexplained points to the limb's surface (P, 3, N)."""
-        return mean_gaps(loop_input(places), self.axes.radii, bare, self._cutoff)
+        centres, radii, points = (
+            np.ascontiguousarray(one, dtype=np.float32) for one in (places, self.axes.radii, bare)
+        )
+        return mean_gaps(centres, radii, points, np.float32(self._cutoff))
 
     def _model_to_data(self, places: Array, points: Array, silhouette: Silhouette | None) -> Array:
         """Returns the misfit (N,) of the limb's surface (N, P, 3) to the points."""
