@@ -26,6 +26,7 @@ from regkit.interfaces import (
     Recording,
     Registrar,
     RegistrationResult,
+    StartSearch,
     Template,
     Tracker,
 )
@@ -145,10 +146,7 @@ def tracked(name: str) -> dict[str, float]:
 
 
 def _session(recording: Recording, template: Template, preprocessor: Preprocessor) -> Session:
-    from regkit.config.document import Document
-    from regkit.skeleton import PoseDescription
-
-    start = Document(START, {(): "START"}).validated(PoseDescription)
+    start = StartSearch.parse({"kind": "given", **START}, place="streams", field="start")
     return Session(recording, template, preprocessor, start)
 
 

@@ -4,17 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from regkit.body.listed import ListedShape
-from regkit.geometry.capsules import Capsules
+from regkit.geometry.capsules import AxisPoints, Capsules
 from regkit.geometry.surface import SkinnedSurface
 from regkit.skeleton import Placement, Pose, Skeleton
 from regkit.system.arrays import Array, Indices
 from regkit.system.brief import Brief
+
+SPACING = 0.05
+"""Distance of the points on a body's axes, as a fraction of its size."""
 
 
 @dataclass(frozen=True)
@@ -91,10 +95,20 @@ class Body(Brief):
             parts.append(f"{len(self.surface.points)} surface points")
         return f"<Body {self.name}: size {self.size:.4g} m, {self.skeleton!r}, {', '.join(parts)}>"
 
-    @property
+    @cached_property
     def required(self) -> Capsules:
         """The surface that the data must show unless something hides it."""
         return self.capsules.selected(~self.is_optional(self.capsules.segments))
+
+    @cached_property
+    def required_axes(self) -> AxisPoints:
+        """Points on the axes of the required surface, in the segments' frames."""
+        return self.required.axis_points(SPACING * self.size)
+
+    @cached_property
+    def limb_radius(self) -> float:
+        """Radius of a typical limb of the required surface [m]."""
+        return self.required.limb_radius()
 
     def is_optional(self, segments: Indices) -> NDArray[np.bool_]:
         """Returns whether the data may lack each of some segments (K,), (K,)."""

@@ -5,22 +5,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy
+from scipy.spatial import KDTree
 
 from regkit.body.body import Body
-from regkit.body.distance import model_to_data
+from regkit.clouds.compiled_nearest import nearest_distances
 from regkit.observation.silhouette import Silhouette
 from regkit.skeleton import Pose
-from regkit.system.arrays import Array
+from regkit.system.arrays import Array, loop_input
 
 NEAR = 0.03
 """Distance within which data fit a body without capsules, as a fraction of its size."""
 
 FARTHEST = 2.0
 """A distance counts up to this many radii of a typical limb."""
-
-SPACING = 0.05
-"""Distance of the points on a body's axes, as a fraction of its size."""
 
 
 @dataclass(frozen=True)
@@ -65,16 +62,15 @@ class BodyFit:
             points: The data, (N, 3) [m].
             silhouette: What the camera shows; None if everything is seen.
         """
-        transforms = body.place(pose).transforms
+        points, transforms = loop_input(points), body.place(pose).transforms
         if len(body.capsules):
             capsules = body.capsules.place(transforms)
             gaps = np.abs(capsules.surface_distance(points))
-            near = body.required.limb_radius()
-            required = body.required.place(transforms)
-            axes = required.axis_points(SPACING * body.size)
-            bare = model_to_data(axes, scipy.spatial.KDTree(points)).lengths
+            near, axes = body.limb_radius, body.required_axes
+            spheres = axes.place(transforms)
+            bare = np.maximum(nearest_distances(spheres, points, np.inf) - axes.radii, 0.0)
             if silhouette is not None:
-                bare = bare[silhouette.observable(axes.points, axes.radii + near)]
+                bare = bare[silhouette.observable(spheres, axes.radii + near)]
             # A body of which nothing is visible is not in sight.
             bare = bare if len(bare) else np.array([np.inf])
             coverage = float((bare <= near).mean())
@@ -83,7 +79,7 @@ class BodyFit:
             relief = _least_deviation(points) / near
         elif body.surface is not None:
             placed = body.surface.place(transforms)
-            gaps = np.asarray(scipy.spatial.KDTree(placed).query(points)[0])
+            gaps = np.asarray(KDTree(placed).query(points)[0])
             near = NEAR * body.size
             # The far side of an object is never seen, and an object may be flat.
             coverage = misfit = relief = float("nan")

@@ -9,8 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
+from regkit.geometry.compiled_projection import back_project
 from regkit.geometry.intrinsics import intrinsics_of
-from regkit.system.arrays import Array
+from regkit.system.arrays import Array, loop_input
 from regkit.system.errors import DataError
 from regkit.system.guard import reading
 from regkit.system.json_files import read_json
@@ -92,17 +93,16 @@ class Camera:
                 f"{self.width}x{self.height}; use the intrinsics of this image",
                 place=place,
             )
-        rows, columns = np.nonzero(depth > 0.0)
-        z = depth[rows, columns]
-        if (farthest := float(z.max(initial=0.0))) > MAX_DISTANCE:
+        points, farthest = back_project(
+            loop_input(depth), float(self.fx), float(self.fy), float(self.cx), float(self.cy)
+        )
+        if farthest > MAX_DISTANCE:
             raise DataError(
                 f"a depth of {farthest:g} m is farther than any camera measures; check the depth's "
                 "unit",
                 place=place,
             )
-        return np.column_stack(
-            [(columns - self.cx) * z / self.fx, (rows - self.cy) * z / self.fy, z]
-        )
+        return points
 
     def projected(self, points: Array) -> Array:
         """Returns pixel coordinates (N, 2), column and row, of points (N, 3) [m] with z > 0."""

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from regkit.system.arrays import Array, Indices
+from regkit.geometry.compiled_capsules import nearest_capsules
+from regkit.system.arrays import Array, Indices, loop_input
 from regkit.system.brief import Brief
 
 
@@ -53,15 +54,13 @@ class Capsules(Brief):
             The index of the nearest capsule (N,), the signed distance (N,) [m], negative inside,
             and its gradient (N, 3), a unit vector that points away from the surface.
         """
-        distances, heights = self._distances(points)
-        nearest = distances.argmin(axis=1)
-        each = np.arange(len(points))
+        nearest, distances, heights = self._nearest(points)
         start, axis = self.ends[nearest, 0], self.ends[nearest, 1] - self.ends[nearest, 0]
         length = np.linalg.norm(axis, axis=1)
-        along = heights[each, nearest] / np.where(length > 0.0, length, 1.0)
+        along = heights / np.where(length > 0.0, length, 1.0)
         away = points - start - along[:, None] * axis
         norm = np.linalg.norm(away, axis=1, keepdims=True)
-        return nearest, distances[each, nearest], away / np.where(norm > 0.0, norm, 1.0)
+        return nearest, distances, away / np.where(norm > 0.0, norm, 1.0)
 
     def surface_distance(self, points: Array) -> Array:
         """Returns the signed distance (N,) [m] of points (N, 3) [m] to the union of all capsules.
@@ -69,7 +68,7 @@ class Capsules(Brief):
         The distance is exact outside. Inside it is a lower bound of the depth, because part of a
         capsule's surface may be inside another capsule.
         """
-        return np.asarray(self._distances(points)[0].min(axis=1))
+        return self._nearest(points)[1]
 
     def limb_radius(self) -> float:
         """Returns the radius [m] of a typical limb: the median over the capsules' length."""
@@ -126,26 +125,9 @@ class Capsules(Brief):
             along=along,
         )
 
-    def _distances(self, points: Array) -> tuple[Array, Array]:
-        """Returns signed distances (N, C) [m] and axial positions (N, C) [m] of nearest spheres.
-
-        The surface is the envelope of spheres whose radius decreases along the axis by the sine s
-        of the cone's half angle. For a point at height y along the axis and distance x from it, the
-        nearest sphere has its centre at y - s x / sqrt(1 - s^2), clipped to the axis.
-        """
-        start, axis = self.ends[:, 0], self.ends[:, 1] - self.ends[:, 0]
-        length = np.linalg.norm(axis, axis=1)
-        safe = np.where(length > 0.0, length, 1.0)
-        unit = axis / safe[:, None]
-        # At |s| = 1 one sphere contains the other; the nearest centre then is the larger sphere's.
-        sine = np.clip((self.radii[:, 0] - self.radii[:, 1]) / safe, -1.0 + 1e-12, 1.0 - 1e-12)
-        # Expanding the squares avoids an (N, C, 3) array.
-        height = points @ unit.T - (start * unit).sum(axis=1)
-        square = (points**2).sum(axis=1)[:, None] - 2.0 * points @ start.T + (start**2).sum(axis=1)
-        side = np.sqrt(np.maximum(square - height**2, 0.0))
-        nearest = np.clip(height - side * (sine / np.sqrt(1.0 - sine**2)), 0.0, length)
-        radius = self.radii[:, 0] + (self.radii[:, 1] - self.radii[:, 0]) / safe * nearest
-        return np.hypot(side, height - nearest) - radius, nearest
+    def _nearest(self, points: Array) -> tuple[Indices, Array, Array]:
+        """Returns the nearest capsules, signed distances [m] and heights of spheres [m], (N,)."""
+        return nearest_capsules(loop_input(points), loop_input(self.ends), loop_input(self.radii))
 
 
 @dataclass(frozen=True)

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from regkit.config.plugin import Plugin
 from regkit.interfaces.registrar import Registrar, RegistrationResult
+from regkit.interfaces.window import Window
 from regkit.observation import Observation
 from regkit.skeleton import Pose
-
-WINDOW = 1000
-"""Number of stored inlier shares, enough to determine the usual share in a recording."""
 
 SEARCHES = 8
 """Number of stored searches, enough to make them rare while they are in vain."""
@@ -38,7 +36,7 @@ class Past:
         last: Result of the last frame; before the first frame, the start.
         before: Result of the frame before the last, if there is one.
         frames: Number of registered frames.
-        inlier_shares: Inlier shares of up to ``WINDOW`` last frames, the latest last.
+        inlier_shares: Known inlier shares of the last frames.
         missed: Number of frames without data since the last registered one.
         searches: Up to ``SEARCHES`` last searches for the whole body, the latest last.
     """
@@ -46,7 +44,7 @@ class Past:
     last: RegistrationResult
     before: RegistrationResult | None = None
     frames: int = 0
-    inlier_shares: tuple[float, ...] = ()
+    inlier_shares: Window = field(default_factory=Window)
     missed: int = 0
     searches: tuple[BodySearch, ...] = ()
 
@@ -62,7 +60,7 @@ class Past:
             last=result,
             before=self.last if self.frames else None,
             frames=self.frames + 1,
-            inlier_shares=(*self.inlier_shares[1 - WINDOW :], result.inlier_share),
+            inlier_shares=self.inlier_shares.followed_by(result.inlier_share),
             searches=_older((*self.searches, *new)),
         )
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from regkit.observation.silhouette import Silhouette
-from regkit.system.machine_types import Matrix, SingleMatrix, SingleVector, Vector
+from regkit.system.machine_types import IntegerStack, Matrix, SingleMatrix, SingleVector, Vector
 
 if TYPE_CHECKING:
     from regkit.observation.observation import Observation
@@ -19,7 +19,7 @@ class SilhouetteArrays(NamedTuple):
     Attributes:
         known: Whether there is one; the arrays are empty if not.
         nearest: Minimum depth of each block, (columns, rows) [m].
-        shown: Centres of the blocks with depth, (B, 2).
+        shown: Rows of the nearest blocks with depth, (columns, rows, 2).
         scale: Blocks per unit of normalised image coordinates, (2,).
         offset: Block coordinates of the principal point, (2,).
         half: Radius of a block in normalised image coordinates.
@@ -27,7 +27,7 @@ class SilhouetteArrays(NamedTuple):
 
     known: bool
     nearest: Matrix
-    shown: Matrix
+    shown: IntegerStack
     scale: Vector
     offset: Vector
     half: float
@@ -41,7 +41,7 @@ class SilhouetteArrays(NamedTuple):
 
 
 _NO_SILHOUETTE = SilhouetteArrays(
-    False, np.zeros((0, 0)), np.zeros((0, 2)), np.zeros(2), np.zeros(2), 0.0
+    False, np.zeros((0, 0)), np.zeros((0, 0, 2), np.int64), np.zeros(2), np.zeros(2), 0.0
 )
 
 

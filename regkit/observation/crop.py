@@ -59,6 +59,8 @@ class Crop(Model):
                 f"least {self.min_points} are needed (preprocessor.crop)",
                 place=frame.place,
             )
+        if len(kept) == len(points):
+            return frame
         mask = np.zeros(len(points), dtype=bool)
         mask[kept] = True
         # Only what is nearer than ``near`` may hide the object.

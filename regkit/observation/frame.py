@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from regkit.geometry.camera import Camera
-from regkit.system.arrays import Array, Indices
+from regkit.observation.compiled_removal import kept_points, remaining_depth
+from regkit.system.arrays import Array, Indices, loop_input
 from regkit.system.brief import Brief
 
 FARTHEST = 98.0
@@ -33,7 +35,7 @@ class Frame(Brief):
     depth: Array | None = None
     place: str | None = None
 
-    @property
+    @cached_property
     def pixels(self) -> Indices | None:
         """Flat indices of the points' pixels, (N,); None if the points are not an image's."""
         if self.depth is None:
@@ -54,15 +56,11 @@ class Frame(Brief):
         """
         if kept.all():
             return self
-        pixels = self.pixels
-        if pixels is None or self.depth is None:
-            return replace(self, points=self.points[kept])
-        depth, removed = self.depth.copy(), ~kept
-        depth.flat[pixels[removed]] = 0.0
-        if kept.any():
-            farthest = np.percentile(self.points[kept, 2], FARTHEST)
-            hiding = removed & (self.points[:, 2] < farthest)
-            if free is not None:
-                hiding &= ~free
-            depth.flat[pixels[hiding]] = np.nan
-        return replace(self, points=self.points[kept], depth=depth)
+        left = kept_points(loop_input(self.points), kept)
+        if self.depth is None:
+            return replace(self, points=left)
+        # Nothing hides a body of which nothing is kept.
+        farthest = float(np.percentile(left[:, 2], FARTHEST)) if len(left) else -np.inf
+        free = np.zeros_like(kept) if free is None else free
+        depth, of_image = remaining_depth(loop_input(self.depth), kept, free, farthest)
+        return replace(self, points=left, depth=depth if of_image else self.depth)

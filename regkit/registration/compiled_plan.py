@@ -272,12 +272,8 @@ def matrix_on_bones(
 @compiled(python=False)
 def _twists(skeleton: SkeletonArrays, pose: PoseArrays, links: Stack, dofs: int) -> Matrix:
     """Returns the world twist (n, 6) of each degree of freedom about the root's origin."""
-    reference = np.empty(3)
-    for i in range(3):
-        reference[i] = pose.root[i, 3]
     return joint_twists(
         links,
-        reference,
         skeleton.first,
         skeleton.ball_links,
         skeleton.hinge_links,

@@ -24,7 +24,7 @@ from regkit.registration.plan import Plan
 from regkit.registration.pose_problem import PoseProblem
 from regkit.registration.tangent import TangentCoordinates
 from regkit.skeleton import Pose
-from regkit.system.arrays import Array
+from regkit.system.arrays import Array, loop_input
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,8 +152,4 @@ class CompiledProblem(PoseProblem):
 
 def _arrays(pose: Pose) -> PoseArrays:
     """Returns a pose as compiled functions take it."""
-    return PoseArrays(
-        np.array(pose.root, dtype=np.float64),
-        np.array(pose.balls, dtype=np.float64),
-        np.array(pose.hinges, dtype=np.float64),
-    )
+    return PoseArrays(loop_input(pose.root), loop_input(pose.balls), loop_input(pose.hinges))

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy
 
 from regkit.interfaces import Evaluation, Registrar, RegistrationResult
 from regkit.observation import Observation
@@ -54,11 +53,14 @@ class LimbRecovery:
 
     def recovered(self, observation: Observation, found: RegistrationResult) -> RegistrationResult:
         """Returns the best registration after searching all limbs in turn."""
-        best, evaluation = found, self.registrar.evaluate(observation, found.pose)
-        cloud = scipy.spatial.KDTree(observation.points)
+        best, evaluation = found, None
         for search in self.searches:
-            starts = search.starts(cloud, best.pose, self.starts, observation.silhouette)
+            starts = search.starts(
+                observation.points, best.pose, self.starts, observation.silhouette
+            )
             for start in starts:
+                if evaluation is None:
+                    evaluation = self.registrar.evaluate(observation, best.pose)
                 tried = self.registrar.register(observation, [start])
                 rival = self.registrar.evaluate(observation, tried.pose)
                 if self._better(rival, evaluation):

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
-import scipy
 
 from regkit.body import Body
+from regkit.clouds.compiled_nearest import nearest_distances
 from regkit.geometry.capsules import AxisPoints, Capsules
 from regkit.observation.silhouette import Silhouette
-from regkit.search.compiled import mean_gaps
+from regkit.search.compiled import mean_gaps, unexplained
 from regkit.search.limbs import Limb, limbs_of
 from regkit.skeleton import Placement, Pose
-from regkit.system.arrays import Array
+from regkit.system.arrays import Array, Singles, loop_input
 
 SPACING = 0.05
 """Distance of the points on a limb's axis, as a fraction of the body's size."""
@@ -40,7 +41,7 @@ class LimbSearch:
         rest: Capsules of the rest of the body.
         balls: Quaternions of the ball joints in N configurations, (N, n_ball, 4).
         hinges: Hinge angles in these configurations, (N, n_hinge) [rad].
-        places: The axis points in the frame of the limb's parent segment, (N, P, 3) [m].
+        places: The axis points in the frame of the limb's parent segment, (P, 3, N) [m].
     """
 
     body: Body
@@ -49,7 +50,7 @@ class LimbSearch:
     rest: Capsules
     balls: Array
     hinges: Array
-    places: Array
+    places: Singles
 
     @classmethod
     def of_all(cls, body: Body, random: np.random.Generator, samples: int) -> Iterator[LimbSearch]:
@@ -71,64 +72,67 @@ class LimbSearch:
             transforms = Placement.of(body.skeleton, poses).transforms
             places = axes.place(transforms) - transforms[:, limb.parent, None, :3, 3]
             places = places @ transforms[:, limb.parent, :3, :3]
-            yield cls(body, limb, axes, body.capsules.selected(~own), balls, hinges, places)
+            singles = np.ascontiguousarray(places.transpose(1, 2, 0), dtype=np.float32)
+            yield cls(body, limb, axes, body.capsules.selected(~own), balls, hinges, singles)
 
     def starts(
-        self,
-        cloud: scipy.spatial.KDTree,
-        pose: Pose,
-        most: int,
-        silhouette: Silhouette | None = None,
+        self, points: Array, pose: Pose, most: int, silhouette: Silhouette | None = None
     ) -> Iterator[Pose]:
         """Yields up to ``most`` poses whose limb best covers what the rest leaves unexplained.
 
         Args:
-            cloud: The frame's points [m].
+            points: The frame's points, (N, 3) [m].
             pose: Pose of the body, in which the limb is in doubt.
             most: Maximum number of poses.
             silhouette: What the frame's picture shows: a limb out of the picture is not absent.
         """
-        placement = self.body.place(pose)
-        carrier = placement.transforms[self.limb.parent]
-        places = self.places @ carrier[:3, :3].T + carrier[:3, 3]
-        bare = self._bare(np.asarray(cloud.data), placement, places[0, 0])
+        points, transforms = loop_input(points), self.body.place(pose).transforms
+        rotation, origin = transforms[self.limb.parent, :3, :3], transforms[self.limb.parent, :3, 3]
+        root = rotation @ self.places[0, :, 0] + origin
+        bare = self._bare(points, transforms, root)
         if len(bare) < FEWEST_POINTS:
             return
-        present = self.axes.place(placement.transforms)[None]
-        now = (
-            self._data_to_model(present, bare) + self._model_to_data(present, cloud, silhouette)
-        )[0]
-        uncovered = self._data_to_model(places, bare)
+        present = self.axes.place(transforms)[None]
+        now = self._data_to_model(present.transpose(1, 2, 0), bare)
+        now += self._model_to_data(present, points, silhouette)
+        uncovered = self._data_to_model(self.places, (bare - origin) @ rotation)
         likely = np.argsort(uncovered)[:LIKELY]
-        misfits = uncovered[likely] + self._model_to_data(places[likely], cloud, silhouette)
+        places = self.places[:, :, likely].transpose(2, 0, 1) @ rotation.T + origin
+        misfits = uncovered[likely] + self._model_to_data(places, points, silhouette)
         for index in np.argsort(misfits)[:most]:
-            if misfits[index] < BETTER * now:
+            if misfits[index] < BETTER * now[0]:
                 chosen = likely[index]
                 yield self.limb.rotated(pose, self.balls[chosen], self.hinges[chosen])
 
-    def _bare(self, points: Array, placement: Placement, root: Array) -> Array:
+    def _bare(self, points: Array, transforms: Array, root: Array) -> Array:
         """Returns points within the limb's length that the rest of the body does not explain."""
-        length = float(np.linalg.norm(self.places - self.places[:, :1], axis=2).max())
-        near = points[np.linalg.norm(points - root, axis=1) < 1.2 * length]
-        if len(self.rest):
-            rest = self.rest.place(placement.transforms)
-            near = near[rest.surface_distance(near) > float(self.axes.radii.max())]
-        return np.ascontiguousarray(near[:: max(1, len(near) // MOST_POINTS)])
+        rest, width = self.rest.place(transforms), 0.5 * self._cutoff
+        bare = unexplained(points, root, 1.2 * self._length, rest.ends, rest.radii, width)
+        return points[bare[:: max(1, len(bare) // MOST_POINTS)]]
 
-    def _data_to_model(self, places: Array, bare: Array) -> Array:
-        """Returns the misfit (N,) of the unexplained points to the limb's surface."""
-        return mean_gaps(places, self.axes.radii, bare, self._cutoff)
+    def _data_to_model(self, places: Array | Singles, bare: Array) -> Array:
+        """Returns the misfit (N,) of the unexplained points to the limb's surface (P, 3, N)."""
+        centres, radii, points = (
+            np.ascontiguousarray(one, dtype=np.float32) for one in (places, self.axes.radii, bare)
+        )
+        return mean_gaps(centres, radii, points, np.float32(self._cutoff))
 
-    def _model_to_data(
-        self, places: Array, cloud: scipy.spatial.KDTree, silhouette: Silhouette | None
-    ) -> Array:
-        """Returns the misfit (N,) of the limb's surface to the points."""
-        gaps = np.maximum(cloud.query(places)[0] - self.axes.radii, 0.0)
+    def _model_to_data(self, places: Array, points: Array, silhouette: Silhouette | None) -> Array:
+        """Returns the misfit (N,) of the limb's surface (N, P, 3) to the points."""
+        spheres = loop_input(places).reshape(-1, 3)
+        # Beyond the cutoff from the surface, all distances count alike.
+        distances = nearest_distances(spheres, points, 1.5 * self._cutoff)
+        gaps = (distances.reshape(places.shape[:2]) - self.axes.radii).clip(0.0, self._cutoff)
         if silhouette is not None:
-            gaps *= silhouette.observable(places.reshape(-1, 3)).reshape(gaps.shape)
-        return np.asarray(np.minimum(gaps, self._cutoff).mean(axis=1) / self._cutoff)
+            gaps *= silhouette.observable(spheres).reshape(gaps.shape)
+        return np.asarray(gaps.mean(axis=1) / self._cutoff)
 
-    @property
+    @cached_property
+    def _length(self) -> float:
+        """Largest distance of a point on the limb's axis from the first one [m]."""
+        return float(np.linalg.norm(self.places - self.places[:1], axis=1).max())
+
+    @cached_property
     def _cutoff(self) -> float:
         """Upper bound of a distance, the limb's width [m]."""
         return 2.0 * float(self.axes.radii.max())

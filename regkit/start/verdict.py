@@ -100,7 +100,7 @@ def _planar_excess(body: Body, pose: Pose, points: Array) -> float:
         return 0.0
     placed = body.capsules.place(body.place(pose).transforms)
     _, distances, directions = placed.nearest(points)
-    tolerance = SMOOTH * body.required.limb_radius()
+    tolerance = SMOOTH * body.limb_radius
     surface = points - distances[:, None] * directions
     return planar_share(points, tolerance) - planar_share(surface, tolerance)
 

@@ -39,6 +39,14 @@ def real_numbers(stored: NDArray[Any], what: str) -> Array:
     return np.array(stored, dtype=np.float64, order="C")
 
 
+def loop_input(values: NDArray[Any]) -> Array:
+    """Returns an array as float64 in row-major order and writeable; a copy only if it is not.
+
+    Compiled loops compile anew for arrays of another kind.
+    """
+    return np.require(values, np.float64, ["C", "A", "W"])
+
+
 def read_only(values: ArrayLike) -> Array:
     """Returns a read-only copy of ``values`` as float64."""
     array = np.array(values, dtype=np.float64)
@@ -102,6 +110,9 @@ def measured_points(points: ArrayLike, *, place: str | None = None) -> Array:
     array = np.asarray(points, dtype=np.float64)
     if array.ndim != 2 or array.shape[1] != 3:
         raise DataError(f"points have the shape {array.shape}; they must be (N, 3)", place=place)
+    # No comparison holds for NaN, so two reductions tell that all is well.
+    if not len(array) or (array.max() <= MAX_COORDINATE and array.min() >= -MAX_COORDINATE):
+        return array
     finite = np.isfinite(array).all(axis=1)
     measured = array if finite.all() else array[finite]
     far = np.flatnonzero((np.abs(measured) > MAX_COORDINATE).any(axis=1))

@@ -39,6 +39,7 @@ SingleMatrix = Annotated[NDArray[np.float32], Contiguous("float32", 2)]
 
 IntegerVector = Annotated[NDArray[np.int64], Contiguous("int64", 1)]
 IntegerMatrix = Annotated[NDArray[np.int64], Contiguous("int64", 2)]
+IntegerStack = Annotated[NDArray[np.int64], Contiguous("int64", 3)]
 """Integers, such as indices."""
 
 _SCALARS = {float: "float64", int: "int64", bool: "boolean", type(None): "none"}

@@ -81,6 +81,26 @@ def test_camera_that_cannot_be_is_refused(changed):
     assert any(name in caught.value.message for name in ("width", "height", "f", "c"))
 
 
+def test_pixels_with_depth_are_back_projected_in_row_major_order(random):
+    camera = Camera(40, 30, 41.0, 47.0, 18.7, 16.1)
+    depth = np.where(random.uniform(size=(30, 40)) < 0.4, random.uniform(1.0, 4.0, (30, 40)), 0.0)
+    depth[3:5, 7:20] = np.nan
+    rows, columns = np.nonzero(depth > 0.0)
+    z = depth[rows, columns]
+    points = camera.back_projected(depth)
+    expected = np.column_stack([(columns - 18.7) / 41.0 * z, (rows - 16.1) / 47.0 * z, z])
+    np.testing.assert_allclose(points, expected, rtol=1e-14)
+    pixels = np.column_stack([columns, rows])
+    np.testing.assert_allclose(camera.projected(points), pixels, atol=1e-12)
+    read_only = np.asfortranarray(depth)
+    read_only.flags.writeable = False
+    np.testing.assert_array_equal(camera.back_projected(read_only), points)
+    assert camera.back_projected(np.zeros((30, 40))).shape == (0, 3)
+    depth[0, 0] = np.inf
+    with pytest.raises(DataError, match="unit"):
+        camera.back_projected(depth)
+
+
 def content(**changed):
     numbers = {"width": 176, "height": 144, "intrinsic_matrix": K.T.ravel().tolist()}
     return json.dumps(numbers | changed)

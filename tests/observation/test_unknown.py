@@ -33,6 +33,32 @@ def test_what_is_removed_before_the_body_is_unknown_and_behind_it_free():
     assert frame.only(np.ones(len(frame.points), dtype=bool)) is frame
 
 
+@pytest.mark.parametrize("share", [0.0, 0.3, 0.9])
+@pytest.mark.parametrize("floor", [False, True])
+def test_removed_pixels_are_unknown_before_the_farthest_kept_one(random, share, floor):
+    depth = np.where(random.uniform(size=SHAPE) < 0.7, random.uniform(1.0, 3.0, size=SHAPE), 0.0)
+    depth[:9] = np.nan
+    points = CAMERA.back_projected(depth)
+    kept = (random.uniform(size=len(points)) < share) & (points[:, 2] < 2.2)
+    free = random.uniform(size=len(points)) < 0.4 if floor else np.zeros(len(points), dtype=bool)
+    left = Frame(points, CAMERA, depth).only(kept, free=free if floor else None)
+    np.testing.assert_array_equal(left.points, points[kept])
+    farthest = np.percentile(points[kept, 2], 98.0) if kept.any() else 0.0
+    expected = depth.copy()
+    hiding = ~kept & ~free & (points[:, 2] < farthest)
+    expected[depth > 0.0] = np.where(kept, points[:, 2], np.where(hiding, np.nan, 0.0))
+    np.testing.assert_array_equal(left.depth, expected)
+
+
+def test_image_of_other_points_is_left_as_it_is(random):
+    frame = image(BODY)
+    for points in (frame.points[1:], np.concatenate([frame.points, frame.points[:1]])):
+        other = Frame(points, CAMERA, frame.depth)
+        left = other.only(np.arange(len(points)) < 5)
+        np.testing.assert_array_equal(left.points, points[:5])
+        np.testing.assert_array_equal(left.depth, frame.depth)
+
+
 def test_what_cannot_hide_the_body_is_free():
     frame = image(TABLE, BODY)
     kept = frame.points[:, 2] == 2.0

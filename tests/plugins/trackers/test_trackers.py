@@ -4,7 +4,6 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import pytest
-from scipy.spatial import KDTree
 
 from regkit.body import Body
 from regkit.experiment.experiment import Experiment
@@ -70,6 +69,45 @@ def test_constant_velocity_offers_the_last_step_again_within_the_limits(linkage)
     np.testing.assert_allclose(predicted.hinges.max(), np.radians(140.0))
 
 
+@pytest.mark.parametrize("turn", [0.0, 1e-6, 0.3, 3.0])
+def test_constant_velocity_repeats_the_difference_of_the_last_poses(raised, random, turn):
+    body, before, _ = raised
+    bones = body.skeleton
+    step = random.normal(size=bones.dofs)
+    # Each rotation of the step has the angle ``turn``.
+    vectors = step[3 : bones.ball_dofs.stop].reshape(-1, 3)
+    step[3 : bones.ball_dofs.stop] = (
+        turn * vectors / np.linalg.norm(vectors, axis=1)[:, None]
+    ).ravel()
+    last = bones.retract(before, step)
+    last = Pose(last.root, -last.balls, last.hinges)
+    recorder = Recorder(body)
+    past = Past.start(before).followed_by(seen(before)).followed_by(seen(last))
+    ConstantVelocity(recovery=None).bind(recorder).step(NOTHING, past)
+    ((_, predicted),) = recorder.calls
+    expected = bones.limits.projected(bones.retract(last, bones.difference(before, last)))
+    for name in ("root", "balls", "hinges"):
+        np.testing.assert_allclose(
+            getattr(predicted, name), getattr(expected, name), atol=1e-12, err_msg=name
+        )
+
+
+def test_repeated_motions_stay_rotations(raised, random):
+    """However often, predictions that are taken as they are do not add up their rounding."""
+    body, before, _ = raised
+    bones = body.skeleton
+    last = bones.retract(before, 0.01 * random.normal(size=bones.dofs))
+    recorder = Recorder(body)
+    bound = ConstantVelocity(recovery=None).bind(recorder)
+    past = Past.start(before).followed_by(seen(before)).followed_by(seen(last))
+    for _ in range(300):
+        bound.step(NOTHING, past)
+        past = past.followed_by(seen(recorder.calls[-1][1]))
+    rotation = past.last.pose.root[:3, :3]
+    np.testing.assert_allclose(rotation.T @ rotation, np.eye(3), atol=1e-12)
+    np.testing.assert_allclose(np.linalg.norm(past.last.pose.balls, axis=1), 1.0, atol=1e-12)
+
+
 def test_constant_velocity_has_no_step_to_repeat_at_first(linkage):
     recorder = Recorder(linkage)
     rest = linkage.skeleton.rest()
@@ -82,15 +120,17 @@ def test_constant_velocity_has_no_step_to_repeat_at_first(linkage):
     [(0.94, 4, False), (0.90, 4, True), (0.94, 10, True)],
     ids=["as usual", "much less than usual", "as usual, but it is time"],
 )
-def test_recovery_looks_when_less_is_explained_than_usual(linkage, explained, frames, looks):
+def test_recovery_looks_when_less_is_explained_than_usual(
+    linkage, monkeypatch, explained, frames, looks
+):
     looked = []
 
-    class Watching(Recorder):
-        def evaluate(self, observation, pose):
-            looked.append(pose)
-            return super().evaluate(observation, pose)
+    def starts(self, points, pose, most, silhouette):
+        looked.append(pose)
+        return iter(())
 
-    recovery = Recovery(every=10, samples=10).bind(Watching(linkage))
+    monkeypatch.setattr(LimbSearch, "starts", starts)
+    recovery = Recovery(every=10, samples=10).bind(Recorder(linkage))
     rest = linkage.skeleton.rest()
     past = Past.start(rest)
     for _ in range(frames):
@@ -150,7 +190,7 @@ def hand_error(body: Body, pose: Pose, truth: Pose) -> float:
 
 def test_limb_search_finds_where_the_arm_is(raised, random):
     body, hanging, truth = raised
-    cloud = KDTree(surface(body, truth, random))
+    cloud = surface(body, truth, random)
     searches = {s.limb.name: s for s in LimbSearch.of_all(body, random, 500)}
     first = next(searches["left_upper_arm"].starts(cloud, hanging, 1))
     assert hand_error(body, first, truth) < 0.4 * hand_error(body, hanging, truth)

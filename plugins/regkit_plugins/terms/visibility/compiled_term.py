@@ -5,12 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from regkit.interfaces.compiled import SceneArrays
+from regkit.observation.compiled_blocks import observable_points
 from regkit.system.compiled import compiled
 from regkit.system.machine_types import Matrix, Vector
 from regkit_plugins.terms.visibility.compiled import free_rays
-
-NEAREST = 1e-3
-"""As in ``Silhouette``."""
 
 
 @compiled(python=False)
@@ -39,25 +37,18 @@ def weigh(scene: SceneArrays, numbers: Vector, table: Matrix, factors: Vector) -
             targets[k, 1, i], targets[k, 2, i] = at + one, at + two
             targets[k, 3, i], targets[k, 4, i] = at - one, at - two
     shares = free_rays(targets, scene.centres, scene.axes, radii, hiding)
-    for k in range(count):
-        shown = 0
-        for sample in range(5):
-            if _shown(scene, targets[k, sample, 0], targets[k, sample, 1], targets[k, sample, 2]):
-                shown += 1
-        factors[k] = max(shares[k] * shown / 5.0, numbers[0])
-
-
-@compiled(python=False)
-def _shown(scene: SceneArrays, x: float, y: float, z: float) -> bool:
-    """Returns whether the picture would show a point if something were there."""
     image = scene.data.silhouette
-    if not image.known:
-        return True
-    if z <= 0.0:
-        return False
-    depth = max(z, NEAREST)
-    column = int(np.rint(x / depth * image.scale[0] + image.offset[0]))
-    row = int(np.rint(y / depth * image.scale[1] + image.offset[1]))
-    if not (0 <= column < image.nearest.shape[0] and 0 <= row < image.nearest.shape[1]):
-        return False
-    return bool(image.nearest[column, row] > 0.0)
+    if image.known:
+        margins = np.empty(5 * count)
+        for sample in range(len(margins)):
+            margins[sample] = np.inf
+        shown = observable_points(
+            targets.reshape(5 * count, 3), margins, image.nearest, image.scale, image.offset
+        )
+        for k in range(count):
+            seen = 0
+            for sample in range(5 * k, 5 * k + 5):
+                seen += shown[sample]
+            shares[k] *= seen / 5.0
+    for k in range(count):
+        factors[k] = max(shares[k], numbers[0])

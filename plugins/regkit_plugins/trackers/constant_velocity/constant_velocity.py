@@ -8,6 +8,7 @@ from typing import Literal
 from regkit.interfaces import BoundTracker, Past, Registrar, RegistrationResult, Tracker
 from regkit.observation import Observation
 from regkit.skeleton import Pose
+from regkit_plugins.trackers.constant_velocity.compiled import repeated_motion
 from regkit_plugins.trackers.constant_velocity.recovery import BoundRecovery, Recovery
 
 
@@ -52,4 +53,7 @@ class BoundConstantVelocity(BoundTracker):
     def _predicted(self, before: Pose, last: Pose) -> Pose:
         """Returns the pose after repeating the last step, projected onto the limits."""
         bones = self.registrar.body.skeleton
-        return bones.limits.projected(bones.retract(last, bones.difference(before, last)))
+        root, balls = repeated_motion(before.root, before.balls, last.root, last.balls)
+        hinges = 2.0 * last.hinges - before.hinges
+        repeated = Pose(root if bones.free else last.root, balls, hinges)
+        return bones.limits.projected(repeated)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
-import numpy as np
 from pydantic import Field
 
 from regkit.config.model import Model
@@ -88,5 +87,6 @@ class BoundRecovery:
 
     def _usual(self, past: Past) -> float:
         """Returns the fraction of outliers that raises no alarm."""
-        shares = np.array(past.inlier_shares or (1.0,))
-        return self.recovery.alarm * float(np.quantile(1.0 - shares, BEST_SHARE))
+        # The least outliers are in the frames with the largest inlier shares.
+        share = past.inlier_shares.quantile(1.0 - BEST_SHARE) if past.inlier_shares else 1.0
+        return self.recovery.alarm * (1.0 - share)
