@@ -68,8 +68,9 @@ def residuals_and_rows(
     distances: Array,
     places: Array,
     front: bool,
-) -> tuple[Array, Array]:
-    """Returns residuals (N,) [m] and their derivatives to the owners' motions (N, 6).
+    rows: Array,
+) -> Array:
+    """Returns residuals (N,) [m], and writes their derivatives to the owners' motions.
 
     Args:
         points: Data points, (N, 3) [m].
@@ -78,24 +79,28 @@ def residuals_and_rows(
         distances: Its signed distance, (N,) [m].
         places: Axis position of the nearest sphere's centre, (N,) [m].
         front: Whether points behind the outline are compared with the front of their capsule.
+        rows: Written, (N, 6); without any, (0, 6), only the residuals are computed.
     """
-    residuals, rows = distances.copy(), np.zeros((len(points), 6))
+    residuals = np.empty(len(points))
     arm, gap, ray, slope = np.empty(3), np.empty(3), np.empty(3), np.empty(3)
     for i in range(len(points)):
+        residuals[i] = distances[i]
         k, at = owners[i], places[i]
-        unit, half, sine = capsules[k, 3:6], capsules[k, 6], capsules[k, 8]
+        half, sine = capsules[k, 6], capsules[k, 8]
         length = sqrt(points[i, 0] ** 2 + points[i, 1] ** 2 + points[i, 2] ** 2)
         square, behind, along = 0.0, 0.0, 0.0
         for j in range(3):
             arm[j] = points[i, j] - capsules[k, j]
-            gap[j] = arm[j] - at * unit[j]
+            gap[j] = arm[j] - at * capsules[k, 3 + j]
             ray[j] = points[i, j] / length if front else 0.0
             square += gap[j] ** 2
             behind += gap[j] * ray[j]
-            along += arm[j] * unit[j]
+            along += arm[j] * capsules[k, 3 + j]
         norm = sqrt(square)
         if norm == 0.0:
             # At the centre of a sphere no direction is nearest.
+            for j in range(6 if len(rows) else 0):
+                rows[i, j] = 0.0
             continue
         turning = 0.0
         for j in range(3):
@@ -106,24 +111,28 @@ def residuals_and_rows(
             beside = lateral - radius
             residual = sqrt(behind**2 + beside**2)
             residuals[i] = residual
+            if not len(rows):
+                continue
             down = 0.0
             for j in range(3):
                 slope[j] = behind * ray[j] / residual
                 if lateral > 0.0:
                     slope[j] += beside * (gap[j] - behind * ray[j]) / (lateral * residual)
-                down += slope[j] * unit[j]
+                down += slope[j] * capsules[k, 3 + j]
             if lateral > 0.0:
                 turning = behind * radius / (lateral * residual)
             if abs(at) < half:
                 # The nearest sphere moves along the axis with the point.
                 change = beside * sine / residual - down
-                side = sqrt(max((arm**2).sum() - along**2, 0.0))
+                length = arm[0] ** 2 + arm[1] ** 2 + arm[2] ** 2
+                side = sqrt(max(length - along**2, 0.0))
                 tilt = sine / sqrt(1.0 - sine**2) / side if side > 0.0 else 0.0
                 for j in range(3):
-                    slope[j] += change * (unit[j] - tilt * (arm[j] - along * unit[j]))
-        for j in range(3):
+                    unit = capsules[k, 3 + j]
+                    slope[j] += change * (unit - tilt * (arm[j] - along * unit))
+        for j in range(3 if len(rows) else 0):
             a, b = (j + 1) % 3, (j + 2) % 3
             rows[i, j] = -slope[j]
             rows[i, 3 + j] = arm[b] * slope[a] - arm[a] * slope[b]
             rows[i, 3 + j] += turning * (ray[b] * gap[a] - ray[a] * gap[b])
-    return residuals, rows
+    return residuals

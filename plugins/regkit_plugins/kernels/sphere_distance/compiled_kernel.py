@@ -10,7 +10,11 @@ from regkit.interfaces.compiled import SceneArrays
 from regkit.registration.compiled_robust import SQUARES, loss_value, loss_weight
 from regkit.system.compiled import compiled
 from regkit.system.machine_types import IntegerVector, Matrix, Stack, Vector
-from regkit_plugins.kernels.sphere_distance.compiled import nearest_capsules, residuals_and_rows
+from regkit_plugins.kernels.sphere_distance.compiled import residuals_and_rows
+from regkit_plugins.kernels.sphere_distance.compiled_owners import (
+    capsule_distances,
+    likely_capsules,
+)
 
 FRONT, LOSS, SCALE = 0, 1, 2
 """Indices of the numbers; the scale is NaN if each frame estimates it."""
@@ -30,20 +34,21 @@ def _residuals(
     table: Matrix,
     state: Matrix,
     scale: float,
-) -> tuple[IntegerVector, Vector, Matrix]:
-    """Returns each point's capsule (N,), residual (N,) [m] and derivative (N, 6)."""
-    count = len(centres)
+    rows: Matrix,
+) -> tuple[IntegerVector, Vector]:
+    """Returns each point's capsule (N,) and residual (N,) [m]; see ``residuals_and_rows``."""
+    count, data = len(centres), scene.data
     capsules, handicaps = np.empty((count, 9)), np.empty(count)
     for k in range(count):
         for i in range(3):
             capsules[k, i], capsules[k, 3 + i] = centres[k, i], axes[k, i, 1]
             capsules[k, 6 + i] = table[k, i]
         handicaps[k] = 2.0 * scale**2 * state[k, 0]
-    points = scene.data.points
-    owners, distances, places = nearest_capsules(points, capsules, handicaps)
-    front = numbers[FRONT] != 0.0 and scene.data.camera
-    residuals, rows = residuals_and_rows(points, capsules, owners, distances, places, front)
-    return owners, residuals, rows
+    owners = likely_capsules(data.centred, data.centre, capsules, handicaps)
+    distances, places = capsule_distances(data.points, capsules, owners)
+    front = numbers[FRONT] != 0.0 and data.camera
+    residuals = residuals_and_rows(data.points, capsules, owners, distances, places, front, rows)
+    return owners, residuals
 
 
 @compiled(python=False)
@@ -66,7 +71,9 @@ def bind(scene: SceneArrays, numbers: Vector, table: Matrix, state: Matrix) -> N
     for k in range(count):
         state[k, 0] = log(most / scene.weights[k])
     deviation = sqrt(scene.data.variance)
-    _, residuals, _ = _residuals(scene, scene.centres, scene.axes, numbers, table, state, deviation)
+    _, residuals = _residuals(
+        scene, scene.centres, scene.axes, numbers, table, state, deviation, np.empty((0, 6))
+    )
     state[count, 0] = hypot(_scale(numbers, residuals, deviation), scene.smoothing)
 
 
@@ -84,7 +91,8 @@ def respond(
 ) -> float:
     """Returns the mean loss of the distances, and adds its derivatives."""
     scale = state[len(centres), 0]
-    owners, residuals, rows = _residuals(scene, centres, axes, numbers, table, state, scale)
+    rows = np.empty((len(scene.data.points) if order else 0, 6))
+    owners, residuals = _residuals(scene, centres, axes, numbers, table, state, scale, rows)
     energy, weights = log(scale / sqrt(scene.data.variance)), scene.data.weights
     for j in range(len(residuals)):
         k, square = owners[j], (residuals[j] / scale) ** 2
@@ -111,7 +119,8 @@ def explain(
 ) -> None:
     """Writes the loss's weight of each distance, on the scale of this pose; NaN for squares."""
     scale = state[len(centres), 0]
-    _, residuals, _ = _residuals(scene, centres, axes, numbers, table, state, scale)
+    rows = np.empty((0, 6))
+    _, residuals = _residuals(scene, centres, axes, numbers, table, state, scale, rows)
     scale = _scale(numbers, residuals, sqrt(scene.data.variance))
     for j in range(len(residuals)):
         square = (residuals[j] / scale) ** 2

@@ -127,7 +127,8 @@ class BoundSphereDistance(ResidualSimilarity):
         capsules[:, 8] = primitives.sines
         handicaps = 2.0 * self._scale**2 * self._surprise
         owners, distances, places = nearest_capsules(self.points, capsules, handicaps)
-        residuals, rows = residuals_and_rows(
-            self.points, capsules, owners, distances, places, self._front
+        rows = np.empty((len(self.points), 6))
+        residuals = residuals_and_rows(
+            self.points, capsules, owners, distances, places, self._front, rows
         )
         return owners, residuals, rows
