@@ -148,6 +148,9 @@ class Solver(Plugin, ABC):
     )
     """Treatment of joint limits; every solver satisfies bounds."""
 
+    minimizes_plans: ClassVar[bool] = False
+    """Whether it minimises a problem that is compiled as a whole, in single precision."""
+
     @classmethod
     def keeping_limits(cls) -> list[str]:
         """Returns the installed solvers that satisfy all joint limits; skips broken ones."""

@@ -51,12 +51,16 @@ class Plan:
         """Returns the plan of a kernel and terms; None if one of them has no compiled function."""
         if type(primitives).place is not Primitives.place:
             return None
-        offered: list[CompiledPart | None] = []
-        if _offers(kernel):
-            offered.append(kernel.compiled(primitives))
-        offered += [term.compiled(body, primitives) for term in terms if _offers(term)]
+        offered: list[CompiledPart | None] = [
+            kernel.compiled(primitives) if _offers(kernel) else None
+        ]
+        for term in terms:
+            part = term.compiled(body, primitives) if _offers(term) else None
+            # A term that does not declare what it is gets its error from the readable form.
+            declared = isinstance(part, CompiledWeights) is term.weighs
+            offered.append(part if declared else None)
         parts = [part for part in offered if part is not None]
-        if len(parts) < 1 + len(terms):
+        if len(parts) < len(offered):
             return None
         order = (CompiledEnergy, CompiledWeights, CompiledJoints)
         ordered = sorted(parts, key=lambda part: order.index(type(part)))

@@ -13,6 +13,7 @@ from regkit.observation import Observation
 from regkit.testing.block_laws import BlockLaws
 from regkit.testing.bound import Bound
 from regkit.testing.cases import Pair
+from regkit.testing.compiled_kernel_laws import CompiledKernelLaws
 from regkit.testing.differences import Slopes
 from regkit.testing.laws import checked_on_every
 from regkit.testing.samples import moved_pose, posed, surface_data
@@ -26,8 +27,8 @@ HALF_A_TURN = rigid(np.diag([-1.0, -1.0, 1.0]), np.zeros(3))
 FAR_AWAY = np.array([0.0, 0.0, 5.0])
 
 
-class KernelLaws(BlockLaws):
-    """Laws of kernels, including those of their blocks."""
+class KernelLaws(BlockLaws, CompiledKernelLaws):
+    """Laws of kernels, including those of their blocks and of their compiled functions."""
 
     @checked_on_every("option")
     @pytest.mark.parametrize("smoothing", [0.0, 0.02])

@@ -15,6 +15,13 @@ from regkit.primitives import Placed, Primitives
 from regkit.registration import RegistrationProblem, TangentCoordinates
 from regkit.system.errors import RegkitError
 from regkit.testing.cases import Pair
+from regkit.testing.compiled_laws import (
+    alike,
+    function_of,
+    planned,
+    require_same,
+    require_same_equations,
+)
 from regkit.testing.differences import Slopes
 from regkit.testing.laws import Laws, checked_on_every
 from regkit.testing.samples import data_of, posed
@@ -119,6 +126,25 @@ class TermLaws(Laws):
             term, f"returns factors from {factors.min():.2g} to {factors.max():.2g} of shape "
             f"{factors.shape}; they must be 0 to 1, {(len(scene[1]),)}", look_at=type(term).bind,
         )  # fmt: skip
+
+    @checked_on_every("option")
+    def test_compiled_term_is_the_readable_one(
+        self, term_pair: Pair, scene: tuple[Scene, Primitives], random: np.random.Generator
+    ) -> None:
+        """Energy, gradient and matrix, or weights, agree to single precision."""
+        term, (given, primitives) = cast(Term, term_pair.plugin), scene
+        given = replace(given, observation=alike(given.observation))
+        part = term.compiled(given.body, primitives)
+        fast = planned(given.body, primitives, part, given.observation, given.prior)
+        effect, look_at = term.bind(given), function_of(part)
+        if isinstance(effect, VisibilityWeights):
+            wanted = primitives.weights * effect.factors
+            require_same(term, "weight", fast.scene.weights, wanted, look_at)
+            return
+        chart = TangentCoordinates(given.body.skeleton, given.prior)
+        x = 0.03 * random.normal(size=len(chart.origin()))
+        problem = _problem(effect, (given, primitives))
+        require_same_equations(term, problem, fast.problem(chart, None), x, look_at)
 
     def test_term_is_deterministic_and_changes_nothing(
         self, term_pair: Pair, scene: tuple[Scene, Primitives]

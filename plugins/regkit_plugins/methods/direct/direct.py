@@ -86,6 +86,6 @@ class Direct(Method):
             term.check(body)
         primitives = self.shape.bind(body)
         plan = None
-        if self.compiled:
+        if self.compiled and self.solver.minimizes_plans and self.coordinates == "tangent":
             plan = Plan.of(body, primitives, self.kernel, self.terms)
         return BoundDirect(self, body, primitives, plan)

@@ -27,6 +27,7 @@ class GaussNewton(Solver):
     limits: ClassVar[LimitKeeping] = LimitKeeping(
         hinges="each step is projected", balls="each step is projected", hard=True
     )
+    minimizes_plans: ClassVar[bool] = True
 
     max_iterations: Iterations = 10
     """Maximum number of steps, including rejected ones."""
