@@ -8,13 +8,12 @@ import numpy as np
 
 from regkit.body import Body
 from regkit.config.quantities import Weight
-from regkit.gaussians.compiled_overlap import bind
 from regkit.gaussians.compiled_similarity import COLUMNS, shows_surface
 from regkit.gaussians.overlap import SELF_OVERLAP, Overlap
 from regkit.interfaces import CompiledEnergy, Response, Scene, Term
 from regkit.primitives import Gaussians, Placed, Primitives
 from regkit.system.arrays import Array
-from regkit_plugins.terms.clamp.compiled import respond
+from regkit_plugins.terms.clamp.compiled import bind, respond
 
 
 class Clamp(Term):

@@ -2,10 +2,19 @@
 
 from __future__ import annotations
 
+from math import log
+
 import numpy as np
 
 from regkit.gaussians.compiled_pairs import pair_moments
-from regkit.gaussians.compiled_similarity import IS_FROZEN, OWN, densities_now, view_now
+from regkit.gaussians.compiled_similarity import (
+    IS_FROZEN,
+    LOG_WEIGHT,
+    OWN,
+    densities_now,
+    start_view,
+    view_now,
+)
 from regkit.gaussians.compiled_view import add_forces
 from regkit.gaussians.overlap import SELF_OVERLAP
 from regkit.interfaces.compiled import SceneArrays
@@ -14,6 +23,14 @@ from regkit.system.machine_types import Matrix, Stack, Vector
 
 WEIGHT = OWN
 """Index of the term's weight among the numbers."""
+
+
+@compiled(python=False)
+def bind(scene: SceneArrays, numbers: Vector, table: Matrix, state: Matrix) -> None:
+    """Writes the logarithms of the weights, without visibility."""
+    start_view(scene, numbers, state)
+    for k in range(len(scene.weights)):
+        state[k, LOG_WEIGHT] = log(scene.primitives.weights[k])
 
 
 @compiled(python=False)
