@@ -32,6 +32,7 @@ from regkit.interfaces.start import Start, StartSearch
 from regkit.interfaces.template import Template
 from regkit.interfaces.term import JointEnergy, JointResponse, Scene, Term, VisibilityWeights
 from regkit.interfaces.tracker import BodySearch, BoundTracker, Past, Tracker
+from regkit.interfaces.window import Window
 
 SLOTS = (
     Dataset,
@@ -88,5 +89,6 @@ __all__ = [
     "Term",
     "Tracker",
     "VisibilityWeights",
+    "Window",
     "each_body",
 ]

@@ -44,6 +44,8 @@ def loop_input(values: NDArray[Any]) -> Array:
 
     Compiled loops compile anew for arrays of another kind.
     """
+    if values.dtype == np.float64 and values.flags.carray:
+        return values
     return np.require(values, np.float64, ["C", "A", "W"])
 
 

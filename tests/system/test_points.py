@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from regkit.system.arrays import checked_points, measured_points, without_missing
+from regkit.system.arrays import checked_points, loop_input, measured_points, without_missing
 from regkit.system.errors import DataError
 from regkit.system.notes import RegkitWarning
 
@@ -26,3 +26,18 @@ def test_what_is_no_point_is_refused(points):
     for check in (measured_points, without_missing, checked_points):
         with pytest.raises(DataError, match="here"):
             check(points, place="here")
+
+
+def test_input_of_loops_is_of_one_kind_and_copied_only_if_it_is_not(random):
+    values = random.normal(size=(6, 4))
+    assert loop_input(values) is values
+    fixed = values.copy()
+    fixed.flags.writeable = False
+    others = [fixed, np.asfortranarray(values), np.repeat(values, 2, axis=1)[:, ::2]]
+    others += [values.astype(">f8"), values[::-1][::-1]]
+    for other in others:
+        found = loop_input(other)
+        assert found.flags.carray
+        assert found.dtype == np.float64
+        np.testing.assert_array_equal(found, values)
+    assert loop_input(values.astype(np.float32)).dtype == np.float64
