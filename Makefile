@@ -29,7 +29,7 @@ fuzz: $(ready) loops ## Try 10,000 damaged YAML files and 10,000 other damaged i
 
 # Compiles the loops once, so that the test processes do not each compile them.
 loops: $(ready)
-	@$(bin)/python tests/support/compile_loops.py
+	@$(bin)/regkit doctor --warm
 
 lint: $(ready)
 	@$(bin)/ruff check .

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import importlib
 import platform
 import sys
+from typing import Annotated
 
 import typer
 from rich.markup import escape
 from rich.table import Table
 
-from regkit.cli.console import output
+from regkit.cli.console import output, print_warning
 from regkit.cli.extras import extras
 from regkit.config.former import left_behind
 from regkit.config.preset import preset, presets_of
@@ -26,11 +28,23 @@ LIBRARIES = {name: name for name in ("numpy", "scipy", "numba", "pydantic", "mat
 """Libraries by module name, with the distribution to install where its name differs."""
 
 
-def doctor() -> None:
+def doctor(
+    warm: Annotated[
+        bool,
+        typer.Option(
+            "--warm",
+            help="Compile and keep all numerical loops instead, so that no later run waits for "
+            "it: for images, CI and containers. Takes up to a minute, once.",
+        ),
+    ] = False,
+) -> None:
     """Check the installation and name the command that repairs each problem.
 
     Optional libraries are listed with what they are for; one that is missing is no problem.
     """
+    if warm:
+        _warm()
+        return
     table = Table("component", "state", "repair")
     findings = [_python(), *(_library(*names) for names in LIBRARIES.items())]
     findings += [_plugins(), _cache()]
@@ -40,6 +54,14 @@ def doctor() -> None:
     _print_extras()
     if any(cure for _, _, cure in findings):
         raise typer.Exit(1)
+
+
+def _warm() -> None:
+    """Compiles all loops, and prints where they are kept and the time that it took."""
+    warmed = importlib.import_module("regkit.api.warming").warm()
+    for name, message in warmed.failed.items():
+        print_warning(f"{name}: {message}")
+    output.print(f"all loops are compiled ({warmed.seconds:.1f} s), and kept in {warmed.folder}")
 
 
 def _print_extras() -> None:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from regkit.body import Body, BodyDescription
+from regkit.body.depth import depth_image
 from regkit.body.reading import description_in
 from regkit.geometry.rigid import rigid
 from regkit.interfaces import Recording, Template
@@ -87,14 +88,4 @@ class WallScene(Recording):
 
     def _depth(self, index: int) -> Array:
         """Returns the depth image of a frame, (H, W) [m]: spheres on the body's axes."""
-        capsules = self.body.capsules
-        axes = capsules.axis_points(0.03)
-        centres = axes.place(self.body.place(self.pose(index)).transforms)
-        depth = np.full((CAMERA.height, CAMERA.width), WALL)
-        across, down = np.moveaxis(CAMERA.rays(), -1, 0)[:2]
-        for centre, radius in zip(centres, axes.radii, strict=True):
-            x, y, z = centre
-            inside = (radius / z) ** 2 - (across - x / z) ** 2 - (down - y / z) ** 2
-            front = z - z * np.sqrt(np.maximum(inside, 0.0))
-            depth = np.where(inside > 0.0, np.minimum(depth, front), depth)
-        return depth
+        return np.minimum(depth_image(self.body, self.pose(index), CAMERA), WALL)
