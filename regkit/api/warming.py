@@ -133,7 +133,7 @@ def _loops_folder() -> Path:
         DataError: If there is none that can be written.
     """
     try:
-        folder = Path(cast(Any, accumulated_wrenches.dispatcher()).stats.cache_path)
+        folder = Path(cast(Any, accumulated_wrenches.dispatcher).stats.cache_path)
     except RuntimeError as error:
         raise DataError(
             f"compiled loops cannot be kept: neither the folder of the code nor Numba's cache can "
