@@ -1,6 +1,6 @@
-"""A custom term that keeps a body upright.
+"""A custom term that keeps a body upright, readable and compiled.
 
-See docs/how-to/term.md.
+See docs/how-to/term.md and docs/how-to/compiled.md.
 """
 
 from dataclasses import dataclass
@@ -8,9 +8,14 @@ from typing import Literal
 
 import numpy as np
 
+from regkit.body import Body
 from regkit.config.plugin import register
-from regkit.interfaces import JointEnergy, JointResponse, Scene, Term
+from regkit.interfaces import CompiledJoints, JointEnergy, JointResponse, Scene, Term
+from regkit.primitives import Primitives
 from regkit.skeleton import Pose
+from regkit.skeleton.arrays import PoseArrays, SkeletonArrays
+from regkit.system.compiled import compiled
+from regkit.system.machine_types import Matrix, Vector
 
 
 @dataclass(frozen=True)
@@ -36,6 +41,30 @@ class Tilt(JointEnergy):
         )
 
 
+@compiled(python=False)
+def tilt(
+    skeleton: SkeletonArrays,
+    prior: PoseArrays,
+    pose: PoseArrays,
+    numbers: Vector,
+    table: Matrix,
+    force: Vector,
+    matrix: Matrix,
+) -> float:
+    """Returns the energy of ``Tilt`` and adds its derivatives."""
+    energy, weight = 0.0, numbers[0]
+    for i in (0, 2):
+        sine, third, fifth = pose.root[i, 1], pose.root[i, 2], -pose.root[i, 0]
+        energy += 0.5 * weight * sine * sine
+        force[3] += weight * sine * third
+        force[5] += weight * sine * fifth
+        matrix[3, 3] += weight * third * third
+        matrix[5, 5] += weight * fifth * fifth
+        matrix[3, 5] += weight * third * fifth
+        matrix[5, 3] += weight * third * fifth
+    return energy
+
+
 @register
 class Upright(Term):
     """Half the squared sine between the root's y axis and the image's upward direction."""
@@ -48,3 +77,7 @@ class Upright(Term):
     def bind(self, scene: Scene) -> Tilt:
         """Binds the term to the body; it does not depend on the frame."""
         return Tilt(self.weight, scene.body.skeleton.dofs)
+
+    def compiled(self, body: Body, primitives: Primitives) -> CompiledJoints:
+        """Returns the same term as a compiled function."""
+        return CompiledJoints(tilt, numbers=(self.weight,))

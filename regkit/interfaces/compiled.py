@@ -15,7 +15,7 @@ import numpy as np
 
 from regkit.observation.arrays import ObservationArrays
 from regkit.primitives.arrays import PrimitiveArrays
-from regkit.skeleton.arrays import SkeletonArrays
+from regkit.skeleton.arrays import PoseArrays, SkeletonArrays
 from regkit.system.arrays import Array
 from regkit.system.calls import Pointer
 from regkit.system.compiled import Compiled
@@ -91,10 +91,8 @@ def weigh(scene: SceneArrays, numbers: Vector, table: Matrix, factors: Vector) -
 
 def respond_joints(
     skeleton: SkeletonArrays,
-    prior_balls: Matrix,
-    prior_hinges: Vector,
-    balls: Matrix,
-    hinges: Vector,
+    prior: PoseArrays,
+    pose: PoseArrays,
     numbers: Vector,
     table: Matrix,
     force: Vector,
@@ -104,10 +102,8 @@ def respond_joints(
 
     Args:
         skeleton: The skeleton.
-        prior_balls: Quaternions of the prior pose, (n_ball, 4).
-        prior_hinges: Hinge angles of the prior pose, (n_hinge,) [rad].
-        balls: Quaternions of the pose, (n_ball, 4).
-        hinges: Hinge angles of the pose, (n_hinge,) [rad].
+        prior: The prior pose.
+        pose: The pose.
         numbers: The part's numbers.
         table: The part's table.
         force: Added to, (n,).

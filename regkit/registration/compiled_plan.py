@@ -20,7 +20,7 @@ from regkit.interfaces.compiled import (
 )
 from regkit.primitives.accumulation import accumulated_stiffness, accumulated_wrenches
 from regkit.primitives.arrays import PrimitiveArrays
-from regkit.skeleton.arrays import SkeletonArrays
+from regkit.skeleton.arrays import PoseArrays, SkeletonArrays
 from regkit.skeleton.compiled_placement import joint_twists, place_links
 from regkit.system.compiled import compiled
 from regkit.system.machine_types import (
@@ -53,14 +53,6 @@ class PlanArrays(NamedTuple):
     table: Matrix
     table_rows: IntegerVector
     state_rows: IntegerVector
-
-
-class PoseArrays(NamedTuple):
-    """A pose; see ``Pose``."""
-
-    root: Matrix
-    balls: Matrix
-    hinges: Vector
 
 
 @compiled(python=False)
@@ -190,10 +182,7 @@ def derivatives(
         matrix_on_bones(skeleton, scene.primitives, pose, links, centres, stiffness, matrix)
     for part in range(plan.energies + plan.weights, len(plan.functions)):
         table = plan.table[plan.table_rows[part] : plan.table_rows[part + 1]]
-        joints = (
-            skeleton, prior.balls, prior.hinges, pose.balls, pose.hinges, plan.numbers[part],
-            table, force, matrix,
-        )  # fmt: skip
+        joints = (skeleton, prior, pose, plan.numbers[part], table, force, matrix)
         energy += RESPOND_JOINTS(plan.functions[part, 1], joints)
     return energy
 

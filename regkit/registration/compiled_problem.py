@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from regkit.interfaces.compiled import SceneArrays
-from regkit.registration.compiled_plan import PlanArrays, PoseArrays, derivatives
-from regkit.skeleton.arrays import LimitArrays, SkeletonArrays
+from regkit.registration.compiled_plan import PlanArrays, derivatives
+from regkit.skeleton.arrays import LimitArrays, PoseArrays, SkeletonArrays
 from regkit.skeleton.compiled_steps import (
     ball_steps,
     retracted_balls,

@@ -11,7 +11,6 @@ from regkit.interfaces import Multipliers
 from regkit.interfaces.compiled import SceneArrays
 from regkit.observation import Observation
 from regkit.registration.compiled_plan import (
-    PoseArrays,
     bind_parts,
     derivatives,
     explained,
@@ -24,6 +23,7 @@ from regkit.registration.plan import Plan
 from regkit.registration.pose_problem import PoseProblem
 from regkit.registration.tangent import TangentCoordinates
 from regkit.skeleton import Pose
+from regkit.skeleton.arrays import PoseArrays
 from regkit.system.arrays import Array, loop_input
 
 

@@ -13,6 +13,20 @@ if TYPE_CHECKING:
     from regkit.skeleton.skeleton import Skeleton
 
 
+class PoseArrays(NamedTuple):
+    """A pose; see ``Pose``.
+
+    Attributes:
+        root: T_world_root, (4, 4) [m].
+        balls: Unit quaternion (x, y, z, w) of each ball joint, (n_ball, 4).
+        hinges: Angle of each hinge, (n_hinge,) [rad].
+    """
+
+    root: Matrix
+    balls: Matrix
+    hinges: Vector
+
+
 class LimitArrays(NamedTuple):
     """Joint limits; see ``Limits`` and ``Couplings``.
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from regkit.skeleton.arrays import SkeletonArrays
+from regkit.skeleton.arrays import PoseArrays, SkeletonArrays
 from regkit.skeleton.compiled_steps import ball_steps
 from regkit.system.compiled import compiled
 from regkit.system.machine_types import Matrix, Vector
@@ -11,10 +11,8 @@ from regkit.system.machine_types import Matrix, Vector
 @compiled(python=False)
 def respond_joints(
     skeleton: SkeletonArrays,
-    prior_balls: Matrix,
-    prior_hinges: Vector,
-    balls: Matrix,
-    hinges: Vector,
+    prior: PoseArrays,
+    pose: PoseArrays,
     numbers: Vector,
     table: Matrix,
     force: Vector,
@@ -22,17 +20,17 @@ def respond_joints(
 ) -> float:
     """Returns ``1/2 sum w r^2`` and adds its derivatives; the table holds the weights w (n, 1)."""
     energy = 0.0
-    steps = ball_steps(prior_balls, balls)
+    steps = ball_steps(prior.balls, pose.balls)
     dof = skeleton.first
-    for ball in range(len(balls)):
+    for ball in range(len(pose.balls)):
         for i in range(3):
             pull = table[dof, 0] * steps[ball, i]
             energy += 0.5 * pull * steps[ball, i]
             force[dof] += pull
             matrix[dof, dof] += table[dof, 0]
             dof += 1
-    for hinge in range(len(hinges)):
-        step = hinges[hinge] - prior_hinges[hinge]
+    for hinge in range(len(pose.hinges)):
+        step = pose.hinges[hinge] - prior.hinges[hinge]
         energy += 0.5 * table[dof, 0] * step * step
         force[dof] += table[dof, 0] * step
         matrix[dof, dof] += table[dof, 0]

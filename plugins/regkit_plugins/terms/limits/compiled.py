@@ -6,7 +6,7 @@ from math import atan2, ceil, cos, hypot, pi, sin, sqrt
 
 import numpy as np
 
-from regkit.skeleton.arrays import SkeletonArrays
+from regkit.skeleton.arrays import PoseArrays, SkeletonArrays
 from regkit.skeleton.compiled_rotation import exponential, hamilton_product, set_rotation
 from regkit.system.compiled import compiled
 from regkit.system.machine_types import Matrix, Vector
@@ -15,10 +15,8 @@ from regkit.system.machine_types import Matrix, Vector
 @compiled(python=False)
 def respond_joints(
     skeleton: SkeletonArrays,
-    prior_balls: Matrix,
-    prior_hinges: Vector,
-    balls: Matrix,
-    hinges: Vector,
+    prior: PoseArrays,
+    pose: PoseArrays,
     numbers: Vector,
     table: Matrix,
     force: Vector,
@@ -27,9 +25,9 @@ def respond_joints(
     """Returns ``1/2 w sum v^2`` over the violations v, and adds its derivatives."""
     energy, weight, dof = 0.0, numbers[0], skeleton.first
     slope = np.empty(3)
-    for ball in range(len(balls)):
+    for ball in range(len(pose.balls)):
         for part in range(2):
-            violation = _ball_violation(skeleton, balls, ball, part == 1, slope)
+            violation = _ball_violation(skeleton, pose.balls, ball, part == 1, slope)
             if violation > 0.0:
                 energy += 0.5 * weight * violation**2
                 for i in range(3):
@@ -37,9 +35,9 @@ def respond_joints(
                     for j in range(3):
                         matrix[dof + i, dof + j] += weight * slope[i] * slope[j]
         dof += 3
-    for hinge in range(len(hinges)):
-        below = skeleton.limits.hinges[hinge, 0] - hinges[hinge]
-        above = hinges[hinge] - skeleton.limits.hinges[hinge, 1]
+    for hinge in range(len(pose.hinges)):
+        below = skeleton.limits.hinges[hinge, 0] - pose.hinges[hinge]
+        above = pose.hinges[hinge] - skeleton.limits.hinges[hinge, 1]
         violation = max(below, above)
         if violation > 0.0:
             energy += 0.5 * weight * violation**2
