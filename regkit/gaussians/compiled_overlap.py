@@ -6,7 +6,7 @@ from math import log
 
 import numpy as np
 
-from regkit.gaussians.compiled_pairs import pair_moments
+from regkit.gaussians.compiled_pairs import pair_moments, weighted_sum
 from regkit.gaussians.compiled_similarity import (
     IS_FROZEN,
     LOG_WEIGHT,
@@ -47,14 +47,15 @@ def respond(
     densities = np.empty((count, len(weights)), np.float32)
     total = np.zeros(len(weights), np.float32)
     means = densities_now(scene, view, state, 1.0, densities, total)
+    if order == 0:
+        return -weighted_sum(weights, total)
+    mass, about = np.empty(count), np.empty((count, 3, 4))
+    pair_moments(scene.data.centred, means, densities, weights, mass, about)
+    frozen = numbers[IS_FROZEN] != 0.0
+    add_forces(view, centres, mass, about, 1.0, frozen, order, wrenches, stiffness)
     energy = 0.0
-    for j in range(len(total)):
-        energy -= weights[j] * total[j]
-    if order:
-        mass, about = np.empty(count), np.empty((count, 3, 4))
-        pair_moments(scene.data.centred, means, densities, weights, mass, about)
-        frozen = numbers[IS_FROZEN] != 0.0
-        add_forces(view, centres, mass, about, 1.0, frozen, order, wrenches, stiffness)
+    for k in range(count):
+        energy -= mass[k]
     return energy
 
 

@@ -108,3 +108,12 @@ def weighted_logarithms(weights: SingleVector, total: SingleVector) -> float:
     for j in range(len(total)):
         energy += weights[j] * logarithm(total[j])
     return energy
+
+
+@compiled(reordered=True, python=False)
+def weighted_sum(weights: SingleVector, total: SingleVector) -> float:
+    """Returns sum w total."""
+    energy = 0.0
+    for j in range(len(total)):
+        energy += weights[j] * total[j]
+    return energy
