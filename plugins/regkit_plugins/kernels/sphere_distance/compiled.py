@@ -31,9 +31,12 @@ def nearest_capsules(
     count = len(points)
     owners = np.zeros(count, dtype=np.intp)
     distances, places = np.empty(count), np.empty(count)
-    halves, radii, sines = capsules[:, 6].copy(), capsules[:, 7].copy(), capsules[:, 8].copy()
-    bounds = radii + (1.0 + np.abs(sines)) * halves
-    tangents = sines / np.sqrt(1.0 - sines**2)
+    own = np.empty((5, len(capsules)))
+    halves, radii, sines, bounds, tangents = own[0], own[1], own[2], own[3], own[4]
+    for k in range(len(capsules)):
+        halves[k], radii[k], sines[k] = capsules[k, 6], capsules[k, 7], capsules[k, 8]
+        bounds[k] = radii[k] + (1.0 + abs(sines[k])) * halves[k]
+        tangents[k] = sines[k] / sqrt(1.0 - sines[k] * sines[k])
     likely = 0
     for i in range(count):
         px, py, pz = points[i, 0], points[i, 1], points[i, 2]
@@ -79,15 +82,17 @@ def residuals_and_rows(
         places: Axis position of the nearest sphere's centre, (N,) [m].
         front: Whether points behind the outline are compared with the front of their capsule.
     """
-    residuals, rows = distances.copy(), np.zeros((len(points), 6))
-    arm, gap, ray, slope = np.empty(3), np.empty(3), np.empty(3), np.empty(3)
+    residuals, rows = np.empty(len(points)), np.zeros((len(points), 6))
+    arm, gap, ray = np.empty(3), np.empty(3), np.empty(3)
+    slope, unit = np.empty(3), np.empty(3)
     for i in range(len(points)):
+        residuals[i] = distances[i]
         k, at = owners[i], places[i]
-        unit, half, sine = capsules[k, 3:6], capsules[k, 6], capsules[k, 8]
+        half, sine = capsules[k, 6], capsules[k, 8]
         length = sqrt(points[i, 0] ** 2 + points[i, 1] ** 2 + points[i, 2] ** 2)
         square, behind, along = 0.0, 0.0, 0.0
         for j in range(3):
-            arm[j] = points[i, j] - capsules[k, j]
+            arm[j], unit[j] = points[i, j] - capsules[k, j], capsules[k, 3 + j]
             gap[j] = arm[j] - at * unit[j]
             ray[j] = points[i, j] / length if front else 0.0
             square += gap[j] ** 2
@@ -117,7 +122,8 @@ def residuals_and_rows(
             if abs(at) < half:
                 # The nearest sphere moves along the axis with the point.
                 change = beside * sine / residual - down
-                side = sqrt(max((arm**2).sum() - along**2, 0.0))
+                reach = arm[0] ** 2 + arm[1] ** 2 + arm[2] ** 2
+                side = sqrt(max(reach - along**2, 0.0))
                 tilt = sine / sqrt(1.0 - sine**2) / side if side > 0.0 else 0.0
                 for j in range(3):
                     slope[j] += change * (unit[j] - tilt * (arm[j] - along * unit[j]))
