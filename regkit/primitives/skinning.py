@@ -48,7 +48,8 @@ def place_blended(
     arms, turned = np.zeros((count, carriers, 3)), np.zeros((count, carriers, 3))
     lengths = np.empty(count)
     for k in range(count):
-        mean[:] = 0.0
+        for i in range(3):
+            mean[i] = 0.0
         for a in range(carriers):
             weight = blend[k, a]
             if weight == 0.0:
@@ -63,8 +64,9 @@ def place_blended(
                 centres[k, i] += weight * (arm + carrier[i, 3])
                 mean[i] += weight * own
         lengths[k] = sqrt(mean[0] ** 2 + mean[1] ** 2 + mean[2] ** 2)
-        mean /= lengths[k]
-        _set_axes(axes[k], mean, transforms[owners[k], :3, :3], tangents[k])
+        for i in range(3):
+            mean[i] /= lengths[k]
+        _set_axes(axes[k], mean, transforms[owners[k]], tangents[k])
     return centres, axes, arms, turned, lengths
 
 
@@ -162,7 +164,7 @@ def accumulated_stiffness(
 
 @compiled
 def _set_axes(axes: Array, normal: Array, turn: Array, tangent: Array) -> None:
-    """Writes a frame (3, 3) about a normal, from a tangent and the owner's rotation (3, 3)."""
+    """Writes a frame (3, 3) about a normal, from a tangent and the owner's transform (4, 4)."""
     along = 0.0
     for i in range(3):
         axes[i, 0] = turn[i, 0] * tangent[0] + turn[i, 1] * tangent[1] + turn[i, 2] * tangent[2]
@@ -170,9 +172,12 @@ def _set_axes(axes: Array, normal: Array, turn: Array, tangent: Array) -> None:
     for i in range(3):
         axes[i, 0] -= along * normal[i]
         axes[i, 2] = normal[i]
-    axes[:, 0] /= sqrt(axes[0, 0] ** 2 + axes[1, 0] ** 2 + axes[2, 0] ** 2)
-    n, t = normal, axes[:, 0]
-    axes[0, 1], axes[1, 1], axes[2, 1] = _crossed(n[0], n[1], n[2], t[0], t[1], t[2])
+    length = sqrt(axes[0, 0] ** 2 + axes[1, 0] ** 2 + axes[2, 0] ** 2)
+    for i in range(3):
+        axes[i, 0] /= length
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        axes[i, 1] = normal[j] * axes[k, 0] - normal[k] * axes[j, 0]
 
 
 @compiled

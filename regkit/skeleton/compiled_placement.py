@@ -43,8 +43,8 @@ def place_links(
     local = np.empty((3, 3))
     for pose in range(poses):
         for index in range(len(ball_links)):
-            x, y, z, w = balls[pose, index]
-            set_rotation(rotations[ball_links[index]], x, y, z, w)
+            ball = balls[pose, index]
+            set_rotation(rotations[ball_links[index]], ball[0], ball[1], ball[2], ball[3])
         for index in range(len(hinge_links)):
             angle = hinges[pose, index]
             x, y, z, w = exponential(

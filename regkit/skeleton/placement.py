@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from math import prod
 
 import numpy as np
 
@@ -41,7 +42,7 @@ class Placement(Brief):
         and ``transforms`` then have the same.
         """
         many = pose.hinges.shape[:-1]
-        count = int(np.prod(many))
+        count = prod(many)
         links = place_links(
             skeleton.link_offsets,
             skeleton.link_parents,

@@ -31,9 +31,12 @@ def nearest_capsules(
     count = len(points)
     owners = np.zeros(count, dtype=np.intp)
     distances, places = np.empty(count), np.empty(count)
-    halves, radii, sines = capsules[:, 6].copy(), capsules[:, 7].copy(), capsules[:, 8].copy()
-    bounds = radii + (1.0 + np.abs(sines)) * halves
-    tangents = sines / np.sqrt(1.0 - sines**2)
+    own = np.empty((5, len(capsules)))
+    halves, radii, sines, bounds, tangents = own[0], own[1], own[2], own[3], own[4]
+    for k in range(len(capsules)):
+        halves[k], radii[k], sines[k] = capsules[k, 6], capsules[k, 7], capsules[k, 8]
+        bounds[k] = radii[k] + (1.0 + abs(sines[k])) * halves[k]
+        tangents[k] = sines[k] / sqrt(1.0 - sines[k] * sines[k])
     likely = 0
     for i in range(count):
         px, py, pz = points[i, 0], points[i, 1], points[i, 2]
