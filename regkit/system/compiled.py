@@ -43,8 +43,9 @@ class Compiled(Generic[P, R]):
                 if isinstance(names.get(name), Compiled):
                     names[name] = names[name].dispatcher()
             _listen()
+            # All loops release Python's lock, so that threads can share a computation.
             self._dispatcher = cast(
-                Callable[P, R], load_library("numba").njit(cache=True)(self.function)
+                Callable[P, R], load_library("numba").njit(cache=True, nogil=True)(self.function)
             )
             _DISPATCHERS.append(self._dispatcher)
         return self._dispatcher
