@@ -11,14 +11,15 @@ from regkit.alignment.starts import initial_alignment
 from regkit.alignment.weak_motion import weak_motion
 from regkit.body.cloud import cloud_body
 from regkit.clouds import spacing, voxel_downsampled, voxel_for
-from regkit.clouds.agreement import Agreement, agreement
+from regkit.clouds.agreement import Agreement, Agreements
 from regkit.clouds.checks import check_shape, check_sizes
 from regkit.interfaces import Method
 from regkit.observation import Observation
 from regkit.system.arrays import Array
 from regkit.system.brief import Brief
-from regkit.system.errors import DataError
+from regkit.system.errors import ConfigError, DataError
 from regkit.system.optional import one_blas_thread
+from regkit.system.threads import each, using_threads
 
 POINTS = 5000
 """Approximate number of points to which clouds are downsampled by default."""
@@ -68,6 +69,7 @@ def align(
     voxel: float | None = None,
     start: str = "nearest",
     places: tuple[str, str] = ("source", "target"),
+    threads: int | None = None,
 ) -> Alignment:
     """Estimates T_target_source of two clouds.
 
@@ -79,42 +81,61 @@ def align(
             remain, and 0 disables downsampling.
         start: Initial alignment, see ``initial_alignment``.
         places: Names of source and target in error messages.
+        threads: Number of threads, by default one, or what the method says. The result is the same
+            to the last bit.
 
     Raises:
         RegkitError: If the clouds cannot be aligned, the start is invalid, or the method fails.
     """
-    for points, place in zip((source, target), places, strict=True):
-        check_shape(points, place=place)
+    with one_blas_thread(), using_threads(threads):
+        return _aligned(source, target, method, voxel, start, places)
+
+
+def _aligned(
+    source: Array,
+    target: Array,
+    method: Method,
+    voxel: float | None,
+    start: str,
+    places: tuple[str, str],
+) -> Alignment:
+    """Returns the alignment on the current threads."""
+    clouds = source, target
+    each(lambda one: check_shape(clouds[one], place=places[one]), (0, 1))
     check_sizes(source, target)
-    with one_blas_thread():
-        begun = time.perf_counter()
-        if voxel is None:
-            voxel = max((voxel_for(points, POINTS) or 0.0) for points in (source, target))
-        few, seen = (voxel_downsampled(p, voxel) if voxel else p for p in (source, target))
-        if min(len(few), len(seen)) < MIN_POINTS:
-            raise DataError(
-                f"downsampling to voxels of {voxel:g} m leaves {len(few)} points of the source and "
-                f"{len(seen)} of the target; at least {MIN_POINTS} are needed, choose a smaller "
-                "voxel",
-                place="voxel",
-            )
-        initial = initial_alignment(start, few, seen, method)
-        # With the origin at the centroids, rotation and translation are decoupled, and numbers are
-        # small: coordinates of maps, of millions of metres, would cost half of their digits.
-        centre, origin = few.mean(axis=0), seen.mean(axis=0)
-        body = cloud_body("source", few - centre)
-        observation = Observation(
-            seen - origin, np.ones(len(seen)), np.full(len(seen), spacing(seen) ** 2)
+    if voxel is not None and not 0.0 <= voxel < np.inf:
+        raise ConfigError(
+            f"a voxel of {voxel:g} m; it must be a length, or 0 for no downsampling", place="voxel"
         )
-        begin = _moved(initial.transform, -origin, centre)
-        found = method.bind(body).register(observation, [body.skeleton.rest(begin)])
-        transform = _moved(found.pose.root, origin, -centre)
-        seconds = time.perf_counter() - begun
+    begun = time.perf_counter()
+    if voxel is None:
+        voxel = max(each(lambda cloud: voxel_for(cloud, POINTS) or 0.0, clouds))
+    few, seen = each(lambda cloud: voxel_downsampled(cloud, voxel) if voxel else cloud, clouds)
+    if min(len(few), len(seen)) < MIN_POINTS:
+        raise DataError(
+            f"downsampling to voxels of {voxel:g} m leaves {len(few)} points of the source and "
+            f"{len(seen)} of the target; at least {MIN_POINTS} are needed, choose a smaller "
+            "voxel",
+            place="voxel",
+        )
+    initial = initial_alignment(start, few, seen, method)
+    # With the origin at the centroids, rotation and translation are decoupled, and numbers are
+    # small: coordinates of maps, of millions of metres, would cost half of their digits.
+    centre, origin = few.mean(axis=0), seen.mean(axis=0)
+    body = cloud_body("source", few - centre)
+    observation = Observation(
+        seen - origin, np.ones(len(seen)), np.full(len(seen), spacing(seen) ** 2)
+    )
+    begin = _moved(initial.transform, -origin, centre)
+    found = method.bind(body).register(observation, [body.skeleton.rest(begin)])
+    transform = _moved(found.pose.root, origin, -centre)
+    seconds = time.perf_counter() - begun
     distance = MAX_DISTANCE * max(spacing(few), spacing(seen))
+    agreements = Agreements.of(few, seen)
     return Alignment(
         transform=transform,
-        agreement=agreement(few, seen, transform, distance),
-        before=agreement(few, seen, initial.transform, distance),
+        agreement=agreements.after(transform, distance),
+        before=agreements.after(initial.transform, distance),
         start=initial.description,
         voxel=voxel or None,
         points=(len(few), len(seen)),

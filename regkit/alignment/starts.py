@@ -11,6 +11,7 @@ import numpy as np
 from regkit.alignment.features import by_features
 from regkit.clouds import voxel_downsampled, voxel_for
 from regkit.clouds.formats.text.lines import lines_of
+from regkit.clouds.tree import Tree
 from regkit.config.model import did_you_mean
 from regkit.geometry.rigid import checked_rigid, transformed
 from regkit.interfaces import Method
@@ -78,12 +79,10 @@ def nearest(source: Array, target: Array) -> InitialAlignment:
         source: Points to align, (N, 3) [m].
         target: Fixed points, (M, 3) [m].
     """
-    from scipy.spatial import KDTree
-
-    few, tree = _downsampled(source), KDTree(_downsampled(target))
+    few, tree = _downsampled(source), Tree.of(_downsampled(target))
     identity, centroids = np.eye(4), _centroids(source, target)
     unmoved, moved = (
-        float(np.median(tree.query(transformed(transform, few))[0]))
+        float(np.median(tree.nearest(transformed(transform, few), 1)[0]))
         for transform in (identity, centroids)
     )
     if unmoved <= moved:

@@ -95,6 +95,7 @@ def align(
     *,
     voxel: float | None = None,
     start: str = "nearest",
+    threads: int | None = None,
 ) -> CloudAlignment:
     """Aligns a rigid cloud to another, as ``regkit align`` does.
 
@@ -109,6 +110,8 @@ def align(
         start: Initial transform: ``"nearest"`` (the better of identity and centroids),
             ``"identity"``, ``"centroids"``, ``"rotations"`` or ``"features"`` (both for any
             orientation), or a file with a 4x4 matrix.
+        threads: Number of threads, for clouds of many points; by default one, or what the method
+            says. The result is the same to the last bit.
 
     Returns:
         The alignment, with ``transform``, ``aligned`` and ``fitness``.
@@ -119,7 +122,7 @@ def align(
     method = Method.default("rigid") if method is None else method
     chosen = Method.parse(method, place="regkit.align", field="method")
     clouds = [_cloud(source, "source"), _cloud(target, "target")]
-    found = align_clouds(clouds[0], clouds[1], chosen, voxel=voxel, start=start)
+    found = align_clouds(clouds[0], clouds[1], chosen, voxel=voxel, start=start, threads=threads)
     return CloudAlignment(clouds[0], clouds[1], name_of(method), found)
 
 

@@ -88,6 +88,16 @@ def align(
             help="Fail if a smaller fraction of the source lies on the target.",
         ),
     ] = 0.3,
+    threads: Annotated[
+        int | None,
+        typer.Option(
+            min=1,
+            metavar="N",
+            help="Number of threads, for clouds of many points; the result is the same. "
+            "(default: 1, or what the method says)",
+            show_default=False,
+        ),
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
     strict: Strict = False,
     plugin: PluginFiles = None,
@@ -100,9 +110,15 @@ def align(
     chosen = method_named(name)
     points = read_cloud(source)
     resting = read_cloud(target)
-    with options(start="--start", voxel="--voxel"), working("aligning"):
+    with options(start="--start", voxel="--voxel", threads="--threads"), working("aligning"):
         found = align_clouds(
-            points, resting, chosen, voxel=voxel, start=start, places=(str(source), str(target))
+            points,
+            resting,
+            chosen,
+            voxel=voxel,
+            start=start,
+            places=(str(source), str(target)),
+            threads=threads,
         )
     verdict, reason = _verdict(found, min_fitness)
     if as_json:

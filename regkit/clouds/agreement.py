@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from regkit.geometry.rigid import transformed
+from regkit.clouds.tree import Tree
+from regkit.geometry.rigid import inverse, transformed
 from regkit.system.arrays import Array
 
 
@@ -27,6 +28,38 @@ class Agreement:
     overlap: float
 
 
+@dataclass(frozen=True)
+class Agreements:
+    """Two clouds, to evaluate many transforms.
+
+    Attributes:
+        source: The source.
+        target: The target.
+    """
+
+    source: Tree
+    target: Tree
+
+    @classmethod
+    def of(cls, source: Array, target: Array) -> Agreements:
+        """Returns the two clouds (N, 3) and (M, 3) [m]."""
+        return cls(Tree.of(source), Tree.of(target))
+
+    def after(self, transform: Array, distance: float) -> Agreement:
+        """Evaluates T_target_source (4, 4), with correspondences closer than a distance [m]."""
+        aligned = transformed(transform, self.source.points)
+        back = transformed(inverse(transform), self.target.points)
+        to_target = self.target.nearest(aligned, 1, distance)[0]
+        to_source = self.source.nearest(back, 1, distance)[0]
+        inliers = to_target[np.isfinite(to_target)]
+        return Agreement(
+            distance=distance,
+            fitness=len(inliers) / len(aligned),
+            inlier_rmse=float(np.sqrt((inliers**2).mean())) if len(inliers) else float("nan"),
+            overlap=float(np.isfinite(to_source).mean()),
+        )
+
+
 def agreement(source: Array, target: Array, transform: Array, distance: float) -> Agreement:
     """Evaluates the registration of a source to a target.
 
@@ -36,16 +69,4 @@ def agreement(source: Array, target: Array, transform: Array, distance: float) -
         transform: T_target_source, (4, 4).
         distance: Maximum correspondence distance [m].
     """
-    from scipy.spatial import KDTree
-
-    aligned = transformed(transform, source)
-    to_target, _ = KDTree(target).query(aligned, distance_upper_bound=distance)
-    to_source, _ = KDTree(aligned).query(target, distance_upper_bound=distance)
-    found = np.asarray(to_target)
-    inliers = found[np.isfinite(found)]
-    return Agreement(
-        distance=distance,
-        fitness=len(inliers) / len(source),
-        inlier_rmse=float(np.sqrt((inliers**2).mean())) if len(inliers) else float("nan"),
-        overlap=float(np.isfinite(to_source).mean()),
-    )
+    return Agreements.of(source, target).after(transform, distance)

@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from regkit.clouds.compiled_normals import least_directions
+from regkit.clouds.tree import QUERIES, Tree
 from regkit.system.arrays import Array
+from regkit.system.threads import in_chunks
 
 NEIGHBOURS = 10
 """Number of points of a neighbourhood, including the point itself, for normal estimation."""
@@ -20,12 +22,9 @@ def spacing(points: Array) -> float:
     Args:
         points: The cloud, (N, 3) [m].
     """
-    from scipy.spatial import KDTree
-
     some = points[:: max(1, len(points) // 2000)]
-    near = min(5, len(points))
-    distances, _ = KDTree(points).query(some, near)
-    return float(np.median(np.asarray(distances)[:, -1]))
+    distances, _ = Tree.of(points).nearest(some, min(5, len(points)))
+    return float(np.median(distances[:, -1]))
 
 
 def normals(points: Array, neighbours: int = NEIGHBOURS) -> Array:
@@ -37,8 +36,21 @@ def normals(points: Array, neighbours: int = NEIGHBOURS) -> Array:
         points: The cloud, (N, 3) [m].
         neighbours: Number of points of a neighbourhood, including the point itself.
     """
-    from scipy.spatial import KDTree
+    tree = Tree.of(points)
+    found = np.empty((len(tree), 3))
+    found[tree.order] = tree_normals(tree, neighbours)
+    return found
 
-    near = min(neighbours, len(points))
-    _, indices = KDTree(points).query(points, near)
-    return least_directions(points, np.asarray(indices).reshape(len(points), near))
+
+def tree_normals(tree: Tree, neighbours: int = NEIGHBOURS) -> Array:
+    """Returns unit normals (N, 3) like ``normals``, in the tree's order of the points."""
+    near = min(neighbours, len(tree))
+    found = np.empty((len(tree), 3))
+
+    def part(begin: int, end: int) -> None:
+        # Neighbours of all points at once would be the largest arrays of a registration.
+        _, places = tree.nearest(tree.points[begin:end], near)
+        found[begin:end] = least_directions(tree.points, places)
+
+    in_chunks(part, len(tree), QUERIES)
+    return found

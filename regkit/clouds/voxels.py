@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from regkit.clouds.bounds import bounds
+from regkit.clouds.compiled_voxels import means_in_order, occupied, voxel_sums
 from regkit.system.arrays import Array, Indices
 
 MIN_VOXEL = 1e-6
@@ -13,38 +15,46 @@ MIN_VOXEL = 1e-6
 def voxel_downsampled(points: Array, voxel: float) -> Array:
     """Returns the mean (M, 3) of the points in each occupied voxel.
 
+    The voxels are sorted by their first coordinate, then by the second and the third, whatever the
+    order of the points.
+
     Args:
         points: The cloud, (N, 3) [m].
         voxel: Side of a voxel [m].
     """
-    _, cell, counts = np.unique(_numbers(points, voxel), return_inverse=True, return_counts=True)
-    sums = [np.bincount(cell, weights=column) for column in points.T]
-    return np.column_stack(sums) / counts[:, None]
+    cells, sums, counts = voxel_sums(np.ascontiguousarray(points, dtype=float), voxel)
+    return means_in_order(sums, counts, _sorted(cells))
 
 
 def voxel_for(points: Array, wanted: int) -> float | None:
     """Returns the voxel size [m] for which about ``wanted`` voxels are occupied.
 
-    Returns None if the cloud (N, 3) has at most ``wanted`` points.
+    Returns None if the cloud (N, 3) has at most ``wanted`` points, or if all of them are equal.
     """
     if len(points) <= wanted:
         return None
-    extent = float(np.ptp(points, axis=0).max())
+    points = np.ascontiguousarray(points, dtype=float)
+    low, high = bounds(points)
+    extent = float((high - low).max())
+    if extent == 0.0:
+        return None
     lower, upper = MIN_VOXEL * extent, extent
     # Twelve bisections of the logarithm determine the size to a thousandth of its range.
     for _ in range(12):
         middle = float(np.sqrt(lower * upper))
-        if len(np.unique(_numbers(points, middle))) > wanted:
+        if occupied(points, middle, low, wanted) > wanted:
             lower = middle
         else:
             upper = middle
     return upper
 
 
-def _numbers(points: Array, voxel: float) -> Indices:
-    """Returns the voxel number of each point, (N,)."""
-    cells = np.floor(points / voxel).astype(np.int64)
-    cells -= cells.min(axis=0)
+def _sorted(cells: Array) -> Indices:
+    """Returns the order (M,) of cells (M, 3) by their coordinates."""
+    low, high = bounds(cells)
+    width, height, depth = high - low + 1.0
+    if width * height * depth > 2.0**52:
+        return np.lexsort(cells.T[::-1])
     # A single number per voxel sorts much faster than three.
-    _, height, depth = cells.max(axis=0) + 1
-    return np.asarray((cells[:, 0] * height + cells[:, 1]) * depth + cells[:, 2])
+    x, y, z = cells.T - low[:, None]
+    return np.argsort((x * height + y) * depth + z)

@@ -8,7 +8,7 @@ from regkit.interfaces.compiled import (
 )
 from regkit.interfaces.dataset import Dataset, Recording
 from regkit.interfaces.expected import Expected
-from regkit.interfaces.kernel import Kernel, Response, Similarity
+from regkit.interfaces.kernel import Kernel, Response, RigidComparison, RigidSimilarity, Similarity
 from regkit.interfaces.method import Method
 from regkit.interfaces.preprocessor import Preprocessor
 from regkit.interfaces.registrar import Evaluation, Registrar, RegistrationResult
@@ -76,6 +76,8 @@ __all__ = [
     "Registrar",
     "RegistrationResult",
     "Response",
+    "RigidComparison",
+    "RigidSimilarity",
     "Scene",
     "SegmentedRecording",
     "Segmenter",

@@ -54,6 +54,32 @@ class Similarity(ABC):
         return None
 
 
+class RigidSimilarity(ABC):
+    """A kernel bound to the data and to primitives that move together, with pairs from one pose."""
+
+    @abstractmethod
+    def __call__(self, transform: Array) -> Response:
+        """Returns the energy, one wrench (1, 6) and one block (1, 6, 6), those of the whole body.
+
+        They are in the body's axes, about its origin.
+
+        Args:
+            transform: T_world_body, (4, 4).
+        """
+
+    @abstractmethod
+    def inlier_probability(self, transform: Array) -> Array:
+        """Returns the probability (N,) that each point is an inlier, for T_world_body (4, 4)."""
+
+
+class RigidComparison(ABC):
+    """A kernel bound to the data and to primitives that move together, without pairs yet."""
+
+    @abstractmethod
+    def paired(self, transform: Array) -> RigidSimilarity:
+        """Returns the similarity with the pairs of the start pose T_world_body (4, 4)."""
+
+
 class Kernel(Plugin, ABC):
     """A comparison of primitives with data, independent of the skeleton."""
 
@@ -93,5 +119,24 @@ class Kernel(Plugin, ABC):
 
         They compute what ``bind`` and the bound kernel compute; a subclass that changes these
         without overriding this method has none.
+        """
+        return None
+
+    def bind_rigid(
+        self, observation: Observation, primitives: Any, *, smoothing: float = 0.0
+    ) -> RigidComparison | None:
+        """Binds the kernel to a frame and to the primitives of a body of one segment.
+
+        Nothing of them has to be placed anew for another pose, and forces need not be known for
+        each primitive, so that a kernel for many primitives may be much faster than with ``bind``.
+        The energy must be the same.
+
+        Args:
+            observation: The data.
+            primitives: The primitives in the body's frame.
+            smoothing: As for ``bind`` [m].
+
+        Returns:
+            The comparison; None if the kernel has none for rigid bodies.
         """
         return None

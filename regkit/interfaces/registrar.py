@@ -109,6 +109,16 @@ class Registrar(Brief, ABC):
                 pose.
         """
 
+    def register_each(
+        self, observation: Observation, starts: Sequence[Pose]
+    ) -> list[RegistrationResult]:
+        """Registers the body to one frame from each of several starts; one result for each.
+
+        A method that prepares the frame at length may do so once, and may follow starts that have
+        met only once.
+        """
+        return [self.register(observation, [start]) for start in starts]
+
     @abstractmethod
     def evaluate(self, observation: Observation, pose: Pose) -> Evaluation:
         """Returns the quality of a pose for a frame without changing the pose."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from regkit.body.cloud import cloud_body
 from regkit.clouds import spacing, voxel_downsampled, voxel_for
-from regkit.clouds.agreement import agreement
+from regkit.clouds.agreement import Agreements
 from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import to_matrix
 from regkit.interfaces import Method
@@ -40,15 +40,15 @@ def by_rotations(source: Array, target: Array, method: Method) -> tuple[Array, s
     observation = Observation(seen, np.ones(len(seen)), np.full(len(seen), spacing(seen) ** 2))
     distance = max(spacing(few), spacing(seen))
     back = rigid(np.eye(3), -centre)
+    starts = [body.skeleton.rest(rigid(rotation, aim)) for rotation in icosahedral()]
     best, score = np.eye(4), -1.0
-    for rotation in icosahedral():
-        found = registrar.register(observation, [body.skeleton.rest(rigid(rotation, aim))])
+    agreements = Agreements.of(few, seen)
+    for found in registrar.register_each(observation, starts):
         transform = found.pose.root @ back
-        its = agreement(few, seen, transform, distance)
+        its = agreements.after(transform, distance)
         if its.fitness + its.overlap > score:
             best, score = transform, its.fitness + its.overlap
-    count = len(icosahedral())
-    return best, f"the best of {count} rotations, each registered with {len(few)} points"
+    return best, f"the best of {len(starts)} rotations, each registered with {len(few)} points"
 
 
 def icosahedral() -> Array:

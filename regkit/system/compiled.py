@@ -58,10 +58,11 @@ class Compiled(Generic[P, R]):
         function = FunctionType(own.__code__, names, own.__name__, own.__defaults__)
         update_wrapper(function, own)
         _listen()
-        options: dict[str, bool | str] = {}
+        # All loops release Python's lock, so that threads can share a computation.
+        options: dict[str, bool | str] = {"nogil": True}
         if self.signature is not None:
             # Division by zero gives inf or nan, as in NumPy, and its check does not end a loop.
-            options = {"error_model": "numpy", "no_cfunc_wrapper": True}
+            options |= {"error_model": "numpy", "no_cfunc_wrapper": True}
             if not self._python:
                 options["no_cpython_wrapper"] = True
         compile_for = load_library("numba").njit(

@@ -16,6 +16,7 @@ from regkit.testing.cases import Pair
 from regkit.testing.compiled_kernel_laws import CompiledKernelLaws
 from regkit.testing.differences import Slopes
 from regkit.testing.laws import checked_on_every
+from regkit.testing.rigid_laws import RigidLaws
 from regkit.testing.samples import moved_pose, posed, surface_data
 from regkit.testing.shape_laws import attached
 from regkit.testing.verdict import copied, require, same
@@ -27,8 +28,8 @@ HALF_A_TURN = rigid(np.diag([-1.0, -1.0, 1.0]), np.zeros(3))
 FAR_AWAY = np.array([0.0, 0.0, 5.0])
 
 
-class KernelLaws(BlockLaws, CompiledKernelLaws):
-    """Laws of kernels, including those of their blocks and of their compiled functions."""
+class KernelLaws(BlockLaws, CompiledKernelLaws, RigidLaws):
+    """Laws of kernels, including those of their blocks, compiled functions and rigid bodies."""
 
     @checked_on_every("option")
     @pytest.mark.parametrize("smoothing", [0.0, 0.02])

@@ -115,6 +115,30 @@ class MethodLaws(Laws):
             method, "modifies the data or the start", look_at=at,
         )  # fmt: skip
 
+    def test_method_registers_each_start_as_by_itself(
+        self, registrar: Registrar, method: Method, random: np.random.Generator
+    ) -> None:
+        """From several starts there is one result each, close to that of the start alone."""
+        truth = posed(registrar.body, random)
+        data, at = surface_data(registrar.body, truth), type(registrar).register_each
+        away = registrar.body.skeleton.retract(
+            truth, np.full(registrar.body.skeleton.dofs, 0.5 * DISTURBED)
+        )
+        starts = [truth, registrar.body.skeleton.limits.projected(away), truth]
+        with _foreign_warnings():
+            found = registrar.register_each(data, starts)
+        require(
+            len(found) == len(starts), method, f"returns {len(found)} results for {len(starts)} "
+            "starts", look_at=at,
+        )  # fmt: skip
+        for start, each in zip(starts, found, strict=True):
+            alone = _registered(registrar, data, start).pose
+            by = _distance(registrar.body, each.pose, alone) / registrar.body.size
+            require(
+                by < STAYS, method, f"registers a start {100 * by:.2g} % of the body's size away "
+                "from where it registers it alone", look_at=at,
+            )  # fmt: skip
+
 
 def _registered(registrar: Registrar, data: Observation, start: Pose) -> RegistrationResult:
     with _foreign_warnings():

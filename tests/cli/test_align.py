@@ -35,6 +35,14 @@ def near(found, truth, degrees, metres):
     assert np.linalg.norm(transformed(off, centre) - centre) < metres
 
 
+def test_threads_change_nothing(regkit, clouds):
+    alone, several = (
+        json.loads(regkit("align", *clouds, "--json", *more).out) for more in ((), ("--threads", 2))
+    )
+    assert several["T_target_source"] == alone["T_target_source"]
+    assert regkit("align", *clouds, "--threads", 0).code == 2
+
+
 def test_table_tells_what_was_found(regkit, clouds):
     ended = regkit("align", *clouds)
     assert ended.code == 0

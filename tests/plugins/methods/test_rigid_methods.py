@@ -72,6 +72,29 @@ def test_rigid_sees_far(lump, random, degrees):
     assert errors(found.transform, truth)[0] < 0.5
 
 
+@pytest.mark.parametrize("start", ["centroids", "rotations"])
+def test_threads_change_no_bit(lump, truth, start):
+    several = np.concatenate([lump, 1.01 * lump, 0.99 * lump])
+    pair = several[::2], transformed(truth, several[1::2])
+    found = [
+        align(*pair, method_named(method), voxel=0.0, start=start, threads=threads)
+        for method, threads in (
+            ("rigid", None),
+            ("rigid", 2),
+            ("{preset: rigid, threads: 3}", None),
+        )
+    ]
+    for other in found[1:]:
+        np.testing.assert_array_equal(other.transform, found[0].transform)
+        assert other.agreement == found[0].agreement
+
+
+@pytest.mark.parametrize("voxel", [-0.1, np.nan, np.inf])
+def test_voxel_that_is_no_length_is_refused(lump, voxel):
+    with pytest.raises(ConfigError, match="voxel"):
+        align(lump, lump, method_named("rigid"), voxel=voxel)
+
+
 def test_rigid_stands_outliers_and_partial_overlap(lump, random, truth):
     source = lump[lump[:, 0] < 0.54]
     target = lump[lump[:, 0] > 0.45]

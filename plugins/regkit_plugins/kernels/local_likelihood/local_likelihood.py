@@ -8,12 +8,14 @@ import numpy as np
 from pydantic import Field
 
 from regkit.clouds import normals
+from regkit.clouds.tree import Tree
 from regkit.interfaces import Kernel, Response, Similarity
 from regkit.observation import Observation
 from regkit.primitives import Gaussians, Placed, Primitives
 from regkit.system.arrays import Array
 from regkit_plugins.kernels.likelihood import box_volume
 from regkit_plugins.kernels.local_likelihood.compiled import flattened, local_mixture
+from regkit_plugins.kernels.local_likelihood.rigid import LocalRigidComparison
 
 
 class LocalLikelihood(Kernel):
@@ -42,6 +44,27 @@ class LocalLikelihood(Kernel):
         """Binds the kernel to the data of a frame, with the neighbours in the start pose."""
         return BoundLocalLikelihood(self, observation, start, smoothing)
 
+    def bind_rigid(
+        self, observation: Observation, primitives: Gaussians, *, smoothing: float = 0.0
+    ) -> LocalRigidComparison:
+        """Binds the kernel to the data and to the Gaussians of a rigid body."""
+        return LocalRigidComparison.of(
+            points=observation.points,
+            directions=_directions(observation),
+            variances=observation.variances + smoothing**2,
+            weights=observation.weights / observation.weights.sum(),
+            flatness=self.flatness,
+            primitives=primitives,
+            mixing=self.mixing(primitives),
+            background=self.outliers / box_volume(observation),
+            near=min(self.neighbours, len(primitives)),
+        )
+
+    def mixing(self, primitives: Gaussians) -> Array:
+        """Returns the mixture weights divided by (2 pi)^(3/2), (K,)."""
+        weights = primitives.weights / primitives.weights.sum()
+        return np.asarray((1.0 - self.outliers) / (2.0 * np.pi) ** 1.5 * weights)
+
 
 class BoundLocalLikelihood(Similarity):
     """The energy -sum_j w_j log(sum_i c_i |S|^(-1/2) exp(-1/2 q^T S^-1 q) + c_0).
@@ -69,20 +92,13 @@ class BoundLocalLikelihood(Similarity):
         start: Placed[Gaussians],
         smoothing: float,
     ) -> None:
-        from scipy.spatial import KDTree
-
         self._points = observation.points
         self._weights = observation.weights / observation.weights.sum()
-        directions = observation.normals
-        if directions is None:
-            directions = normals(observation.points)
         variances = observation.variances + smoothing**2
-        self._covariances = flattened(variances, directions, kernel.flatness)
-        near = min(kernel.neighbours, len(start))
-        _, neighbours = KDTree(start.centres).query(self._points, near)
-        self._neighbours = np.asarray(neighbours).reshape(len(self._points), near)
-        mixing = start.primitives.weights / start.primitives.weights.sum()
-        self._mixing = (1.0 - kernel.outliers) / (2.0 * np.pi) ** 1.5 * mixing
+        self._covariances = flattened(variances, _directions(observation), kernel.flatness)
+        tree, near = Tree.of(start.centres), min(kernel.neighbours, len(start))
+        self._neighbours = tree.order[tree.nearest(self._points, near)[1]]
+        self._mixing = kernel.mixing(start.primitives)
         self._background = kernel.outliers / box_volume(observation)
 
     def __call__(self, placed: Placed[Gaussians], *, curvature: bool = False) -> Response:
@@ -108,3 +124,8 @@ class BoundLocalLikelihood(Similarity):
             self._background,
             curvature,
         )
+
+
+def _directions(observation: Observation) -> Array:
+    """Returns the normals at the data, (N, 3), estimated if the observation has none."""
+    return normals(observation.points) if observation.normals is None else observation.normals

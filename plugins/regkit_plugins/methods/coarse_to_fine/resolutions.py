@@ -7,13 +7,19 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from regkit.body import Body
-from regkit.clouds import normals, spacing, voxel_downsampled
+from regkit.clouds import spacing, voxel_downsampled
+from regkit.clouds.neighbourhoods import tree_normals
+from regkit.clouds.tree import Tree
 from regkit.gaussians.cloud_shape import CloudShape
 from regkit.geometry.surface import SkinnedSurface
 from regkit.observation import Observation
 from regkit.primitives import Gaussians
 from regkit.system.arrays import Array, Indices
 from regkit.system.errors import ConfigError
+
+LEAST_STEP = 1.2
+"""Voxels of successive resolutions differ at least by about this factor; closer ones leave nearly
+the same points."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +47,7 @@ def resolutions(
         shape: Shape model of its surface.
         coarsest: Size of the largest voxels, as a fraction of the body's size.
         finest: Size of the smallest voxels, as a fraction of the spacing of neighbouring points.
-        count: Number of resolutions.
+        count: Number of resolutions, or fewer if the voxels differ too little.
         width: Standard deviation of a pair of Gaussians, in voxels; each has half the variance.
 
     Raises:
@@ -55,10 +61,12 @@ def resolutions(
         )
     smallest = finest * spacing(surface.points[:, 0])
     # Voxels smaller than the spacing of the points keep all points, but narrow the Gaussians.
-    voxels = np.geomspace(max(coarsest * body.size, smallest), smallest, count)
+    largest = max(coarsest * body.size, smallest)
+    distinct = 1 + round(float(np.log(largest / smallest) / np.log(LEAST_STEP)))
+    voxels = np.geomspace(largest, smallest, min(count, distinct))
     found = []
     for index, voxel in reversed(list(enumerate(voxels))):
-        if index < count - 1:
+        if index < len(voxels) - 1:
             surface = voxel_downsampled_surface(surface, float(voxel))
         deviation = float(width * voxel / np.sqrt(2.0))
         downsampled = replace(body, surface=surface)
@@ -69,14 +77,22 @@ def resolutions(
 def observations(
     observation: Observation, levels: tuple[Resolution, ...]
 ) -> tuple[Observation, ...]:
-    """Returns a cloud at the resolutions of a body; at the finest it has every point."""
+    """Returns a cloud at the resolutions of a body; at the finest it has every point.
+
+    The points are sorted so that neighbours are close in memory.
+    """
     points, found = observation.points, []
     for index, level in reversed(list(enumerate(levels))):
         if index < len(levels) - 1:
             points = voxel_downsampled(points, level.voxel)
-        ones = np.ones(len(points))
-        found.append(Observation(points, ones, level.width**2 * ones, normals=normals(points)))
+        found.append(sorted_observation(Tree.of(points), level))
     return tuple(reversed(found))
+
+
+def sorted_observation(tree: Tree, level: Resolution) -> Observation:
+    """Returns the points of a tree, in its order, as the data of a resolution."""
+    ones = np.ones(len(tree))
+    return Observation(tree.points, ones, level.width**2 * ones, normals=tree_normals(tree))
 
 
 def voxel_downsampled_surface(surface: SkinnedSurface, voxel: float) -> SkinnedSurface:

@@ -58,12 +58,15 @@ class GaussNewton(Solver):
             if not gradient[free].any():
                 return Solution(x, value, True, iteration, evaluations, "the gradient is zero")
             step = np.zeros_like(x)
-            system = matrix[np.ix_(free, free)]
-            diagonal = np.diagonal(system)
+            slope = gradient[free]
+            system = matrix.copy() if free.all() else matrix[np.ix_(free, free)]
+            diagonal = np.einsum("ii->i", system)
             # The magnitude of the gradient bounds the step where there is no curvature at all.
-            strongest = float(np.abs(gradient[free]).max())
-            extra = damping * (diagonal + strongest) + self.resting * float(diagonal.mean())
-            step[free] = -np.linalg.solve(system + np.diag(extra), gradient[free])
+            strongest = float(np.abs(slope).max())
+            diagonal += damping * (diagonal + strongest) + self.resting * float(
+                diagonal.sum()
+            ) / len(diagonal)
+            step[free] = -np.linalg.solve(system, slope)
             trial = problem.projected(x + step)
             trial_value, trial_gradient, trial_matrix = _equations(problem, trial)
             evaluations += 1
