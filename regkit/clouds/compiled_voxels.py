@@ -1,7 +1,7 @@
 """Occupied voxels of a cloud, by a hash table in compiled loops.
 
 The table has open addresses: an entry is the index of a cell, or -1, and a cell whose entry is
-taken by another one goes to the next free entry. Cells are stored as whole numbers in floating
+taken by another one goes to the next free entry; its size is a power of two. Cells are stored as whole numbers in floating
 point, so that neither tiny voxels nor coordinates far from the origin overflow.
 """
 
@@ -23,28 +23,6 @@ def scattered(x: int, y: int, z: int) -> int:
     number = (x * 73856093) ^ (y * 19349663) ^ (z * 83492791)
     # The last bits of a product depend on the last bits of its factors alone.
     return number ^ (number >> 15)
-
-
-@compiled
-def entry_of(table: Indices, cells: Array, x: float, y: float, z: float) -> int:
-    """Returns the entry of a cell in the table, or the free one where it belongs.
-
-    Args:
-        table: Indices of cells, (T,), -1 where free; T is a power of two.
-        cells: Coordinates of the cells, (C, 3).
-        x: First coordinate of the cell.
-        y: Second coordinate of the cell.
-        z: Third coordinate of the cell.
-    """
-    mask = len(table) - 1
-    entry = scattered(int(x), int(y), int(z)) & mask
-    while True:
-        index = table[entry]
-        if index < 0:
-            return entry
-        if cells[index, 0] == x and cells[index, 1] == y and cells[index, 2] == z:
-            return entry
-        entry = (entry + 1) & mask
 
 
 @compiled
@@ -92,43 +70,100 @@ def voxel_sums(points: Array, voxel: float) -> tuple[Array, Array, Indices]:
         points: The cloud, (N, 3) [m].
         voxel: Side of a voxel [m].
     """
-    table = np.full(1024, -1)
-    room = 512
+    room, count, done = 2048, 0, 0
+    table = np.full(2 * room, -1)
     cells, sums, counts = np.empty((room, 3)), np.empty((room, 3)), np.empty(room, np.int64)
-    count = 0
-    for n in range(len(points)):
+    while True:
+        done, count = _summed(points, done, voxel, table, cells, sums, counts, count)
+        if done == len(points):
+            return cells[:count], sums[:count], counts[:count]
+        room *= 2
+        cells, sums, counts = _larger(cells, room), _larger(sums, room), _more(counts, room)
+        table = _table_of(cells, count, 2 * room)
+
+
+@compiled
+def _summed(
+    points: Array,
+    done: int,
+    voxel: float,
+    table: Indices,
+    cells: Array,
+    sums: Array,
+    counts: Indices,
+    count: int,
+) -> tuple[int, int]:
+    """Adds points to the sums until all rows are taken; returns how many points and rows are done.
+
+    Args:
+        points: The cloud, (N, 3) [m].
+        done: Number of points that are added already.
+        voxel: Side of a voxel [m].
+        table: Indices of cells, (T,), -1 where free.
+        cells: Coordinates of the cells, (R, 3).
+        sums: Sums of their points, (R, 3) [m].
+        counts: Numbers of their points, (R,).
+        count: Number of rows that are taken.
+    """
+    mask = len(table) - 1
+    for n in range(done, len(points)):
         x, y, z = points[n, 0] / voxel, points[n, 1] / voxel, points[n, 2] / voxel
         x, y, z = np.floor(x), np.floor(y), np.floor(z)
-        entry = entry_of(table, cells, x, y, z)
+        # A call for each point would take longer than its search.
+        entry = scattered(int(x), int(y), int(z)) & mask
         index = table[entry]
+        while index >= 0:
+            if cells[index, 0] == x and cells[index, 1] == y and cells[index, 2] == z:
+                break
+            entry = (entry + 1) & mask
+            index = table[entry]
         if index >= 0:
-            for axis in range(3):
-                sums[index, axis] += points[n, axis]
+            sums[index, 0] += points[n, 0]
+            sums[index, 1] += points[n, 1]
+            sums[index, 2] += points[n, 2]
             counts[index] += 1
             continue
-        if count == room:
-            # Half of the entries are taken: all move into tables of twice the size.
-            room *= 2
-            more = np.empty((room, 3))
-            more[:count] = cells
-            cells = more
-            more = np.empty((room, 3))
-            more[:count] = sums
-            sums = more
-            larger = np.empty(room, np.int64)
-            larger[:count] = counts
-            counts = larger
-            table = np.full(2 * room, -1)
-            for c in range(count):
-                table[entry_of(table, cells, cells[c, 0], cells[c, 1], cells[c, 2])] = c
-            entry = entry_of(table, cells, x, y, z)
+        if count == len(cells):
+            return n, count
         table[entry] = count
         cells[count, 0], cells[count, 1], cells[count, 2] = x, y, z
-        for axis in range(3):
-            sums[count, axis] = points[n, axis]
+        sums[count, 0], sums[count, 1] = points[n, 0], points[n, 1]
+        sums[count, 2] = points[n, 2]
         counts[count] = 1
         count += 1
-    return cells[:count], sums[:count], counts[:count]
+    return len(points), count
+
+
+@compiled
+def _larger(rows: Array, room: int) -> Array:
+    """Returns rows (M, 3) with room for more."""
+    larger = np.empty((room, 3))
+    for m in range(len(rows)):
+        for axis in range(3):
+            larger[m, axis] = rows[m, axis]
+    return larger
+
+
+@compiled
+def _more(numbers: Indices, room: int) -> Indices:
+    """Returns numbers (M,) with room for more."""
+    larger = np.empty(room, np.int64)
+    for m in range(len(numbers)):
+        larger[m] = numbers[m]
+    return larger
+
+
+@compiled
+def _table_of(cells: Array, count: int, size: int) -> Indices:
+    """Returns a table of a size, with the first cells (C, 3) entered."""
+    table = np.full(size, -1)
+    mask = size - 1
+    for c in range(count):
+        entry = scattered(int(cells[c, 0]), int(cells[c, 1]), int(cells[c, 2])) & mask
+        while table[entry] >= 0:
+            entry = (entry + 1) & mask
+        table[entry] = c
+    return table
 
 
 @compiled
@@ -140,3 +175,28 @@ def means_in_order(sums: Array, counts: Indices, order: Indices) -> Array:
         for axis in range(3):
             means[m, axis] = sums[index, axis] / counts[index]
     return means
+
+
+@compiled
+def cell_numbers(cells: Array) -> Array:
+    """Returns a number for each cell (M,) in the order of its coordinates; none if they overflow.
+
+    Args:
+        cells: Coordinates of the cells, (M, 3).
+    """
+    if len(cells) == 0:
+        return np.empty(0)
+    low, high = np.empty(3), np.empty(3)
+    for axis in range(3):
+        least = most = cells[0, axis]
+        for m in range(len(cells)):
+            least, most = min(least, cells[m, axis]), max(most, cells[m, axis])
+        low[axis], high[axis] = least, most
+    height, depth = high[1] - low[1] + 1.0, high[2] - low[2] + 1.0
+    if (high[0] - low[0] + 1.0) * height * depth > 2.0**52:
+        return np.empty(0)
+    numbers = np.empty(len(cells))
+    for m in range(len(cells)):
+        row = (cells[m, 0] - low[0]) * height + cells[m, 1] - low[1]
+        numbers[m] = row * depth + cells[m, 2] - low[2]
+    return numbers

@@ -5,7 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from regkit.clouds.bounds import bounds
-from regkit.clouds.compiled_voxels import means_in_order, occupied, voxel_sums
+from regkit.clouds.compiled_voxels import (
+    cell_numbers,
+    means_in_order,
+    occupied,
+    voxel_sums,
+)
 from regkit.system.arrays import Array, Indices
 
 MIN_VOXEL = 1e-6
@@ -51,10 +56,6 @@ def voxel_for(points: Array, wanted: int) -> float | None:
 
 def _sorted(cells: Array) -> Indices:
     """Returns the order (M,) of cells (M, 3) by their coordinates."""
-    low, high = bounds(cells)
-    width, height, depth = high - low + 1.0
-    if width * height * depth > 2.0**52:
-        return np.lexsort(cells.T[::-1])
+    numbers = cell_numbers(cells)
     # A single number per voxel sorts much faster than three.
-    x, y, z = cells.T - low[:, None]
-    return np.argsort((x * height + y) * depth + z)
+    return np.argsort(numbers) if len(numbers) == len(cells) else np.lexsort(cells.T[::-1])

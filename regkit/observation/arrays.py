@@ -6,7 +6,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from regkit.observation.compiled_arrays import centred_points
 from regkit.observation.silhouette import Silhouette
+from regkit.system.arrays import loop_input
 from regkit.system.machine_types import IntegerStack, Matrix, SingleMatrix, SingleVector, Vector
 
 if TYPE_CHECKING:
@@ -68,18 +70,19 @@ class ObservationArrays(NamedTuple):
 
     @classmethod
     def of(cls, observation: Observation) -> ObservationArrays | None:
-        """Returns the arrays of an observation; None if its variances differ."""
-        variance = float(observation.variances[0])
-        if (observation.variances != variance).any():
+        """Returns the arrays of an observation; None if variances differ or all points coincide."""
+        points = loop_input(observation.points)
+        weights, variances = loop_input(observation.weights), loop_input(observation.variances)
+        centred, shares, centre, alike = centred_points(points, weights, variances)
+        # The readable form tells why points that all coincide are no data.
+        if not alike or not centred.any():
             return None
-        points = np.ascontiguousarray(observation.points)
-        centre = points.mean(axis=0)
         return cls(
             points,
-            np.ascontiguousarray((points - centre).T, dtype=np.float32),
+            centred,
             centre,
-            (observation.weights / observation.weights.sum()).astype(np.float32),
-            variance,
+            shares,
+            float(variances[0]),
             observation.camera is not None,
             SilhouetteArrays.of(observation.silhouette),
         )

@@ -94,17 +94,38 @@ def respond(
     rows = np.empty((len(scene.data.points) if order else 0, 6))
     owners, residuals = _residuals(scene, centres, axes, numbers, table, state, scale, rows)
     energy, weights = log(scale / sqrt(scene.data.variance)), scene.data.weights
+    factors = np.empty(len(residuals))
     for j in range(len(residuals)):
-        k, square = owners[j], (residuals[j] / scale) ** 2
-        energy += weights[j] * (loss_value(numbers[LOSS], square) + state[k, 0])
-        if order:
-            weight = weights[j] * loss_weight(numbers[LOSS], square) / scale**2
-            for a in range(6):
-                scaled = weight * rows[j, a]
-                wrenches[k, a] += scaled * residuals[j]
-                for b in range(6):
-                    stiffness[k, a, b] += scaled * rows[j, b]
+        square = (residuals[j] / scale) ** 2
+        energy += weights[j] * (loss_value(numbers[LOSS], square) + state[owners[j], 0])
+        factors[j] = weights[j] * loss_weight(numbers[LOSS], square) / scale**2
+    if order:
+        add_residuals(owners, residuals, rows, factors, wrenches, stiffness)
     return energy
+
+
+@compiled(reordered=True, python=False)
+def add_residuals(
+    owners: IntegerVector,
+    residuals: Vector,
+    rows: Matrix,
+    factors: Vector,
+    wrenches: Matrix,
+    stiffness: Stack,
+) -> None:
+    """Adds w J^T r (K, 6) and w J^T J (K, 6, 6) of the residuals of each capsule."""
+    blocks = np.zeros((len(wrenches), 6, 6))
+    for j in range(len(owners)):
+        k = owners[j]
+        for a in range(6):
+            scaled = factors[j] * rows[j, a]
+            wrenches[k, a] += scaled * residuals[j]
+            for b in range(a + 1):
+                blocks[k, a, b] += scaled * rows[j, b]
+    for k in range(len(blocks)):
+        for a in range(6):
+            for b in range(6):
+                stiffness[k, a, b] += blocks[k, max(a, b), min(a, b)]
 
 
 @compiled(python=False)
