@@ -1,7 +1,8 @@
 """Occupied voxels of a cloud, by a hash table in compiled loops.
 
 The table has open addresses: an entry is the index of a cell, or -1, and a cell whose entry is
-taken by another one goes to the next free entry; its size is a power of two. Cells are stored as whole numbers in floating
+taken by another one goes to the next free entry; its size is a power of two. Cells are stored as
+whole numbers in floating
 point, so that neither tiny voxels nor coordinates far from the origin overflow.
 """
 
