@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 from collections.abc import Callable
 from functools import update_wrapper
+from threading import RLock
 from typing import Any, Generic, ParamSpec, TypeVar, cast
 
 from regkit.system.optional import load_library
@@ -14,6 +15,9 @@ R = TypeVar("R")
 
 _DISPATCHERS: list[Any] = []
 """Numba's dispatchers of all functions compiled so far."""
+
+_LOCK = RLock()
+"""Held while a dispatcher is made, and those of the functions that it calls."""
 
 _CALLBACKS: list[Callable[[], None]] = []
 """Callbacks to run once before the first compilation."""
@@ -36,19 +40,22 @@ class Compiled(Generic[P, R]):
 
     def dispatcher(self) -> Callable[P, R]:
         """Returns Numba's dispatcher of the function."""
-        if self._dispatcher is None:
-            names = cast(Any, self.function).__globals__
-            # Numba calls only its own functions: replace those in the globals of this one.
-            for name in self.function.__code__.co_names:
-                if isinstance(names.get(name), Compiled):
-                    names[name] = names[name].dispatcher()
-            _listen()
-            # All loops release Python's lock, so that threads can share a computation.
-            self._dispatcher = cast(
-                Callable[P, R], load_library("numba").njit(cache=True, nogil=True)(self.function)
-            )
-            _DISPATCHERS.append(self._dispatcher)
-        return self._dispatcher
+        # Threads of one computation may make the first call at the same time.
+        with _LOCK:
+            if self._dispatcher is None:
+                names = cast(Any, self.function).__globals__
+                # Numba calls only its own functions: replace those in the globals of this one.
+                for name in self.function.__code__.co_names:
+                    if isinstance(names.get(name), Compiled):
+                        names[name] = names[name].dispatcher()
+                _listen()
+                # All loops release Python's lock, so that threads can share a computation.
+                self._dispatcher = cast(
+                    Callable[P, R],
+                    load_library("numba").njit(cache=True, nogil=True)(self.function),
+                )
+                _DISPATCHERS.append(self._dispatcher)
+            return self._dispatcher
 
 
 def compiled(function: Callable[P, R]) -> Compiled[P, R]:
