@@ -2,7 +2,8 @@
 
 The table has open addresses: an entry is the index of a cell, or -1, and a cell whose entry is
 taken by another one goes to the next free entry; its size is a power of two. Cells are stored as
-whole numbers in floating point, so that neither tiny voxels nor coordinates far from the origin overflow.
+whole numbers in floating point, so that neither tiny voxels nor coordinates far from the origin
+overflow.
 """
 
 from __future__ import annotations
