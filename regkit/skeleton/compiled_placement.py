@@ -137,15 +137,12 @@ def segment_jacobian(twists: Array, dof_mask: Array, arms: Array) -> Array:
     dofs, segments = dof_mask.shape
     jacobian = np.zeros((segments, 6, dofs))
     for segment in range(segments):
-        x, y, z = arms[segment]
         for dof in range(dofs):
             if dof_mask[dof, segment] == 0.0:
                 continue
-            v0, v1, v2, w0, w1, w2 = twists[dof]
-            jacobian[segment, 0, dof] = v0 + w1 * z - w2 * y
-            jacobian[segment, 1, dof] = v1 + w2 * x - w0 * z
-            jacobian[segment, 2, dof] = v2 + w0 * y - w1 * x
-            jacobian[segment, 3, dof] = w0
-            jacobian[segment, 4, dof] = w1
-            jacobian[segment, 5, dof] = w2
+            for i in range(3):
+                j, k = (i + 1) % 3, (i + 2) % 3
+                moved = twists[dof, i] + twists[dof, 3 + j] * arms[segment, k]
+                jacobian[segment, i, dof] = moved - twists[dof, 3 + k] * arms[segment, j]
+                jacobian[segment, 3 + i, dof] = twists[dof, 3 + i]
     return jacobian

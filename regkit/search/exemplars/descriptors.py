@@ -2,29 +2,24 @@
 
 from __future__ import annotations
 
-from math import cos, sin
-
 import numpy as np
 
+from regkit.search.exemplars.image_cuts import cut_image, offset_of_share
 from regkit.search.exemplars.images import (
-    cut_image,
+    POOLING,
     describe,
     image_centre,
-    offset_of_share,
     points_image,
     spheres_image,
 )
 from regkit.system.arrays import Array, Singles
 from regkit.system.compiled import compiled
 
-SIDE, POOLING = 48, 2
-"""Number of cells of an image, and of those in a pooled cell, along each side."""
+SIDE = 48
+"""Number of cells along each side of an image."""
 
 HALF, WIDE = 0.68, 0.782
 """Half the width of an image, and of the wider one that finds its centre [size]."""
-
-DEEPEST = 0.22
-"""Depth from the centre beyond which differences count no more [size]."""
 
 
 @compiled
@@ -100,11 +95,10 @@ def exemplar_descriptors(
         for line in range(len(offsets)):
             beside = cuts[index, line, 0] * shift[0] + cuts[index, line, 1] * shift[1]
             cut_image(image, HALF, cuts[index, line], offsets[line] - beside)
-        describe(descriptors, index, image, POOLING, DEEPEST)
+        describe(descriptors, index, image)
     return descriptors, centres
 
 
-@compiled
 def cloud_descriptors(
     points: Array, spread: float, rolls: Array, nearest: bool
 ) -> tuple[Singles, Array]:
@@ -117,15 +111,9 @@ def cloud_descriptors(
         nearest: Whether a cell shows its nearest point.
     """
     centre = image_centre(points_image(points, spread, WIDE, SIDE, nearest), WIDE)
+    x, y, depths = (points - centre).T
     descriptors = np.empty((len(rolls), 2 * (SIDE // POOLING) ** 2), dtype=np.float32)
-    rolled = np.empty((len(points), 3))
-    for index in range(len(rolls)):
-        cosine, sine = cos(rolls[index]), sin(rolls[index])
-        for point in range(len(points)):
-            x, y = points[point, 0] - centre[0], points[point, 1] - centre[1]
-            rolled[point, 0] = cosine * x + sine * y
-            rolled[point, 1] = cosine * y - sine * x
-            rolled[point, 2] = points[point, 2] - centre[2]
-        image = points_image(rolled, spread, HALF, SIDE, nearest)
-        describe(descriptors, index, image, POOLING, DEEPEST)
+    for index, (cosine, sine) in enumerate(zip(np.cos(rolls), np.sin(rolls), strict=True)):
+        rolled = np.stack([cosine * x + sine * y, cosine * y - sine * x, depths], axis=1)
+        describe(descriptors, index, points_image(rolled, spread, HALF, SIDE, nearest))
     return descriptors, centre

@@ -13,6 +13,12 @@ import numpy as np
 from regkit.system.arrays import Array, Singles
 from regkit.system.compiled import compiled
 
+POOLING = 2
+"""Number of cells along each side of a pooled cell of a descriptor."""
+
+DEEPEST = 0.22
+"""Depth from the centre beyond which differences count no more in a descriptor [size]."""
+
 BLUR = np.array([0.25, 0.5, 0.25])
 """Weights of a cell and its neighbours along rows and columns, which forgive small offsets."""
 
@@ -118,101 +124,23 @@ def image_centre(image: Array, half: float) -> Array:
 
 
 @compiled
-def offset_of_share(image: Array, half: float, normal: Array, share: float) -> float:
-    """Returns the distance from the centre of the line that leaves a share of the cells shown.
-
-    Args:
-        image: The image.
-        half: Half the width of the image.
-        normal: Outward unit vector of the line in the image, (2,).
-        share: Share of the cells that show something, from 0 to 1.
-    """
-    side = len(image)
-    cell = 2.0 * half / side
-    heights, count = np.empty(side * side), 0
-    for row in range(side):
-        for column in range(side):
-            if isfinite(image[row, column]):
-                x, y = (column + 0.5) * cell - half, (row + 0.5) * cell - half
-                heights[count] = normal[0] * x + normal[1] * y
-                count += 1
-    if not count:
-        return 0.0
-    # The quantile lies between two neighbours in the order of the heights.
-    position = share * (count - 1)
-    rank = floor(position)
-    lower = ranked(heights, count, rank)
-    if rank == count - 1:
-        return lower
-    return lower + (position - rank) * (ranked(heights, count, rank + 1) - lower)
-
-
-@compiled
-def ranked(values: Array, count: int, rank: int) -> float:
-    """Returns the value of a rank, from 0, among the first ``count`` values; reorders them.
-
-    Source: Hoare's selection, C. A. R. Hoare, Algorithm 65: Find, Communications of the ACM 4(7),
-    1961.
-    """
-    first, last = 0, count - 1
-    while first < last:
-        pivot = values[rank]
-        low, high = first, last
-        while low <= high:
-            while values[low] < pivot:
-                low += 1
-            while pivot < values[high]:
-                high -= 1
-            if low <= high:
-                values[low], values[high] = values[high], values[low]
-                low += 1
-                high -= 1
-        if high < rank:
-            first = low
-        if rank < low:
-            last = high
-    return float(values[rank])
-
-
-@compiled
-def cut_image(image: Array, half: float, normal: Array, offset: float) -> None:
-    """Empties the cells beyond the line ``normal . (x, y) = offset``, in place.
-
-    Args:
-        image: The image.
-        half: Half the width of the image.
-        normal: Unit vector in the image, (2,).
-        offset: Distance of the line from the image's centre.
-    """
-    side = len(image)
-    cell = 2.0 * half / side
-    for row in range(side):
-        for column in range(side):
-            x, y = (column + 0.5) * cell - half, (row + 0.5) * cell - half
-            if normal[0] * x + normal[1] * y > offset:
-                image[row, column] = np.inf
-
-
-@compiled
-def describe(descriptors: Singles, index: int, image: Array, pooling: int, deepest: float) -> None:
+def describe(descriptors: Singles, index: int, image: Array) -> None:
     """Writes the descriptor of an image: pooled and blurred occupancy and depth, (2 n^2,).
 
     Args:
         descriptors: The descriptors, (N, 2 n^2).
         index: Row of the descriptor.
-        image: The image, (side, side).
-        pooling: Number of cells along each side of a pooled cell; side = n pooling.
-        deepest: Depth beyond which differences count no more.
+        image: The image, (side, side), with side = n ``POOLING``.
     """
-    side = len(image) // pooling
+    side = len(image) // POOLING
     occupancy, depths = np.zeros((side + 2, side + 2)), np.zeros((side + 2, side + 2))
-    share = 1.0 / pooling**2
-    for row in range(side * pooling):
-        for column in range(side * pooling):
+    share = 1.0 / POOLING**2
+    for row in range(side * POOLING):
+        for column in range(side * POOLING):
             if isfinite(image[row, column]):
-                i, j = row // pooling + 1, column // pooling + 1
+                i, j = row // POOLING + 1, column // POOLING + 1
                 occupancy[i, j] += share
-                depths[i, j] += share * min(max(image[row, column] / deepest, -1.0), 1.0)
+                depths[i, j] += share * min(max(image[row, column] / DEEPEST, -1.0), 1.0)
     for row in range(side):
         for column in range(side):
             shown, deep = 0.0, 0.0
