@@ -50,8 +50,9 @@ def responses(
     """Returns a compiled kernel's energy; evaluates it several times, as a compiled solver does."""
     energy = 0.0
     for _ in range(times):
-        arguments = (scene, centres, axes, numbers, table, state, 2, wrenches, stiffness)
-        energy = RESPOND(address, arguments)
+        energy = RESPOND(
+            address, scene, centres, axes, numbers, table, state, 2, wrenches, stiffness
+        )
     return energy
 
 

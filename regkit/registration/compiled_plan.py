@@ -96,14 +96,14 @@ def bind_parts(
     factors = np.empty(len(scene.weights))
     for part in range(plan.energies, plan.energies + plan.weights):
         table = plan.table[plan.table_rows[part] : plan.table_rows[part + 1]]
-        WEIGH(plan.functions[part, 1], (scene, plan.numbers[part], table, factors))
+        WEIGH(plan.functions[part, 1], scene, plan.numbers[part], table, factors)
         for k in range(len(factors)):
             scene.weights[k] *= factors[k]
     for part in range(plan.energies):
         if plan.functions[part, 0] != 0:
             table = plan.table[plan.table_rows[part] : plan.table_rows[part + 1]]
             state = states[plan.state_rows[part] : plan.state_rows[part + 1]]
-            BIND(plan.functions[part, 0], (scene, plan.numbers[part], table, state))
+            BIND(plan.functions[part, 0], scene, plan.numbers[part], table, state)
 
 
 @compiled
@@ -116,8 +116,10 @@ def kernel_energy(
     placed_primitives(skeleton, scene.primitives, pose, centres, axes)
     wrenches, stiffness = np.empty((0, 6)), np.empty((0, 6, 6))
     table, state = plan.table[: plan.table_rows[1]], states[: plan.state_rows[1]]
-    arguments = (scene, centres, axes, plan.numbers[0], table, state, 0, wrenches, stiffness)
-    energy: float = RESPOND(plan.functions[0, 1], arguments)
+    address, numbers = plan.functions[0, 1], plan.numbers[0]
+    energy: float = RESPOND(
+        address, scene, centres, axes, numbers, table, state, 0, wrenches, stiffness
+    )
     return energy
 
 
@@ -135,8 +137,8 @@ def explained(
     centres, axes = np.empty((count, 3)), np.empty((count, 3, 3))
     placed_primitives(skeleton, scene.primitives, pose, centres, axes)
     table, state = plan.table[: plan.table_rows[1]], states[: plan.state_rows[1]]
-    arguments = (scene, centres, axes, plan.numbers[0], table, state, probability)
-    EXPLAIN(plan.functions[0, 2], arguments)
+    address, numbers = plan.functions[0, 2], plan.numbers[0]
+    EXPLAIN(address, scene, centres, axes, numbers, table, state, probability)
 
 
 @compiled
@@ -172,18 +174,18 @@ def derivatives(
     for part in range(plan.energies):
         table = plan.table[plan.table_rows[part] : plan.table_rows[part + 1]]
         state = states[plan.state_rows[part] : plan.state_rows[part + 1]]
-        arguments = (
-            scene, centres, axes, plan.numbers[part], table, state, order, wrenches, stiffness
-        )  # fmt: skip
-        energy += RESPOND(plan.functions[part, 1], arguments)
+        address, numbers = plan.functions[part, 1], plan.numbers[part]
+        energy += RESPOND(
+            address, scene, centres, axes, numbers, table, state, order, wrenches, stiffness
+        )
     if order:
         force_on_bones(skeleton, scene.primitives, pose, links, centres, wrenches, force)
     if order == 2:
         matrix_on_bones(skeleton, scene.primitives, pose, links, centres, stiffness, matrix)
     for part in range(plan.energies + plan.weights, len(plan.functions)):
         table = plan.table[plan.table_rows[part] : plan.table_rows[part + 1]]
-        joints = (skeleton, prior, pose, plan.numbers[part], table, force, matrix)
-        energy += RESPOND_JOINTS(plan.functions[part, 1], joints)
+        address, numbers = plan.functions[part, 1], plan.numbers[part]
+        energy += RESPOND_JOINTS(address, skeleton, prior, pose, numbers, table, force, matrix)
     return energy
 
 

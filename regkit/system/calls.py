@@ -29,10 +29,9 @@ def external(signature: Any, name: str, address: int) -> Any:
     packed = types.StarArgTuple.from_types(signature.args)
 
     def generated(context: Any, builder: Any, _: Any, given: Any) -> Any:
-        values = cgutils.unpack_tuple(builder, given[0], len(signature.args))
         kind = context.call_conv.get_function_type(signature.return_type, signature.args)
         function = cgutils.get_or_insert_function(builder.module, kind, name)
-        return _called(signature, context, builder, function, values)
+        return _called(signature, context, builder, function, given[0])
 
     def call(context: Any, *arguments: Any) -> Any:
         return signature.return_type(packed), generated
@@ -43,7 +42,7 @@ def external(signature: Any, name: str, address: int) -> Any:
 class Pointer:
     """A call of any compiled function with the annotations of a prototype, by its address.
 
-    In a compiled function, ``pointer(address, (argument, ...))`` calls it. So what is chosen at run
+    In a compiled function, ``pointer(address, argument, ...)`` calls it. So what is chosen at run
     time, as plug-ins are, needs no compilation of its caller.
 
     Args:
@@ -53,7 +52,7 @@ class Pointer:
     def __init__(self, prototype: Callable[..., Any]) -> None:
         self.prototype = prototype
 
-    def __call__(self, address: int, arguments: tuple[Any, ...]) -> Any:
+    def __call__(self, address: int, *arguments: Any) -> Any:
         """Calls the function at an address, from a compiled function only."""
         raise TypeError("a pointer is called from compiled functions only")
 
@@ -69,30 +68,28 @@ class Pointer:
     def callee(self) -> Any:
         """What compiled functions call."""
         signature = self._signature
-        cgutils = load_library("numba.core.cgutils")
         types = load_library("numba").types
-        packed = types.BaseTuple.from_types(signature.args)
+        packed = types.StarArgTuple.from_types(signature.args)
 
         def generated(context: Any, builder: Any, _: Any, given: Any) -> Any:
-            address, arguments = given
-            values = cgutils.unpack_tuple(builder, arguments, len(signature.args))
             kind = context.call_conv.get_function_type(signature.return_type, signature.args)
-            function = builder.inttoptr(address, kind.as_pointer())
-            return _called(signature, context, builder, function, values)
+            function = builder.inttoptr(given[0], kind.as_pointer())
+            return _called(signature, context, builder, function, given[1])
 
-        def call(context: Any, address: Any, arguments: Any) -> Any:
+        def call(context: Any, address: Any, *arguments: Any) -> Any:
             return signature.return_type(types.int64, packed), generated
 
         return load_library("numba.extending").intrinsic(call)
 
 
-def _called(signature: Any, context: Any, builder: Any, function: Any, values: Any) -> Any:
-    """Generates the call of a function; its errors are the caller's."""
+def _called(signature: Any, context: Any, builder: Any, function: Any, packed: Any) -> Any:
+    """Generates the call of a function with a tuple of arguments; its errors are the caller's."""
+    cgutils = load_library("numba.core.cgutils")
+    values = cgutils.unpack_tuple(builder, packed, len(signature.args))
     convention = context.call_conv
     status, result = convention.call_function(
         builder, function, signature.return_type, signature.args, values
     )
-    cgutils = load_library("numba.core.cgutils")
     with cgutils.if_unlikely(builder, status.is_error):
         convention.return_status_propagate(builder, status)
     return result

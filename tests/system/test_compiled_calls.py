@@ -57,7 +57,7 @@ PROTOTYPE = Pointer(scaled.function)
 
 @compiled
 def through_pointer(address: int, pair: Pair) -> float:
-    return float(PROTOTYPE(address, (pair, 1))[0])
+    return float(PROTOTYPE(address, pair, 1)[0])
 
 
 @compiled
