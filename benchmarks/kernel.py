@@ -63,8 +63,9 @@ class CompiledKernel:
         primitives = GeneralizedSumOfGaussians().bind(body)
         plan = Plan.of(body, primitives, kernel, ())
         assert plan is not None
-        bound = PlannedEnergy.of(plan, data, pose, pose, 0.0)
-        assert bound is not None
+        found = PlannedEnergy.of(plan, data, [pose], pose)
+        assert found is not None
+        bound, _ = found
         self.scene, self.state, self.plan = bound.scene, bound.states, plan.arrays
         count = len(primitives)
         self.wrenches, self.stiffness = np.zeros((count, 6)), np.zeros((count, 6, 6))

@@ -86,6 +86,43 @@ def placed_primitives(
 
 
 @compiled
+def bind_to_best(
+    plan: PlanArrays,
+    skeleton: SkeletonArrays,
+    scene: SceneArrays,
+    roots: Stack,
+    balls: Stack,
+    hinges: Matrix,
+    states: Matrix,
+) -> int:
+    """Binds all parts at the candidate with the least energy of the kernel; returns its index.
+
+    All candidates are compared with the kernel bound to the first one.
+
+    Args:
+        plan: The parts.
+        skeleton: The skeleton.
+        scene: The scene, whose placement and weights are written.
+        roots: T_world_root of C candidates, (C, 4, 4).
+        balls: Quaternions of their ball joints, (C, n_ball, 4).
+        hinges: Angles of their hinges, (C, n_hinge) [rad].
+        states: States of the parts, written.
+    """
+    bind_parts(plan, skeleton, scene, PoseArrays(roots[0], balls[0], hinges[0]), states)
+    best, least = 0, np.inf
+    for candidate in range(len(roots) if len(roots) > 1 else 0):
+        pose = PoseArrays(roots[candidate], balls[candidate], hinges[candidate])
+        energy = kernel_energy(plan, skeleton, scene, pose, states)
+        if energy < least:
+            best, least = candidate, energy
+    if best:
+        bind_parts(
+            plan, skeleton, scene, PoseArrays(roots[best], balls[best], hinges[best]), states
+        )
+    return best
+
+
+@compiled(python=False)
 def bind_parts(
     plan: PlanArrays, skeleton: SkeletonArrays, scene: SceneArrays, pose: PoseArrays, states: Matrix
 ) -> None:
@@ -106,7 +143,7 @@ def bind_parts(
             BIND(plan.functions[part, 0], scene, plan.numbers[part], table, state)
 
 
-@compiled
+@compiled(python=False)
 def kernel_energy(
     plan: PlanArrays, skeleton: SkeletonArrays, scene: SceneArrays, pose: PoseArrays, states: Matrix
 ) -> float:

@@ -22,10 +22,6 @@ class FrameEnergy(ABC):
     """The kernel and all terms, bound to a frame."""
 
     @abstractmethod
-    def of_kernel(self, pose: Pose) -> float:
-        """Returns the energy of the kernel alone in a pose."""
-
-    @abstractmethod
     def total(self, pose: Pose) -> float:
         """Returns the energy of the kernel and all terms in a pose."""
 

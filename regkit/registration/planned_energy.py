@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -11,10 +12,9 @@ from regkit.interfaces import Multipliers
 from regkit.interfaces.compiled import SceneArrays
 from regkit.observation import Observation
 from regkit.registration.compiled_plan import (
-    bind_parts,
+    bind_to_best,
     derivatives,
     explained,
-    kernel_energy,
 )
 from regkit.registration.compiled_problem import ProblemArrays
 from regkit.registration.coordinates import Coordinates
@@ -45,16 +45,26 @@ class PlannedEnergy(FrameEnergy):
 
     @classmethod
     def of(
-        cls, plan: Plan, observation: Observation, pose: Pose, prior: Pose, smoothing: float
-    ) -> PlannedEnergy | None:
-        """Binds a plan to a frame; None if its points differ in variance.
+        cls,
+        plan: Plan,
+        observation: Observation,
+        candidates: Sequence[Pose],
+        prior: Pose,
+        smoothing: float = 0.0,
+    ) -> tuple[PlannedEnergy, Pose] | None:
+        """Binds a plan to a frame at the best candidate; None if its points differ in variance.
+
+        All candidates are compared with the kernel bound to the first one.
 
         Args:
             plan: The plan.
             observation: The frame's data.
-            pose: Pose at which everything is bound.
+            candidates: Poses, at least one.
             prior: Pose to which unobserved joints stay close.
             smoothing: Standard deviation of a Gaussian that smooths the energy over space [m].
+
+        Returns:
+            The bound plan, and the candidate at which it is bound.
         """
         data, count = observation.arrays, len(plan.primitives.weights)
         if data is None:
@@ -68,13 +78,16 @@ class PlannedEnergy(FrameEnergy):
             float(smoothing),
         )
         states = plan.states()
-        bind_parts(plan.arrays, plan.body.skeleton.arrays, scene, _arrays(pose), states)
-        return cls(plan, scene, _arrays(prior), states)
-
-    def of_kernel(self, pose: Pose) -> float:
-        """Returns the energy of the kernel alone in a pose."""
-        skeleton = self.plan.body.skeleton.arrays
-        return kernel_energy(self.plan.arrays, skeleton, self.scene, _arrays(pose), self.states)
+        best = bind_to_best(
+            plan.arrays,
+            plan.body.skeleton.arrays,
+            scene,
+            np.array([pose.root for pose in candidates], dtype=np.float64),
+            np.array([pose.balls for pose in candidates], dtype=np.float64),
+            np.array([pose.hinges for pose in candidates], dtype=np.float64),
+            states,
+        )
+        return cls(plan, scene, _arrays(prior), states), candidates[best]
 
     def total(self, pose: Pose) -> float:
         """Returns the energy of the kernel and all terms in a pose."""

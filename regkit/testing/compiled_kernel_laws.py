@@ -38,7 +38,7 @@ class CompiledKernelLaws(Laws):
         require_same_equations(bound.kernel, problem, fast.problem(chart, None), x, look_at)
         pose = chart.pose(x)
         placed, similarity = uniform.placed(pose), uniform.similarity(smoothing)
-        alone = np.asarray(fast.of_kernel(pose))
+        alone = np.asarray(fast.total(pose))
         require_same(
             bound.kernel, "energy alone", alone, np.asarray(similarity.energy(placed)), look_at
         )

@@ -61,9 +61,9 @@ def planned(
     kernel = isinstance(part, CompiledEnergy) and part.explain is not None
     parts: tuple[CompiledPart, ...] = (part,) if kernel else (CompiledEnergy(nothing), part)
     plan = Plan(body, PrimitiveArrays.of(primitives), parts)
-    energy = PlannedEnergy.of(plan, data, pose, pose, smoothing)
-    assert energy is not None
-    return energy
+    bound = PlannedEnergy.of(plan, data, [pose], pose, smoothing)
+    assert bound is not None
+    return bound[0]
 
 
 _NAMES = ("energy", "gradient", "matrix")

@@ -63,13 +63,14 @@ class BoundDirect(Registrar):
             DataError: If the pose violates a limit although ``hard_limits`` is set.
         """
         annealing = self.method.annealing
+        prior = prior or candidates[0]
         energy, pose = self._best(observation, candidates, prior, annealing[0])
         evaluations = len(candidates) if len(candidates) > 1 else 0
         iterations = 0
         multipliers = None if warm_start is None else warm_start.multipliers
         for index, smoothing in enumerate(annealing):
             if index:
-                energy = self._bound(observation, pose, prior or candidates[0], smoothing)
+                energy, _ = self._best(observation, [pose], prior, smoothing)
             # A pose within the bounds is within the limits only if the start is.
             start = self.body.skeleton.limits.hinged(pose)
             coordinates = COORDINATES[self.method.coordinates](self.body.skeleton, start)
@@ -95,19 +96,23 @@ class BoundDirect(Registrar):
         self,
         observation: Observation,
         candidates: Sequence[Pose],
-        prior: Pose | None,
+        prior: Pose,
         smoothing: float,
     ) -> tuple[FrameEnergy, Pose]:
         """Returns the energy bound to the candidate of least kernel energy, and that candidate.
 
         All candidates are compared with the kernel bound to the first one.
         """
+        if self.plan is not None:
+            planned = PlannedEnergy.of(self.plan, observation, candidates, prior, smoothing)
+            if planned is not None:
+                return planned
         first = candidates[0]
-        energy = self._bound(observation, first, prior or first, smoothing)
+        energy = self._summed(observation, first, prior, smoothing)
         if len(candidates) > 1:
             best = min(candidates, key=energy.of_kernel)
             if best is not first:
-                return self._bound(observation, best, prior or first, smoothing), best
+                return self._summed(observation, best, prior, smoothing), best
         return energy, first
 
     def _check_limits(self, pose: Pose) -> None:
@@ -125,23 +130,13 @@ class BoundDirect(Registrar):
 
     def evaluate(self, observation: Observation, pose: Pose) -> Evaluation:
         """Returns the energy of a pose, with everything bound to the frame at this pose."""
-        energy = self._bound(observation, pose, pose, 0.0)
+        energy, _ = self._best(observation, [pose], pose, 0.0)
         return Evaluation(energy.total(pose), energy.inlier_probability(pose))
-
-    def _bound(
-        self, observation: Observation, pose: Pose, prior: Pose, smoothing: float
-    ) -> FrameEnergy:
-        """Returns the kernel and all terms bound to a frame at a pose."""
-        if self.plan is not None:
-            planned = PlannedEnergy.of(self.plan, observation, pose, prior, smoothing)
-            if planned is not None:
-                return planned
-        return self._summed(observation, pose, prior, smoothing)
 
     def _summed(
         self, observation: Observation, pose: Pose, prior: Pose, smoothing: float
     ) -> SummedEnergy:
-        """Returns the same as the sum of the bound parts."""
+        """Returns the sum of the kernel and all terms, bound to a frame at a pose."""
         placed = self.primitives.place(self.body.place(pose).transforms)
         scene = Scene(self.body, observation, prior, placed)
         primitives = self.primitives
