@@ -256,7 +256,7 @@ def force_on_bones(
         force[dof] = total
 
 
-@compiled(python=False)
+@compiled(reordered=True, python=False)
 def matrix_on_bones(
     skeleton: SkeletonArrays,
     primitives: PrimitiveArrays,

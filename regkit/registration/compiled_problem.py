@@ -172,10 +172,16 @@ def _through_couplings(
     matrix: Matrix,
 ) -> None:
     """Writes the gradient (m,) and the matrix (m, m) on the independent degrees of freedom."""
-    dofs = len(force)
-    for i in range(len(gradient)):
+    dofs, count = len(force), len(gradient)
+    if count == dofs:
+        for i in range(dofs):
+            gradient[i] = force[i]
+            for j in range(dofs):
+                matrix[i, j] = square[i, j]
+        return
+    for i in range(count):
         gradient[i] = 0.0
-        for j in range(len(gradient)):
+        for j in range(count):
             matrix[i, j] = 0.0
     for i in range(dofs):
         a, share = i, 1.0

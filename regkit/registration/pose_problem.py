@@ -24,7 +24,7 @@ class PoseProblem(Problem):
         self._coordinates = coordinates
         self.multipliers = multipliers
         self.start = coordinates.origin()
-        self._projected = (self.start.copy(), coordinates.pose(self.start))
+        self._projected: tuple[Array, Pose] | None = None
         self.lower, self.upper = coordinates.bounds()
 
     @abstractmethod
@@ -67,5 +67,8 @@ class PoseProblem(Problem):
 
     def _pose(self, x: Array) -> Pose:
         # A solver evaluates next at the point that it projected, whose pose is already known.
-        at, pose = self._projected
-        return pose if np.array_equal(at, x) else self._coordinates.pose(x)
+        if self._projected is not None:
+            at, pose = self._projected
+            if np.array_equal(at, x):
+                return pose
+        return self._coordinates.pose(x)

@@ -77,4 +77,6 @@ class TangentCoordinates(Coordinates):
 
     def _independent(self, step: Array) -> Array:
         """Returns the entries (m,) of a step (n,) without those of coupled hinges."""
+        if not len(self._couplings):
+            return step
         return np.delete(step, self.skeleton.hinge_dofs.start + self._couplings.followers)

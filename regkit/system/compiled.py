@@ -24,6 +24,10 @@ _CALLBACKS: list[Callable[[], None]] = []
 """Callbacks to run once before the first compilation."""
 
 
+_REORDERED = {"reassoc", "contract", "arcp", "nsz"}
+"""Liberties of LLVM with sums and products; NaN and infinity keep their meaning."""
+
+
 class Compiled(Generic[P, R]):
     """A function that Numba compiles when it is first needed and caches on disk.
 
@@ -67,7 +71,7 @@ class Compiled(Generic[P, R]):
             if not self._python:
                 options["no_cpython_wrapper"] = True
         compile_for = load_library("numba").njit(
-            self.signature, cache=True, fastmath=self._reordered, **options
+            self.signature, cache=True, fastmath=_REORDERED if self._reordered else False, **options
         )
         dispatcher = cast(Callable[P, R], compile_for(function))
         _DISPATCHERS.append(dispatcher)

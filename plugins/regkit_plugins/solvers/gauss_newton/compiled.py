@@ -90,7 +90,7 @@ def _are_finite(gradient: Vector, matrix: Matrix) -> bool:
     return total == 0.0
 
 
-@compiled(python=False)
+@compiled(reordered=True, python=False)
 def _damped_step(
     gradient: Vector,
     matrix: Matrix,
