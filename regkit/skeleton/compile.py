@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import from_vector, vector_to_matrix
@@ -22,7 +22,7 @@ from regkit.skeleton.joints import (
 )
 from regkit.skeleton.limits import Limits
 from regkit.skeleton.skeleton import Skeleton
-from regkit.system.arrays import Array, Indices, read_only
+from regkit.system.arrays import Array, Indices
 
 _UNLIMITED = (-np.inf, np.inf)
 
@@ -95,12 +95,12 @@ def _skeleton(
         free=free,
         segment_links=np.array([segment_links[name] for name in names], dtype=np.intp),
         link_parents=np.array(links.parents, dtype=np.intp),
-        link_offsets=read_only(links.offsets),
+        link_offsets=_numbers(links.offsets),
         ball_links=ball_links,
         hinge_links=hinge_links,
-        hinge_axes=read_only([axis for _, axis, _ in links.hinges]).reshape(-1, 3),
+        hinge_axes=_numbers([axis for _, axis, _ in links.hinges]).reshape(-1, 3),
         joint_dofs=_joint_dofs(links, segment_links, first=6 if free else 0),
-        dof_mask=read_only(moved[:, movers].T),
+        dof_mask=_numbers(moved[:, movers].T),
         limits=_limits(links, segment_links),
     )
 
@@ -139,11 +139,11 @@ def _limits(links: _Links, segment_links: dict[str, int]) -> Limits:
     hinge = np.radians([limits for _, _, limits in links.hinges]).reshape(-1, 2)
     couplings = _couplings(links, segment_links)
     return Limits(
-        hinge=read_only(couplings.narrowed(hinge)),
+        hinge=_numbers(couplings.narrowed(hinge)),
         couplings=couplings,
         centre=from_vector(np.radians([ball.centre_deg for ball in balls]).reshape(-1, 3)),
-        twist_axis=read_only([ball.twist_axis for ball in balls]).reshape(-1, 3),
-        swing_axis=read_only([ball.swing_axis for ball in balls]).reshape(-1, 3),
+        twist_axis=_numbers([ball.twist_axis for ball in balls]).reshape(-1, 3),
+        swing_axis=_numbers([ball.swing_axis for ball in balls]).reshape(-1, 3),
         swing=np.radians([ball.swing_deg or (np.inf, np.inf) for ball in balls]).reshape(-1, 2),
         twist=np.radians([ball.twist_deg or _UNLIMITED for ball in balls]).reshape(-1, 2),
     )
@@ -157,6 +157,11 @@ def _couplings(links: _Links, segment_links: dict[str, int]) -> Couplings:
         leaders=np.array(
             [hinge_of[segment_links[coupling.to]] for _, coupling in links.couplings], dtype=np.intp
         ),
-        ratios=read_only([coupling.ratio for _, coupling in links.couplings]),
+        ratios=_numbers([coupling.ratio for _, coupling in links.couplings]),
         offsets=np.radians([coupling.offset_deg for _, coupling in links.couplings]),
     )
+
+
+def _numbers(values: ArrayLike) -> Array:
+    """Returns an array as compiled loops take it; a read-only one would compile them anew."""
+    return np.array(values, dtype=np.float64, order="C")
