@@ -10,7 +10,8 @@
 """
 
 from regkit.search.exemplars.atlas import Atlas, AtlasSettings
-from regkit.search.exemplars.finder import Exemplar, Finder
+from regkit.search.exemplars.exemplar import Exemplar
+from regkit.search.exemplars.finder import Finder
 from regkit.search.exemplars.lookup import even_rolls
 from regkit.search.exemplars.pictures import Pictures
 from regkit.search.exemplars.storage import atlas_of

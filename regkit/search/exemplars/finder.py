@@ -10,11 +10,13 @@ import numpy as np
 
 from regkit.body import Body
 from regkit.search.exemplars.atlas import SPACING, Atlas
+from regkit.search.exemplars.exemplar import Exemplar
 from regkit.search.exemplars.lookup import Matches, cut_matches, matches
 from regkit.search.exemplars.model import Bones, Hull, Spheres
 from regkit.search.exemplars.pictures import Pictures
 from regkit.search.exemplars.refinement import refined
 from regkit.search.exemplars.rendering import disagreements
+from regkit.search.exemplars.variation import varied
 from regkit.skeleton import Placement, Pose
 from regkit.system.arrays import Array, Indices
 
@@ -30,26 +32,18 @@ POINTS = 220
 CUT = 2
 """Factor of the number of exemplars that are looked up at each border that cuts the data off."""
 
+ROUNDS, VARIED, VARIANTS, KEPT = 3, 8, 60, 12
+"""Number of rounds of variation; numbers of the best poses of which each makes variants, of
+variants of each pose, and of variants that are refined.
+
+Chosen on 90 to 150 folded people and 100 others (development set of ``benchmarks/starts.py``).
+"""
+
 SCALES = np.array([0.08] * 3 + [0.05] * 3 + [0.03] * 4)
 """Scale of the robust distances in each step of the refinement [size]."""
 
 SPRINGS = np.array([0.3] * 3 + [0.1] * 3 + [0.03] * 4)
 """Stiffness of the joints in each of these steps."""
-
-
-@dataclass(frozen=True)
-class Exemplar:
-    """A pose that may explain a frame.
-
-    Attributes:
-        body: The body at a size.
-        pose: Its pose.
-        disagreement: Disagreement of the rendered body with the data, from 0 to 1.
-    """
-
-    body: Body
-    pose: Pose
-    disagreement: float
 
 
 @dataclass(frozen=True)
@@ -80,17 +74,36 @@ class Finder:
         if self.cut_atlas is not None and pictures.cut:
             cut = cut_matches(self.cut_atlas, pictures, sizes, CUT * count)
             found = Matches.joined([found, cut])
-        scores = self._scores(found, pictures)
-        candidates = [
-            self.refined(self.bodies[found.sizes[index]], self._pose(found, index), pictures)
-            for index in self._distinct(found, scores)
-        ]
-        return sorted(candidates, key=lambda candidate: candidate.disagreement)
+        candidates = self._best(found, self.kept, pictures)
+        random = np.random.default_rng(0)
+        for _ in range(ROUNDS):
+            candidates += self._best(self._variants(candidates, random), KEPT, pictures)
+            candidates.sort(key=_disagreement)
+        return candidates
 
     def disagreement(self, body: Body, pose: Pose, pictures: Pictures) -> float:
         """Returns the disagreement of a pose with the data, from 0 to 1."""
         links = body.place(pose).links[None]
         return float(_rendered(body, links, self._spheres(body), pictures, SHARP)[0])
+
+    def _best(self, found: Matches, kept: int, pictures: Pictures) -> list[Exemplar]:
+        """Returns the matches that agree best with the data, refined, the best first."""
+        chosen = self._distinct(found, self._scores(found, pictures), kept)
+        refined = [
+            self.refined(self.bodies[found.sizes[index]], self._pose(found, index), pictures)
+            for index in chosen
+        ]
+        return sorted(refined, key=_disagreement)
+
+    def _variants(self, candidates: Sequence[Exemplar], random: np.random.Generator) -> Matches:
+        """Returns variants of the best poses, equally many of each size."""
+        poses, sizes = [], []
+        for index, body in enumerate(self.bodies):
+            of_size = [one.pose for one in candidates if one.body.size == body.size]
+            poses += of_size[: -(-VARIED // len(self.bodies))]
+            sizes += [index] * (len(poses) - len(sizes))
+        skeleton = self.bodies[0].skeleton
+        return varied(skeleton, self.atlas, poses, np.array(sizes), VARIANTS, random)
 
     def _pose(self, found: Matches, index: int) -> Pose:
         return Pose(found.roots[index], found.balls[index], found.hinges[index])
@@ -110,9 +123,9 @@ class Finder:
                 scores[some] = _rendered(body, links, self._spheres(body), pictures, ROUGH)
         return scores
 
-    def _distinct(self, found: Matches, scores: Array) -> list[int]:
+    def _distinct(self, found: Matches, scores: Array, kept: int) -> list[int]:
         """Returns the best matches that differ from each other, equally many of each size."""
-        each = -(-self.kept // len(self.bodies))
+        each = -(-kept // len(self.bodies))
         chosen: list[int] = []
         for index, body in enumerate(self.bodies):
             some = np.flatnonzero(found.sizes == index)
@@ -162,6 +175,10 @@ class Finder:
     def _all_spheres(self) -> dict[float, Spheres]:
         """The spheres of each body, by its size [m]."""
         return {body.size: Spheres.of(body, SPACING * body.size) for body in self.bodies}
+
+
+def _disagreement(one: Exemplar) -> float:
+    return one.disagreement
 
 
 def _rendered(
