@@ -16,7 +16,7 @@ from regkit.search.exemplars.model import Bones, Hull, Spheres
 from regkit.search.exemplars.pictures import Pictures
 from regkit.search.exemplars.refinement import refined
 from regkit.search.exemplars.rendering import disagreements
-from regkit.search.exemplars.variation import varied
+from regkit.search.exemplars.variation import BRIEF, Variation, varied
 from regkit.skeleton import Placement, Pose
 from regkit.system.arrays import Array, Indices
 
@@ -31,13 +31,6 @@ POINTS = 220
 
 CUT = 2
 """Factor of the number of exemplars that are looked up at each border that cuts the data off."""
-
-ROUNDS, VARIED, VARIANTS, KEPT = 3, 8, 60, 12
-"""Number of rounds of variation; numbers of the best poses of which each makes variants, of
-variants of each pose, and of variants that are refined.
-
-Chosen on 90 to 150 folded people and 100 others (development set of ``benchmarks/starts.py``).
-"""
 
 SCALES = np.array([0.08] * 3 + [0.05] * 3 + [0.03] * 4)
 """Scale of the robust distances in each step of the refinement [size]."""
@@ -57,6 +50,7 @@ class Finder:
         looked_up: Number of exemplars that are rendered.
         kept: Number of these that are refined.
         cut_atlas: The atlas of bodies that a picture shows in part; None if none is sought.
+        variation: How much the refined poses are varied.
     """
 
     bodies: Sequence[Body]
@@ -65,6 +59,7 @@ class Finder:
     looked_up: int
     kept: int
     cut_atlas: Atlas | None = None
+    variation: Variation = BRIEF
 
     def candidates(self, pictures: Pictures) -> list[Exemplar]:
         """Returns the refined poses, the one that agrees best with the data first."""
@@ -76,8 +71,9 @@ class Finder:
             found = Matches.joined([found, cut])
         candidates = self._best(found, self.kept, pictures)
         random = np.random.default_rng(0)
-        for _ in range(ROUNDS):
-            candidates += self._best(self._variants(candidates, random), KEPT, pictures)
+        for _ in range(self.variation.rounds):
+            variants = self._variants(candidates, random)
+            candidates += self._best(variants, self.variation.kept, pictures)
             candidates.sort(key=_disagreement)
         return candidates
 
@@ -97,13 +93,14 @@ class Finder:
 
     def _variants(self, candidates: Sequence[Exemplar], random: np.random.Generator) -> Matches:
         """Returns variants of the best poses, equally many of each size."""
-        poses, sizes = [], []
+        poses: list[Pose] = []
+        sizes: list[int] = []
         for index, body in enumerate(self.bodies):
             of_size = [one.pose for one in candidates if one.body.size == body.size]
-            poses += of_size[: -(-VARIED // len(self.bodies))]
+            poses += of_size[: -(-self.variation.poses // len(self.bodies))]
             sizes += [index] * (len(poses) - len(sizes))
         skeleton = self.bodies[0].skeleton
-        return varied(skeleton, self.atlas, poses, np.array(sizes), VARIANTS, random)
+        return varied(skeleton, self.atlas, poses, np.array(sizes), self.variation.each, random)
 
     def _pose(self, found: Matches, index: int) -> Pose:
         return Pose(found.roots[index], found.balls[index], found.hinges[index])

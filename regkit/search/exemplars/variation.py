@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -21,6 +22,31 @@ OWN = 0.15
 
 BENT = 0.15
 """Standard deviation of the trunk's joints [rad]."""
+
+
+@dataclass(frozen=True)
+class Variation:
+    """How much poses are varied.
+
+    Attributes:
+        rounds: Number of rounds, each of which begins from the best poses so far.
+        poses: Number of poses of which a round makes variants.
+        each: Number of variants of each pose.
+        kept: Number of variants that are refined in a round.
+    """
+
+    rounds: int
+    poses: int
+    each: int
+    kept: int
+
+
+BRIEF, THOROUGH = Variation(3, 8, 60, 12), Variation(4, 24, 60, 36)
+"""The usual variation, and that where no pose was good enough.
+
+Chosen on 90 to 150 folded people and 100 others, and on 12 folded people whose start was not found
+without the second one (development set of ``benchmarks/starts.py``).
+"""
 
 
 def varied(
