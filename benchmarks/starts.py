@@ -27,7 +27,7 @@ from _starts_options import Options
 
 from regkit.system.notes import RegkitWarning
 
-SYNTHETIC = ("people", "hands", "cropped", "scans", "recovery")
+SYNTHETIC = ("people", "folded", "hands", "cropped", "scans", "recovery")
 """Scenarios whose starts are compared with the truth."""
 
 SCENARIOS = (*SYNTHETIC, "rooms", "empty", "utd", "sr305", "scene")

@@ -10,9 +10,22 @@
 """
 
 from regkit.search.exemplars.atlas import Atlas, AtlasSettings
-from regkit.search.exemplars.finder import Exemplar, Finder
+from regkit.search.exemplars.exemplar import Exemplar
+from regkit.search.exemplars.finder import Finder
 from regkit.search.exemplars.lookup import even_rolls
 from regkit.search.exemplars.pictures import Pictures
 from regkit.search.exemplars.storage import atlas_of
+from regkit.search.exemplars.variation import BRIEF, THOROUGH, Variation
 
-__all__ = ["Atlas", "AtlasSettings", "Exemplar", "Finder", "Pictures", "atlas_of", "even_rolls"]
+__all__ = [
+    "BRIEF",
+    "THOROUGH",
+    "Atlas",
+    "AtlasSettings",
+    "Exemplar",
+    "Finder",
+    "Pictures",
+    "Variation",
+    "atlas_of",
+    "even_rolls",
+]

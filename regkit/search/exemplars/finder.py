@@ -10,11 +10,13 @@ import numpy as np
 
 from regkit.body import Body
 from regkit.search.exemplars.atlas import SPACING, Atlas
+from regkit.search.exemplars.exemplar import Exemplar
 from regkit.search.exemplars.lookup import Matches, cut_matches, matches
 from regkit.search.exemplars.model import Spheres
 from regkit.search.exemplars.pictures import Pictures
 from regkit.search.exemplars.refinement import refined
 from regkit.search.exemplars.rendering import disagreements
+from regkit.search.exemplars.variation import BRIEF, Variation, varied
 from regkit.skeleton import Placement, Pose
 from regkit.system.arrays import Array, Indices
 
@@ -38,21 +40,6 @@ SPRINGS = np.array([0.3] * 3 + [0.1] * 3 + [0.03] * 4)
 
 
 @dataclass(frozen=True)
-class Exemplar:
-    """A pose that may explain a frame.
-
-    Attributes:
-        body: The body at a size.
-        pose: Its pose.
-        disagreement: Disagreement of the rendered body with the data, from 0 to 1.
-    """
-
-    body: Body
-    pose: Pose
-    disagreement: float
-
-
-@dataclass(frozen=True)
 class Finder:
     """Seeks a body among its exemplars.
 
@@ -63,6 +50,7 @@ class Finder:
         looked_up: Number of exemplars that are rendered.
         kept: Number of these that are refined.
         cut_atlas: The atlas of bodies that a picture shows in part; None if none is sought.
+        variation: How much the refined poses are varied.
     """
 
     bodies: Sequence[Body]
@@ -71,6 +59,7 @@ class Finder:
     looked_up: int
     kept: int
     cut_atlas: Atlas | None = None
+    variation: Variation = BRIEF
 
     def candidates(self, pictures: Pictures) -> list[Exemplar]:
         """Returns the refined poses, the one that agrees best with the data first."""
@@ -80,17 +69,38 @@ class Finder:
         if self.cut_atlas is not None and pictures.cut:
             cut = cut_matches(self.cut_atlas, pictures, sizes, CUT * count)
             found = Matches.joined([found, cut])
-        scores = self._scores(found, pictures)
-        candidates = [
-            self.refined(self.bodies[found.sizes[index]], self._pose(found, index), pictures)
-            for index in self._distinct(found, scores)
-        ]
-        return sorted(candidates, key=lambda candidate: candidate.disagreement)
+        candidates = self._best(found, self.kept, pictures)
+        random = np.random.default_rng(0)
+        for _ in range(self.variation.rounds):
+            variants = self._variants(candidates, random)
+            candidates += self._best(variants, self.variation.kept, pictures)
+            candidates.sort(key=_disagreement)
+        return candidates
 
     def disagreement(self, body: Body, pose: Pose, pictures: Pictures) -> float:
         """Returns the disagreement of a pose with the data, from 0 to 1."""
         links = body.place(pose).links[None]
         return float(_rendered(body, links, self._spheres(body), pictures, SHARP)[0])
+
+    def _best(self, found: Matches, kept: int, pictures: Pictures) -> list[Exemplar]:
+        """Returns the matches that agree best with the data, refined, the best first."""
+        chosen = self._distinct(found, self._scores(found, pictures), kept)
+        refined = [
+            self.refined(self.bodies[found.sizes[index]], self._pose(found, index), pictures)
+            for index in chosen
+        ]
+        return sorted(refined, key=_disagreement)
+
+    def _variants(self, candidates: Sequence[Exemplar], random: np.random.Generator) -> Matches:
+        """Returns variants of the best poses, equally many of each size."""
+        poses: list[Pose] = []
+        sizes: list[int] = []
+        for index, body in enumerate(self.bodies):
+            of_size = [one.pose for one in candidates if one.body.size == body.size]
+            poses += of_size[: -(-self.variation.poses // len(self.bodies))]
+            sizes += [index] * (len(poses) - len(sizes))
+        skeleton = self.bodies[0].skeleton
+        return varied(skeleton, self.atlas, poses, np.array(sizes), self.variation.each, random)
 
     def _pose(self, found: Matches, index: int) -> Pose:
         return Pose(found.roots[index], found.balls[index], found.hinges[index])
@@ -110,9 +120,9 @@ class Finder:
                 scores[some] = _rendered(body, links, self._spheres(body), pictures, ROUGH)
         return scores
 
-    def _distinct(self, found: Matches, scores: Array) -> list[int]:
+    def _distinct(self, found: Matches, scores: Array, kept: int) -> list[int]:
         """Returns the best matches that differ from each other, equally many of each size."""
-        each = -(-self.kept // len(self.bodies))
+        each = -(-kept // len(self.bodies))
         chosen: list[int] = []
         for index, body in enumerate(self.bodies):
             some = np.flatnonzero(found.sizes == index)
@@ -159,6 +169,10 @@ class Finder:
     def _all_spheres(self) -> dict[float, Spheres]:
         """The spheres of each body, by its size [m]."""
         return {body.size: Spheres.of(body, SPACING * body.size) for body in self.bodies}
+
+
+def _disagreement(one: Exemplar) -> float:
+    return one.disagreement
 
 
 def _rendered(

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from regkit.body import Body
-from regkit.interfaces import Method
+from regkit.interfaces import Method, RegistrationResult
 from regkit.observation import Observation
 from regkit.search.limb_recovery import LimbRecovery
 from regkit.skeleton import Pose
@@ -35,14 +35,26 @@ class Comparison:
     bound: dict[float, LimbRecovery] = field(default_factory=dict)
 
     def finalist(self, body: Body, pose: Pose, observation: Observation) -> Finalist:
-        """Returns the pose after registration and a search of all limbs.
+        """Returns the pose after registration.
 
         Args:
             body: The body at a size.
             pose: The pose.
             observation: The frame.
         """
-        found = Finalist.of(self._limbs(body), pose, observation, self.usual)
+        result = self._limbs(body).registrar.register(observation, [pose])
+        return self._compared(body, result, observation)
+
+    def recovered(self, finalist: Finalist, observation: Observation) -> Finalist:
+        """Returns a finalist of a frame after a search of all limbs."""
+        body = finalist.body
+        result = self._limbs(body).recovered(observation, finalist.result)
+        return self._compared(body, result, observation)
+
+    def _compared(
+        self, body: Body, result: RegistrationResult, observation: Observation
+    ) -> Finalist:
+        found = Finalist.registered(self._limbs(body), result, observation, self.usual)
         prior = prior_cost(body, found.pose, one_sided=observation.camera is not None)
         return replace(found, prior=prior)
 
