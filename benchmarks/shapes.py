@@ -27,7 +27,7 @@ METHODS = {
     "mesh, point to point": "{preset: icp, kernel: {kind: point_to_point, reverse_weight: 0.5}}",
     "mesh, point to plane": "{preset: icp}",
     "mesh, point to plane, textbook": (
-        "{preset: icp, kernel: {matches: fixed}, smoothing: [0.0, 0.0, 0.0]}"
+        "{preset: icp, kernel: {matches: fixed}, annealing: [0.0, 0.0, 0.0]}"
     ),
     "G-SoG, without free_space": "{preset: best, terms: [visibility, intersection, continuity]}",
     "mesh, point to plane, without free_space": "{preset: icp, terms: [continuity]}",
