@@ -75,7 +75,11 @@ nitpick_ignore_regex = [
         r"|OneFrame"
         r"|Reference|Vector|Position|Rotation|FrameCount|Length|Count|regkit\.body\.verdict\.Annotated",
     ),
-    (r"py:class", r"Figure|Field|FieldInfo|NoneType|Ge|Gt|Le|\d+\.\d|(dict|tuple)\[str"),
+    (r"py:class", r"Figure|Field|FieldInfo|NoneType|Ge|Gt|Le|\d+\.\d|array|(dict|tuple)\[.*"),
+    (
+        r"py:class",
+        r"(Integer|Single)?(Vector|Matrix)|float32|float64|int64|regkit\.system\.compiled\.R",
+    ),
     # What starts and trackers share inside regkit is no part of its API.
     (r"py:class", r"regkit\.(body\.distance|search)\..*"),
     # Tables of fields describe the content of YAML files.

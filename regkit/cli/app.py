@@ -19,7 +19,7 @@ from regkit.cli.exit_codes import ERROR, INTERRUPTED, NOT_FOUND
 from regkit.cli.interrupt import Interrupt
 from regkit.cli.progress import display
 from regkit.cli.streams import flush_output, standard_streams
-from regkit.system.compiled import when_compiling
+from regkit.system.compilations import when_compiling
 from regkit.system.errors import NotFoundError, RegkitError
 from regkit.system.notes import show_notes
 from regkit.system.plugin_code import plugin_code

@@ -58,16 +58,17 @@ class Pointer:
 
     def accepts(self, function: Callable[..., Any]) -> bool:
         """Whether a function has the types of the prototype."""
-        return bool(machine_signature(function) == self._signature)
+        return bool(machine_signature(function) == self.signature)
 
     @cached_property
-    def _signature(self) -> Any:
+    def signature(self) -> Any:
+        """Numba's signature of the prototype."""
         return machine_signature(self.prototype)
 
     @cached_property
     def callee(self) -> Any:
         """What compiled functions call."""
-        signature = self._signature
+        signature = self.signature
         types = load_library("numba").types
         packed = types.StarArgTuple.from_types(signature.args)
 

@@ -2,27 +2,20 @@
 
 from __future__ import annotations
 
-import gc
-import importlib
+import hashlib
 from collections.abc import Callable
 from functools import cached_property, update_wrapper
 from types import FunctionType
 from typing import Any, Generic, ParamSpec, TypeVar, cast, overload
 
 from regkit.system.calls import Pointer, external
+from regkit.system.compilations import DISPATCHERS, listen
 from regkit.system.errors import PluginError
 from regkit.system.machine_types import machine_signature
 from regkit.system.optional import load_library
 
 P = ParamSpec("P")
 R = TypeVar("R")
-
-_DISPATCHERS: list[Any] = []
-"""Numba's dispatchers of all functions compiled so far."""
-
-_CALLBACKS: list[Callable[[], None]] = []
-"""Callbacks to run once before the first compilation."""
-
 
 _REORDERED = {"reassoc", "contract", "arcp", "nsz"}
 """Liberties of LLVM with sums and products; NaN and infinity keep their meaning."""
@@ -62,7 +55,9 @@ class Compiled(Generic[P, R]):
         own = cast(Any, self.function)
         function = FunctionType(own.__code__, names, own.__name__, own.__defaults__)
         update_wrapper(function, own)
-        _listen()
+        # Numba names the file on disk by it, and otherwise knows only the function's own file.
+        function.__qualname__ = f"{own.__qualname__}_{self.digest}"
+        listen()
         # All loops release Python's lock, so that threads can share a computation.
         options: dict[str, bool | str] = {"nogil": True}
         if self.signature is not None:
@@ -74,15 +69,31 @@ class Compiled(Generic[P, R]):
             self.signature, cache=True, fastmath=_REORDERED if self._reordered else False, **options
         )
         dispatcher = cast(Callable[P, R], compile_for(function))
-        _DISPATCHERS.append(dispatcher)
+        DISPATCHERS.append(dispatcher)
         return dispatcher
+
+    @cached_property
+    def digest(self) -> str:
+        """Digest of what the machine code depends on: the code, the types, and those of callees."""
+        own = self.function
+        parts = [own.__module__, own.__qualname__, own.__code__.co_code.hex()]
+        parts += [repr(self.signature), str(self._reordered), str(self._python)]
+        for name in own.__code__.co_names:
+            value = cast(Any, own).__globals__.get(name)
+            if isinstance(value, Compiled):
+                parts.append(own.__qualname__ if value is self else value.digest)
+            elif isinstance(value, Pointer):
+                parts.append(repr(value.signature))
+            elif isinstance(value, int | float):
+                parts.append(repr(value))
+        return hashlib.blake2s("\n".join(parts).encode(), digest_size=5).hexdigest()
 
     @cached_property
     def callee(self) -> Any:
         """What compiled functions call."""
         if self.signature is None:
             return self.dispatcher
-        return external(self.signature, self._name, self.address)
+        return external(self.signature, f"{self._name}_{self.digest}", self.address)
 
     @property
     def _name(self) -> str:
@@ -129,48 +140,3 @@ def compiled(
     if function is not None:
         return Compiled(function, reordered=reordered, python=python)
     return lambda decorated: Compiled(decorated, reordered=reordered, python=python)
-
-
-def loaded_loops() -> int:
-    """Returns the number of loops compiled or loaded from disk so far, one per signature.
-
-    A time measurement during which this number grows includes compilation.
-    """
-    return sum(len(dispatcher.overloads) for dispatcher in _DISPATCHERS)
-
-
-def when_compiling(callback: Callable[[], None]) -> None:
-    """Calls ``callback`` once, before the first compilation of a loop not cached on disk."""
-    _CALLBACKS.append(callback)
-
-
-def _listen() -> None:
-    """Watches Numba's compilations, from before the first one on."""
-    if _DISPATCHERS:
-        return
-    load_library("numba")
-    event = importlib.import_module("numba.core.event")
-
-    class Listener(event.Listener):  # type: ignore[misc, name-defined]
-        """Runs the callbacks, and pauses the collection of garbage, of which there is none.
-
-        Numba builds millions of small objects for a function; looking through them again and again
-        takes a tenth of the time.
-        """
-
-        depth, collecting = 0, True
-
-        def on_start(self, _: Any) -> None:
-            while _CALLBACKS:
-                _CALLBACKS.pop()()
-            if not self.depth:
-                self.collecting = gc.isenabled()
-                gc.disable()
-            self.depth += 1
-
-        def on_end(self, _: Any) -> None:
-            self.depth -= 1
-            if not self.depth and self.collecting:
-                gc.enable()
-
-    event.register("numba:compile", Listener())

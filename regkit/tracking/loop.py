@@ -18,7 +18,7 @@ from regkit.interfaces import (
 )
 from regkit.observation import Frame, Observation
 from regkit.skeleton import Pose
-from regkit.system.compiled import loaded_loops
+from regkit.system.compilations import loaded_loops
 from regkit.system.errors import NoDataError, RegkitError
 from regkit.tracking.segmented import segmented
 

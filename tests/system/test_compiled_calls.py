@@ -121,3 +121,17 @@ def test_subclass_that_overrides_the_readable_form_alone_runs_it():
     assert Plan.of(body, primitives, Changed(), ()) is None
     assert Plan.of(body, primitives, Renamed(), ()) is not None
     assert Kernel.compiled(Changed(), primitives) is None
+
+
+def test_machine_code_is_not_that_of_another_callee():
+    # Numba itself looks at the file of a function alone, and not at those of its callees.
+    def defined(text):
+        names = {"compiled": compiled, "np": np, "Vector": Vector}
+        exec(text, names)
+        return names["outer"]
+
+    outer = "@compiled\ndef outer(x: float) -> float:\n    return inner(x)\n"
+    inner = "@compiled\ndef inner(x: float) -> float:\n    return {} * x\n"
+    one, same, other = (defined(inner.format(n) + outer) for n in ("x", "x", "x * x"))
+    assert one.digest == same.digest
+    assert one.digest != other.digest
