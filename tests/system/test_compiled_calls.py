@@ -126,7 +126,7 @@ def test_subclass_that_overrides_the_readable_form_alone_runs_it():
 def test_machine_code_is_not_that_of_another_callee():
     # Numba itself looks at the file of a function alone, and not at those of its callees.
     def defined(text):
-        names = {"compiled": compiled, "np": np, "Vector": Vector}
+        names = {"compiled": compiled, "__name__": "odd"}
         exec(text, names)
         return names["outer"]
 
