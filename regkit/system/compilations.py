@@ -7,6 +7,7 @@ import importlib
 from collections.abc import Callable
 from typing import Any
 
+from regkit.system.compile_ahead import compile_ahead
 from regkit.system.optional import load_library
 
 DISPATCHERS: list[Any] = []
@@ -48,6 +49,7 @@ def listen() -> None:
         def on_start(self, _: Any) -> None:
             while _CALLBACKS:
                 _CALLBACKS.pop()()
+            compile_ahead()
             if not self.depth:
                 self.collecting = gc.isenabled()
                 gc.disable()

@@ -10,6 +10,7 @@ from typing import Any, Generic, ParamSpec, TypeVar, cast, overload
 
 from regkit.system.calls import Pointer, external
 from regkit.system.compilations import DISPATCHERS, listen
+from regkit.system.compile_ahead import MODULES
 from regkit.system.errors import PluginError
 from regkit.system.machine_types import machine_signature
 from regkit.system.optional import load_library
@@ -33,6 +34,7 @@ class Compiled(Generic[P, R]):
     def __init__(self, function: Callable[P, R], *, reordered: bool, python: bool) -> None:
         self.function = function
         self._reordered, self._python = reordered, python
+        MODULES[function.__module__] = None
         update_wrapper(self, function)
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
