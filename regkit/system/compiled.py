@@ -80,6 +80,7 @@ class Compiled(Generic[P, R]):
         own = self.function
         parts = [own.__module__, own.__qualname__, own.__code__.co_code.hex()]
         parts += [repr(self.signature), str(self._reordered), str(self._python)]
+        parts += [repr(each) for each in own.__code__.co_consts if isinstance(each, int | float)]
         for name in own.__code__.co_names:
             value = cast(Any, own).__globals__.get(name)
             if isinstance(value, Compiled):
