@@ -1,4 +1,4 @@
-"""Compiled parts: what a kernel, a term or a solver may offer beside its readable form.
+"""Compiled parts: what a kernel or a term may offer beside its readable form.
 
 A method runs compiled as a whole if all its parts offer a compiled function, and reads as before if
 one does not. The functions below are prototypes: a part's function has the same annotations, and
@@ -130,7 +130,7 @@ class CompiledEnergy:
         table: Rows of numbers that it needs, (R, C).
         bind: Compiled ``bind``, if it has a state.
         state: Shape of the state.
-        explain: Compiled ``explain``, of a kernel.
+        explain: Compiled ``explain``, of a kernel that knows inlier probabilities.
     """
 
     respond: Compiled[Any, float]

@@ -85,6 +85,12 @@ class Plan:
             state_rows=_ends([rows for rows, _ in self._shapes]),
         )
 
+    @property
+    def explains(self) -> bool:
+        """Whether the kernel knows inlier probabilities."""
+        kernel = self.parts[0]
+        return isinstance(kernel, CompiledEnergy) and kernel.explain is not None
+
     def states(self) -> Array:
         """Returns room for the states of all parts, (R, C)."""
         rows, columns = zip(*self._shapes, strict=True)

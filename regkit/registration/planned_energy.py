@@ -95,6 +95,8 @@ class PlannedEnergy(FrameEnergy):
 
     def inlier_probability(self, pose: Pose) -> Array:
         """Returns the inlier probability of each point in a pose, (N,); NaN if it is unknown."""
+        if not self.plan.explains:
+            return np.array([np.nan])
         skeleton = self.plan.body.skeleton.arrays
         probability = np.empty(len(self.scene.data.points))
         explained(self.plan.arrays, skeleton, self.scene, _arrays(pose), self.states, probability)

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from regkit.interfaces import Kernel
-from regkit.registration import Plan
+from regkit.observation import Observation
+from regkit.registration import Plan, PlannedEnergy
 from regkit.system.arrays import Array
 from regkit.system.calls import Pointer
 from regkit.system.compiled import compiled
@@ -106,6 +107,20 @@ def test_part_with_other_annotations_is_refused_by_name():
     assert plan is not None
     with pytest.raises(PluginError, match=r"total must have the annotations of .*respond"):
         _ = plan.arrays
+
+
+def test_kernel_without_inlier_probabilities_has_unknown_ones():
+    class Silent(Likelihood):
+        def compiled(self, primitives):
+            return replace(super().compiled(primitives), explain=None)
+
+    body = Hand(length=0.19).body(0.19)
+    plan = Plan.of(body, GeneralizedSumOfGaussians().bind(body), Silent(), ())
+    points = np.random.default_rng(0).normal(size=(50, 3)) + np.array([0.0, 0.0, 2.0])
+    data = Observation(points, np.ones(50), np.full(50, 1e-4))
+    pose = body.skeleton.rest()
+    energy, _ = PlannedEnergy.of(plan, data, [pose], pose)
+    assert np.isnan(energy.inlier_probability(pose)).all()
 
 
 def test_subclass_that_overrides_the_readable_form_alone_runs_it():
