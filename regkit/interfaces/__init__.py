@@ -28,6 +28,7 @@ from regkit.interfaces.solver import (
     Solution,
     Solver,
 )
+from regkit.interfaces.source import Source, Stream, TimedFrame
 from regkit.interfaces.start import Start, StartSearch
 from regkit.interfaces.template import Template
 from regkit.interfaces.term import JointEnergy, JointResponse, Scene, Term, VisibilityWeights
@@ -85,10 +86,13 @@ __all__ = [
     "Similarity",
     "Solution",
     "Solver",
+    "Source",
     "Start",
     "StartSearch",
+    "Stream",
     "Template",
     "Term",
+    "TimedFrame",
     "Tracker",
     "VisibilityWeights",
     "Window",

@@ -40,6 +40,10 @@ class NoDataError(DataError):
     """A frame has no measurement of the object; tracking bridges such frames."""
 
 
+class SourceLostError(RegkitError):
+    """A camera or recording yields no further frame although it has not ended."""
+
+
 class NotFoundError(RegkitError):
     """The input is valid, but the body is not in it, or was not found."""
 
