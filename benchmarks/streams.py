@@ -126,7 +126,7 @@ def tracked(name: str) -> dict[str, float]:
         registrar = Stub(registrar)
         tracker = Tracker.parse("constant_pose", place=name, field="tracker")
     assert tracker is not None
-    recorder = TrackRecorder(session, registrar)
+    recorder = TrackRecorder(registrar, session.recording.fps, session.observation)
     ends = np.zeros(recording.length + 1)
     before = megabytes()
     with one_thread():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -19,19 +19,19 @@ Reference = Truth | Mapping[str, ArrayLike] | ArrayLike
 markers; NaN for unseen joints."""
 
 
-def truth_of(reference: Reference, body: Body, indices: range) -> Truth:
+def truth_of(reference: Reference, body: Body, numbers: Sequence[int]) -> Truth:
     """Returns reference joints as a ``Truth``.
 
     Args:
         reference: The argument of the program.
         body: The body whose markers are compared with the joints.
-        indices: Frame numbers (T) in the recording of a ``Truth``.
+        numbers: Frame numbers (T) in the recording of a ``Truth``.
 
     Raises:
         ConfigError: If no joint has the name of a marker.
         DataError: If an array has the wrong shape, or frames are missing.
     """
-    markers, frames = body.markers.names, len(indices)
+    markers, frames = body.markers.names, len(numbers)
     if not isinstance(reference, (Truth, Mapping)):
         values = _checked(reference, (frames, len(markers), 3), "truth")
         return Truth(markers, values)
@@ -43,10 +43,10 @@ def truth_of(reference: Reference, body: Body, indices: range) -> Truth:
             place="truth",
         )
     if isinstance(reference, Truth):
-        known, needed = len(reference.positions), max(indices) + 1
+        known, needed = len(reference.positions), max(numbers) + 1
         if known < needed:
             raise DataError(f"it has {known} frames, but {needed} were tracked", place="truth")
-        return replace(reference, positions=reference.positions[list(indices)])
+        return replace(reference, positions=reference.positions[list(numbers)])
     columns = [_checked(at, (frames, 3), f"truth['{name}']") for name, at in reference.items()]
     return Truth(names, np.stack(columns, axis=1))
 

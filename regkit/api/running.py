@@ -82,7 +82,7 @@ def tracked_through(
     with one_thread():
         begin = _begin(session)
         registrar = chosen.bind(begin.body)
-        recorder = TrackRecorder(session, registrar)
+        recorder = TrackRecorder(registrar, recording.fps, session.observation)
         steps = session.tracked(registrar, follows, begin.pose)
         failed = _record(recorder, _shown(steps, recording.length))
     tracking = Tracking(

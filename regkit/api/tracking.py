@@ -54,8 +54,8 @@ class Tracking(Summary):
         start: The pose and size in the first frame, with their verdict.
         registrar: The registrar of the frames.
         recorder: Frames recorded during tracking.
-        indices: Frame numbers in the recording.
-        track: The frames as arrays: root (T, 4, 4) [m], balls (T, n_ball, 4), hinges (T, n_hinge)
+        indices: Positions of the frames among those that were recorded.
+        track: The frames as arrays: numbers (T,), times (T,) [s], root (T, 4, 4) [m], balls (T, n_ball, 4), hinges (T, n_hinge)
             [rad], markers, seconds and more.
     """
 
@@ -89,6 +89,11 @@ class Tracking(Summary):
         return self.track.markers
 
     @property
+    def numbers(self) -> tuple[int, ...]:
+        """Numbers of the frames in the recording, (T,); a camera's dropped frames are missing."""
+        return tuple(map(int, self.track.numbers))
+
+    @property
     def poses(self) -> tuple[Pose, ...]:
         """The pose in each frame."""
         return tuple(map(self.track.pose, range(len(self))))
@@ -101,7 +106,7 @@ class Tracking(Summary):
     @cached_property
     def judged(self) -> TrackVerdict:
         """Whether the body was found in these frames, and the reason if not."""
-        return TrackVerdict.of(self.track, self.indices, self.start)
+        return TrackVerdict.of(self.track, self.start)
 
     @property
     def verdict(self) -> Verdict:
@@ -140,7 +145,7 @@ class Tracking(Summary):
         Raises:
             RegkitError: If they do not match the frames or the markers, or none is visible.
         """
-        known = truth_of(truth, self.body, self.indices)
+        known = truth_of(truth, self.body, self.numbers)
         distances = joint_errors(self.track, self.body, known, {}).raw
         if not np.isfinite(distances).any():
             raise DataError("no joint is visible in any frame", place="truth")
@@ -156,7 +161,7 @@ class Tracking(Summary):
         from regkit.report.record import Record
         from regkit.report.style import PALETTE
 
-        known = None if truth is None else truth_of(truth, self.body, self.indices)
+        known = None if truth is None else truth_of(truth, self.body, self.numbers)
         errors = self._errors(truth)
         record = Record.of(self.track, self.snapshot, self.registrar, errors, known, self.fps)
         return overlay(f"{self.method} on {self.name}", record, PALETTE[0])
@@ -175,7 +180,7 @@ class Tracking(Summary):
     def _errors(self, truth: Reference | None) -> JointErrors | None:
         if truth is None:
             return None
-        return joint_errors(self.track, self.body, truth_of(truth, self.body, self.indices), {})
+        return joint_errors(self.track, self.body, truth_of(truth, self.body, self.numbers), {})
 
     def __len__(self) -> int:
         """Number of frames."""
@@ -195,7 +200,7 @@ class Tracking(Summary):
         """
         if not isinstance(index, slice):
             at = range(len(self))[index]
-            return Registration(self._part(slice(at, at + 1), str(self.indices[at])))
+            return Registration(self._part(slice(at, at + 1), str(self.numbers[at])))
         start, stop, step = index.indices(len(self))
         if not len(range(start, stop, step)):
             raise IndexError(f"no frame of {len(self)} is in [{start}:{stop}:{step}]")

@@ -42,28 +42,37 @@ class Verdict(StrEnum):
     NO_DATA = "no data"
 
 
-def frame_verdicts(
-    points: Array, inlier_shares: Array, coverages: Array, misfits: Array, reliefs: Array
-) -> tuple[Verdict, ...]:
-    """Returns the verdict of each of T frames.
+def frame_verdict(
+    points: float, inlier_share: float, coverage: float, misfit: float, relief: float
+) -> Verdict:
+    """Returns the verdict of a frame.
 
     The body is found where the data lie on its surface and where it has data: either alone accepts
     a body of the wrong size, or in the wrong place. Flat data are no body. Unknown numbers, those
     of a body without a surface, raise no doubt.
 
     Args:
-        points: Number of points of each frame, (T,).
-        inlier_shares: Fraction of the points that lie on the body's surface, (T,).
-        coverages: Fraction of the visible body that has data nearby, (T,).
-        misfits: Mean distance of both sides, in limb radii, (T,).
-        reliefs: Deviation of the points along their thinnest direction, in limb radii, (T,).
+        points: Number of points of the frame.
+        inlier_share: Fraction of the points that lie on the body's surface.
+        coverage: Fraction of the visible body that has data nearby.
+        misfit: Mean distance of both sides, in limb radii.
+        relief: Deviation of the points along their thinnest direction, in limb radii.
     """
-    lost = (inlier_shares < LOST_SHARE) | (coverages < LOST_SHARE) | (reliefs < FLAT)
-    doubtful = (inlier_shares < SURE_INLIERS) | (coverages < SURE_COVERAGE)
-    doubtful |= misfits > SURE_MISFIT
-    choices = [Verdict.NO_DATA, Verdict.LOST, Verdict.DOUBTFUL]
-    chosen = np.select([points == 0, lost, doubtful], [0, 1, 2], 3)
-    return tuple([*choices, Verdict.FOUND][choice] for choice in chosen)
+    if points == 0:
+        return Verdict.NO_DATA
+    if inlier_share < LOST_SHARE or coverage < LOST_SHARE or relief < FLAT:
+        return Verdict.LOST
+    if inlier_share < SURE_INLIERS or coverage < SURE_COVERAGE or misfit > SURE_MISFIT:
+        return Verdict.DOUBTFUL
+    return Verdict.FOUND
+
+
+def frame_verdicts(
+    points: Array, inlier_shares: Array, coverages: Array, misfits: Array, reliefs: Array
+) -> tuple[Verdict, ...]:
+    """Returns the verdict of each of T frames, from arrays (T,) of what ``frame_verdict`` takes."""
+    columns = (points, inlier_shares, coverages, misfits, reliefs)
+    return tuple(map(frame_verdict, *(column.tolist() for column in columns)))
 
 
 def check_verdicts(stored: NDArray[Any], frames: int) -> None:

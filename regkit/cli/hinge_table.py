@@ -13,6 +13,6 @@ def hinge_table(tracking: Tracking) -> str:
         ("frame", *(f"{name}_rad" for name in names)),
         (
             (frame, *(f"{angle:.6f}" for angle in angles))
-            for frame, angles in zip(tracking.indices, tracking.track.hinges, strict=True)
+            for frame, angles in zip(tracking.numbers, tracking.track.hinges, strict=True)
         ),
     )

@@ -124,7 +124,7 @@ def _markers(tracking: Tracking) -> str:
         ("frame", "joint", "x", "y", "z"),
         [
             (frame, name, *(f"{value:.6f}" for value in position))
-            for frame, markers in zip(tracking.indices, tracking.markers, strict=True)
+            for frame, markers in zip(tracking.numbers, tracking.markers, strict=True)
             for name, position in zip(tracking.joint_names, markers, strict=True)
         ],
     )
@@ -142,9 +142,9 @@ def _frames(tracking: Tracking) -> str:
         ("frame", "time_s", "verdict", "points", "inlier_share", "coverage", "misfit", "relief",
          "surface_distance_m", "converged", "seconds"),
         [
-            (frame, f"{frame / tracking.fps:.6f}", track.verdicts[at], int(track.points[at]),
+            (frame, f"{track.times[at]:.6f}", track.verdicts[at], int(track.points[at]),
              *shares[at], int(track.converged[at]), f"{track.seconds[at]:.6f}")
-            for at, frame in enumerate(tracking.indices)
+            for at, frame in enumerate(tracking.numbers)
         ],
     )  # fmt: skip
 

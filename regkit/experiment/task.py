@@ -107,7 +107,7 @@ class Task:
         start = kept_start(session, self.folder, inputs.digest)
         method = self.experiment.methods[name]
         registrar = method.bind(start.body)
-        recorder = TrackRecorder(session, registrar)
+        recorder = TrackRecorder(registrar, session.recording.fps, session.observation)
         tracker = method.tracker or self.experiment.tracker
         for frame in session.tracked(registrar, tracker, start.pose):
             recorder.add(frame)

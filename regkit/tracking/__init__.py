@@ -2,13 +2,14 @@
 
 from regkit.body.verdict import Verdict, check_verdicts
 from regkit.tracking.extent import check_unit
-from regkit.tracking.loop import TrackedFrame, tracked
+from regkit.tracking.loop import Follower, TrackedFrame, tracked
 from regkit.tracking.recorder import Snapshot, TrackRecorder
 from regkit.tracking.session import Session
 from regkit.tracking.track import Track
 from regkit.tracking.track_verdict import TrackVerdict
 
 __all__ = [
+    "Follower",
     "Session",
     "Snapshot",
     "Track",

@@ -41,56 +41,80 @@ class TrackedFrame:
     preprocessing: float
 
 
-def tracked(
-    recording: Recording,
-    segmenter: BoundSegmenter,
-    preprocessor: Preprocessor,
-    registrar: Registrar,
-    tracker: Tracker,
-    start: Pose,
-) -> Iterator[TrackedFrame]:
-    """Yields the frames of a recording, tracked one by one from a start pose.
-
-    A frame without data keeps the last pose, and tracking goes on from it.
+class Follower:
+    """Tracks a body from frame to frame, with the past that the next frame needs.
 
     Args:
-        recording: The recording.
         segmenter: Segmenter bound to the recording.
         preprocessor: Preprocessor of the frames.
         registrar: Method bound to the body.
         tracker: Tracker that predicts the next pose.
         start: Pose of the body in the first frame.
+    """
+
+    def __init__(
+        self,
+        segmenter: BoundSegmenter,
+        preprocessor: Preprocessor,
+        registrar: Registrar,
+        tracker: Tracker,
+        start: Pose,
+    ) -> None:
+        self._segmenter = segmenter
+        self._preprocessor = preprocessor
+        self._registrar = registrar
+        self._tracker = tracker.bind(registrar)
+        self._past = Past.start(start)
+
+    def follow(self, frame: Frame) -> TrackedFrame:
+        """Returns the next frame, tracked; one without data keeps the last pose.
+
+        Raises:
+            RegkitError: If the frame cannot be registered; the past remains as it was.
+        """
+        loops = loaded_loops()
+        found = self._step(frame)
+        if loaded_loops() != loops:
+            # Loops were compiled or loaded meanwhile. Repeating the step gives the same result and
+            # its true time.
+            found = self._step(frame)
+        if found.observation is None:
+            self._past = self._past.interrupted()
+        else:
+            self._past = self._past.followed_by(found.registered)
+        return found
+
+    def skip(self, reason: str) -> TrackedFrame:
+        """Returns a frame that cannot be read, which keeps the last pose.
+
+        Args:
+            reason: Why it cannot be read.
+        """
+        self._past = self._past.interrupted()
+        return TrackedFrame(None, self._past.last.without_data(reason), 0.0, 0.0)
+
+    def _step(self, frame: Frame) -> TrackedFrame:
+        begun = time.perf_counter()
+        try:
+            expected = Expected.of(self._registrar.body, self._past)
+            observation = self._preprocessor.preprocess(segmented(self._segmenter, frame, expected))
+        except NoDataError as error:
+            seconds = time.perf_counter() - begun
+            return TrackedFrame(None, self._past.last.without_data(error.message), seconds, seconds)
+        preprocessing = time.perf_counter() - begun
+        registered = self._tracker.step(observation, self._past)
+        return TrackedFrame(observation, registered, time.perf_counter() - begun, preprocessing)
+
+
+def tracked(recording: Recording, follower: Follower) -> Iterator[TrackedFrame]:
+    """Yields the frames of a recording, tracked one by one.
 
     Raises:
         RegkitError: If a frame cannot be read or registered; the error names it.
     """
-    past = Past.start(start)
-    bound = tracker.bind(registrar)
-
-    def step(frame: Frame) -> TrackedFrame:
-        begun = time.perf_counter()
-        try:
-            left = segmented(segmenter, frame, Expected.of(registrar.body, past))
-            observation = preprocessor.preprocess(left)
-        except NoDataError as error:
-            seconds = time.perf_counter() - begun
-            return TrackedFrame(None, past.last.without_data(error.message), seconds, seconds)
-        preprocessing = time.perf_counter() - begun
-        registered = bound.step(observation, past)
-        return TrackedFrame(observation, registered, time.perf_counter() - begun, preprocessing)
-
     for index, frame in enumerate(recording.frames()):
         try:
-            loops = loaded_loops()
-            found = step(frame)
-            if loaded_loops() != loops:
-                # Loops were compiled or loaded meanwhile. Repeating the step gives the same result
-                # and its true time.
-                found = step(frame)
+            found = follower.follow(frame)
         except RegkitError as error:
             raise error.at(frame.place or f"{recording.name}: frame {index}") from None
-        if found.observation is None:
-            past = past.interrupted()
-        else:
-            past = past.followed_by(found.registered)
         yield found

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from array import array
-from dataclasses import dataclass, fields
+from collections.abc import Callable
+from dataclasses import dataclass
 from sys import intern
 
 import numpy as np
 
 from regkit.body import BodyFit
 from regkit.interfaces import Expected, Registrar
-from regkit.skeleton import Pose
+from regkit.body.verdict import Verdict, frame_verdict
+from regkit.observation import Observation
+from regkit.skeleton import Placement, Pose
 from regkit.system.arrays import Array
 from regkit.system.brief import Brief
+from regkit.system.errors import DataError
 from regkit.tracking.loop import TrackedFrame
-from regkit.tracking.session import Session
+from regkit.tracking.rows import Rows, RowsInMemory
 from regkit.tracking.track import Track
 
 
@@ -23,7 +26,7 @@ class Snapshot(Brief):
     """A frame for pictures.
 
     Attributes:
-        frame: Index of the frame in the recording.
+        frame: Index of the frame among the recorded ones.
         points: The frame's data, (N, 3) [m].
         pose: The registered pose.
     """
@@ -33,22 +36,53 @@ class Snapshot(Brief):
     pose: Pose
 
 
+@dataclass(frozen=True)
+class RecordedFrame(Brief):
+    """What is recorded of a frame besides its pose.
+
+    Attributes:
+        number: Number of the frame in the recording.
+        time: Its time [s].
+        placement: T_camera_segment of all segments.
+        markers: The markers in the camera's frame, (M, 3) [m].
+        fit: Agreement of the body with the data.
+        verdict: Whether the body was found.
+    """
+
+    number: int
+    time: float
+    placement: Placement
+    markers: Array
+    fit: BodyFit
+    verdict: Verdict
+
+
 class TrackRecorder:
-    """Records the tracked frames of a session one by one.
+    """Records tracked frames one by one.
 
     It stores the values of a ``Track`` for every frame, and the points of only three frames with
     data: the first, the last, and the one whose points are farthest from the surface. Other frames
     are read again on request.
 
     Args:
-        session: The session.
-        registrar: Method bound to the session's body.
+        registrar: Method bound to the body.
+        fps: Frame rate of the recording [1/s], from which times follow that are not given.
+        read: Returns the data of a frame by its number and what is known of the body before it;
+            None if the frames cannot be read again.
+        rows: Where the values are kept, in the layout of the body; in memory by default.
     """
 
-    def __init__(self, session: Session, registrar: Registrar) -> None:
-        self._session = session
+    def __init__(
+        self,
+        registrar: Registrar,
+        fps: float,
+        read: Callable[[int, Expected], Observation] | None = None,
+        rows: Rows | None = None,
+    ) -> None:
         self.registrar = registrar
-        self._values = {field.name: array("d") for field in fields(Track)}
+        self._fps = fps
+        self._read = read
+        self._rows = RowsInMemory(Track.layout(registrar.body)) if rows is None else rows
         self._messages: list[str] = []
         self._snapshots: dict[str, Snapshot] = {}
         self._worst = -np.inf
@@ -57,35 +91,55 @@ class TrackRecorder:
         """Number of recorded frames."""
         return len(self._messages)
 
-    def add(self, frame: TrackedFrame) -> None:
-        """Records the next frame."""
+    def add(
+        self, frame: TrackedFrame, number: int | None = None, time: float | None = None
+    ) -> RecordedFrame:
+        """Records the next frame, and returns what is recorded of it.
+
+        Args:
+            frame: The frame.
+            number: Its number in the recording; by default the number of frames before it.
+            time: Its time [s]; by default that of its number at the recording's rate.
+
+        Raises:
+            DataError: If the file of the values cannot be written.
+        """
         body, found = self.registrar.body, frame.registered
+        number = len(self) if number is None else number
+        time = number / self._fps if time is None else time
         points, fit = None, BodyFit.unknown()
         if frame.observation is not None:
             points = frame.observation.points
             fit = BodyFit.of(body, found.pose, points, frame.observation.silhouette)
-        values = {
-            "root": found.pose.root,
-            "balls": found.pose.balls,
-            "hinges": found.pose.hinges,
-            "markers": body.markers.place(body.place(found.pose).transforms),
-            "surface_distances": fit.distance,
-            "inlier_shares": fit.inlier_share,
-            "coverages": fit.coverage,
-            "misfits": fit.misfit,
-            "reliefs": fit.relief,
-            "points": 0 if points is None else len(points),
-            "energies": found.energy,
-            "evaluations": found.evaluations,
-            "converged": found.converged,
-            "seconds": frame.seconds,
-            "preprocessing": frame.preprocessing,
-        }
-        for name, value in values.items():
-            self._values[name].frombytes(np.asarray(value, dtype=np.float64).tobytes())
+        placement = body.place(found.pose)
+        markers = body.markers.place(placement.transforms)
+        count = 0 if points is None else len(points)
+        self._rows.append(
+            {
+                "numbers": number,
+                "times": time,
+                "root": found.pose.root,
+                "balls": found.pose.balls,
+                "hinges": found.pose.hinges,
+                "markers": markers,
+                "surface_distances": fit.distance,
+                "inlier_shares": fit.inlier_share,
+                "coverages": fit.coverage,
+                "misfits": fit.misfit,
+                "reliefs": fit.relief,
+                "points": count,
+                "energies": found.energy,
+                "evaluations": found.evaluations,
+                "converged": found.converged,
+                "seconds": frame.seconds,
+                "preprocessing": frame.preprocessing,
+            }
+        )
         if points is not None:
             self._keep(Snapshot(len(self), points, found.pose), fit.distance)
         self._messages.append(intern(found.message))
+        verdict = frame_verdict(count, fit.inlier_share, fit.coverage, fit.misfit, fit.relief)
+        return RecordedFrame(number, time, placement, markers, fit, verdict)
 
     def _keep(self, snapshot: Snapshot, distance: float) -> None:
         self._snapshots.setdefault("first", snapshot)
@@ -96,19 +150,7 @@ class TrackRecorder:
 
     def track(self) -> Track:
         """Returns all recorded frames as arrays."""
-        rest, markers = self.registrar.body.skeleton.rest(), self.registrar.body.markers
-        shapes = {
-            "root": rest.root.shape,
-            "balls": rest.balls.shape,
-            "hinges": rest.hinges.shape,
-            "markers": (len(markers.names), 3),
-        }
-        return Track(
-            **{
-                name: np.array(values).reshape(len(self), *shapes.get(name, ()))
-                for name, values in self._values.items()
-            }
-        )
+        return Track(**self._rows.arrays())
 
     def message(self, index: int) -> str:
         """Returns the reason why the registration of a frame ended."""
@@ -124,7 +166,9 @@ class TrackRecorder:
             if kept.frame == index:
                 return kept
         track, body = self.track(), self.registrar.body
+        number = int(track.numbers[index])
+        if self._read is None:
+            raise DataError("the points of this frame were not kept", place=f"frame {number}")
         # A segmenter follows the body, from the start on.
         expected = Expected(body, track.pose(max(index - 1, 0)))
-        points = self._session.observation(index, expected).points
-        return Snapshot(index, points, track.pose(index))
+        return Snapshot(index, self._read(number, expected).points, track.pose(index))

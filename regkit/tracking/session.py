@@ -27,7 +27,7 @@ from regkit.skeleton import Pose
 from regkit.system.errors import ConfigError, NoBodyError, NoDataError, RegkitError
 from regkit.system.notes import note
 from regkit.tracking.extent import check_extent, check_unit, tell_bound
-from regkit.tracking.loop import TrackedFrame, tracked
+from regkit.tracking.loop import Follower, TrackedFrame, tracked
 from regkit.tracking.segmented import segmented
 
 
@@ -104,6 +104,16 @@ class Session:
             note(f"{start.summary}: {start.reason}", place=self.recording.name)
         return start
 
+    def follower(self, registrar: Registrar, tracker: Tracker, pose: Pose) -> Follower:
+        """Returns what tracks the body from a pose, frame by frame.
+
+        Args:
+            registrar: Method bound to the body.
+            tracker: Tracker that predicts the next pose.
+            pose: Pose of the body in the first frame.
+        """
+        return Follower(self.segmenter, self.observes, registrar, tracker, pose)
+
     def tracked(self, registrar: Registrar, tracker: Tracker, pose: Pose) -> Iterator[TrackedFrame]:
         """Yields the recording's frames, tracked one by one from a pose.
 
@@ -115,7 +125,7 @@ class Session:
         Raises:
             RegkitError: If a frame cannot be read or registered; the error names it.
         """
-        return tracked(self.recording, self.segmenter, self.observes, registrar, tracker, pose)
+        return tracked(self.recording, self.follower(registrar, tracker, pose))
 
     def observation(self, index: int, expected: Expected | None = None) -> Observation:
         """Returns the data of a frame.

@@ -21,6 +21,9 @@ class Track(Brief):
     """A tracked recording as arrays over its T frames.
 
     Attributes:
+        numbers: Numbers of the frames in the recording, (T,); a camera's dropped frames are
+            missing.
+        times: Times of the frames [s], (T,), on the recording's clock.
         root: T_camera_root, (T, 4, 4) [m].
         balls: Unit quaternions of the ball joints, (T, n_ball, 4).
         hinges: Hinge angles, (T, n_hinge) [rad].
@@ -41,6 +44,8 @@ class Track(Brief):
         preprocessing: Time to preprocess, (T,) [s].
     """
 
+    numbers: Array
+    times: Array
     root: Array
     balls: Array
     hinges: Array
@@ -56,6 +61,18 @@ class Track(Brief):
     converged: Array
     seconds: Array
     preprocessing: Array
+
+    @staticmethod
+    def layout(body: Body) -> dict[str, tuple[int, ...]]:
+        """Returns the shapes of a frame's values, for the track of a body."""
+        rest = body.skeleton.rest()
+        shapes: dict[str, tuple[int, ...]] = {
+            "root": rest.root.shape,
+            "balls": rest.balls.shape,
+            "hinges": rest.hinges.shape,
+            "markers": (len(body.markers.names), 3),
+        }
+        return {field.name: shapes.get(field.name, ()) for field in fields(Track)}
 
     def pose(self, index: int) -> Pose:
         """Returns the pose of a frame."""

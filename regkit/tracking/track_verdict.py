@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -40,9 +39,7 @@ class TrackVerdict:
     reason: str = ""
 
     @classmethod
-    def of(
-        cls, track: Track, numbers: Sequence[int] | None = None, start: Start | None = None
-    ) -> TrackVerdict:
+    def of(cls, track: Track, start: Start | None = None) -> TrackVerdict:
         """Returns the verdict of a track.
 
         The body is lost if it is lost in the last frame with data, or in most of them. The track is
@@ -51,11 +48,10 @@ class TrackVerdict:
 
         Args:
             track: The track.
-            numbers: Frame numbers for the reason, (T,); from 0 by default.
             start: The start. A track is doubtful or lost if its start is, however well its frames
                 fit: a body that is turned round, or furniture, fits nearly as well.
         """
-        judged = cls._of_frames(track, numbers or range(len(track)))
+        judged = cls._of_frames(track)
         if start is None or start.verdict is Verdict.FOUND:
             return judged
         lost = Verdict.LOST in (start.verdict, judged.verdict)
@@ -63,7 +59,7 @@ class TrackVerdict:
         return cls(Verdict.LOST if lost else Verdict.DOUBTFUL, "; ".join(reasons))
 
     @classmethod
-    def _of_frames(cls, track: Track, numbers: Sequence[int]) -> TrackVerdict:
+    def _of_frames(cls, track: Track) -> TrackVerdict:
         """Returns the verdict of the frames."""
         frames = Counter(track.verdicts)
         seen = [verdict for verdict in track.verdicts if verdict is not Verdict.NO_DATA]
@@ -78,10 +74,10 @@ class TrackVerdict:
         else:
             told = TOLD[Verdict.NO_DATA].format(_share_of(frames[Verdict.NO_DATA], track))
             return cls(Verdict.FOUND, told if missing else "")
-        return cls(verdict, _reason(track, numbers))
+        return cls(verdict, _reason(track))
 
 
-def _reason(track: Track, numbers: Sequence[int]) -> str:
+def _reason(track: Track) -> str:
     """Returns how many frames have which verdict, and the worst shares of one."""
     frames, parts = Counter(track.verdicts), []
     if len(track) > 1:
@@ -94,13 +90,13 @@ def _reason(track: Track, numbers: Sequence[int]) -> str:
         )
     flat = np.flatnonzero(track.reliefs < FLAT)
     if len(flat):
-        where = f"in frame {numbers[flat[0]]} " if len(track) > 1 else ""
+        where = f"in frame {track.numbers[flat[0]]:.0f} " if len(track) > 1 else ""
         parts.append(f"{where}the data are as flat as a wall")
     shares = np.fmin(track.inlier_shares, track.coverages)
     if frames[Verdict.LOST] or frames[Verdict.DOUBTFUL]:
         # Where the shares are high, the distance of both sides decides.
         worst = int(np.nanargmax(1.0 - shares + np.nan_to_num(track.misfits)))
-        where = f"in frame {numbers[worst]} " if len(track) > 1 else ""
+        where = f"in frame {track.numbers[worst]:.0f} " if len(track) > 1 else ""
         told = [f"{100.0 * track.inlier_shares[worst]:.0f} % of the points lie on the body"]
         if np.isfinite(track.coverages[worst]):
             told.append(f"{100.0 * track.coverages[worst]:.0f} % of the visible body has data")

@@ -28,6 +28,8 @@ def measured(track: Track, body: Body, truth: Truth | None, joints: dict[str, st
 def track_of(body: Body, poses: list[Pose]) -> Track:
     placements = [body.place(pose) for pose in poses]
     return Track(
+        numbers=np.arange(float(len(poses))),
+        times=np.arange(len(poses)) / FPS,
         root=np.array([pose.root for pose in poses]),
         balls=np.array([pose.balls for pose in poses]),
         hinges=np.array([pose.hinges for pose in poses]),

@@ -17,7 +17,7 @@ from regkit.observation import Frame, Observation
 from regkit.skeleton import Pose
 from regkit.system.compiled import compiled
 from regkit.system.errors import ConfigError, DataError, NoDataError
-from regkit.tracking import Session, TrackRecorder, TrackVerdict, Verdict, tracked
+from regkit.tracking import Follower, Session, TrackRecorder, TrackVerdict, Verdict, tracked
 from regkit_plugins.preprocessors.points import PointsPreprocessor
 from regkit_plugins.templates.human import Human
 from regkit_plugins.trackers.constant_pose import ConstantPose
@@ -69,7 +69,7 @@ class Still(Registrar):
 
 
 def recorded(session: Session, registrar: Registrar) -> TrackRecorder:
-    recorder = TrackRecorder(session, registrar)
+    recorder = TrackRecorder(registrar, session.recording.fps, session.observation)
     for frame in session.tracked(registrar, ConstantPose(), pose()):
         recorder.add(frame)
     return recorder
@@ -191,7 +191,10 @@ def test_step_that_loads_loops_is_repeated_and_gives_the_same_track():
 
     registrar = Loading()
     frames = list(
-        tracked(made(*OFFSETS), Chain(), PointsPreprocessor(), registrar, ConstantPose(), pose())
+        tracked(
+            made(*OFFSETS),
+            Follower(Chain(), PointsPreprocessor(), registrar, ConstantPose(), pose()),
+        )
     )
     assert registrar.calls == len(OFFSETS) + 2
     assert len(frames) == len(OFFSETS)

@@ -23,6 +23,8 @@ def track_with(*verdicts: Verdict) -> Track:
     count = len(verdicts)
     nothing, shares = np.zeros(count), np.array([SHARES[one] for one in verdicts])
     return Track(
+        numbers=np.arange(float(count)),
+        times=np.arange(float(count)),
         root=np.tile(np.eye(4), (count, 1, 1)),
         balls=np.zeros((count, 0, 4)),
         hinges=np.zeros((count, 0)),
@@ -96,7 +98,8 @@ def test_wall_is_no_body():
 
 
 def test_reason_names_the_worst_frame_by_its_number():
-    assert "in frame 7 " in TrackVerdict.of(track_with(F, L, F), range(5, 11, 2)).reason
+    track = replace(track_with(F, L, F), numbers=np.array([5.0, 7.0, 9.0]))
+    assert "in frame 7 " in TrackVerdict.of(track).reason
 
 
 def surface_of(body, pose) -> np.ndarray:
