@@ -28,15 +28,18 @@ from regkit.interfaces.solver import (
     Solution,
     Solver,
 )
-from regkit.interfaces.source import Source, Stream, TimedFrame
+from regkit.interfaces.source import Source
 from regkit.interfaces.start import Start, StartSearch
+from regkit.interfaces.stream import Stream
 from regkit.interfaces.template import Template
 from regkit.interfaces.term import JointEnergy, JointResponse, Scene, Term, VisibilityWeights
 from regkit.interfaces.tracker import BodySearch, BoundTracker, Past, Tracker
 from regkit.interfaces.window import Window
+from regkit.observation import TimedFrame
 
 SLOTS = (
     Dataset,
+    Source,
     Template,
     Segmenter,
     Preprocessor,

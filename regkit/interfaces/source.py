@@ -3,73 +3,11 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
 from pathlib import Path
-from types import TracebackType
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar
 
 from regkit.config.plugin import Plugin
-from regkit.observation import Frame
-from regkit.system.brief import Brief
-
-
-@dataclass(frozen=True)
-class TimedFrame(Brief):
-    """A frame with the time of its measurement.
-
-    Attributes:
-        frame: The frame; its camera is a pinhole camera, and its depth is rectified.
-        time: Time of the measurement on the source's own clock [s].
-    """
-
-    frame: Frame
-    time: float
-
-
-class Stream(ABC):
-    """An open source; a context manager that closes it.
-
-    Attributes:
-        name: Name of the recording or camera, for messages and folders.
-        fps: Nominal frame rate [1/s].
-        length: Number of frames; None if it is unknown or there is no end.
-        live: Whether the frames are measured while they are read. A live stream cannot be opened
-            again at its beginning, and what is not read in time is lost.
-        depth_scale: Units of the original depth images per metre, such as 1000 for millimetres; a
-            recording with this scale keeps every depth exactly.
-    """
-
-    name: str
-    fps: float
-    length: int | None = None
-    live: bool = False
-    depth_scale: float = 1000.0
-
-    @abstractmethod
-    def read(self) -> TimedFrame | None:
-        """Returns the next frame, waiting for it if need be; None at the end.
-
-        Raises:
-            DataError: If this frame is damaged; the next call reads the frame after it.
-            SourceLostError: If the source yields no further frame although it has not ended, such
-                as an unplugged camera.
-        """
-
-    def close(self) -> None:
-        """Releases the file or device; calling it again does nothing."""
-
-    def __enter__(self) -> Self:
-        """Returns the stream."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
-        """Closes the stream."""
-        self.close()
+from regkit.interfaces.stream import Stream
 
 
 class Source(Plugin, ABC):
@@ -86,6 +24,39 @@ class Source(Plugin, ABC):
     """Begin of an address without its colon; empty for files and folders."""
     suffixes: ClassVar[tuple[str, ...]] = ()
     """Suffixes of the files that the plug-in reads, in lower case with their dot."""
+
+    @classmethod
+    def at(cls, address: str | Path, **fields: Any) -> Source:
+        """Returns the source of an address.
+
+        Args:
+            address: A camera, such as ``realsense:``, or the path of a file or folder.
+            fields: Values of the plug-in's fields; ``kind`` names the plug-in itself, where
+                several read the same files.
+
+        Raises:
+            RegkitError: If there is no such file, no plug-in reads it, or several do; or if a field
+                is invalid.
+        """
+        data = cls.described(address, fields.get("kind"))
+        return cls.parse({**data, **fields}, place=str(address), field="source")
+
+    @classmethod
+    def described(cls, address: str | Path, kind: str | None = None) -> dict[str, Any]:
+        """Returns the data of the source of an address: its kind, and the fields in the address.
+
+        Args:
+            address: A camera, such as ``realsense:``, or the path of a file or folder.
+            kind: Name of the plug-in; by default the one that the address names or that accepts
+                the file.
+
+        Raises:
+            RegkitError: If there is no such file, or no plug-in reads it, or several do.
+        """
+        # The search loads the plug-ins of this group, and so imports this module.
+        from regkit.interfaces.source_search import described
+
+        return described(str(address), kind)
 
     @classmethod
     def accepts(cls, path: Path) -> bool:

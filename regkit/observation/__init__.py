@@ -4,6 +4,7 @@ from regkit.geometry.camera import Camera
 from regkit.observation.frame import Frame
 from regkit.observation.observation import Observation
 from regkit.observation.silhouette import Silhouette
+from regkit.observation.timed_frame import TimedFrame
 from regkit.observation.truth import Truth
 
-__all__ = ["Camera", "Frame", "Observation", "Silhouette", "Truth"]
+__all__ = ["Camera", "Frame", "Observation", "Silhouette", "TimedFrame", "Truth"]

@@ -1,0 +1,21 @@
+"""The folder format of recordings, common to depth images and clouds, read and written.
+
+my_recording/
+sequence.yaml      name, fps, depth_scale, source, licence
+camera.json        intrinsics and lens distortion (depth images)
+depth/000000.png   or clouds/000000.ply; numbered without gaps
+times.csv          optional: frame,time_s
+truth.csv          optional: frame,joint,x,y,z [m] in the camera's frame
+
+- ``description``: ``sequence.yaml``.
+- ``folder``: the folder of one recording; ``search`` finds those below a root.
+- ``depth_folder``, ``cloud_folder``: its frames.
+- ``times``: ``times.csv``.
+"""
+
+from regkit.recording.cloud_folder import CloudFolder
+from regkit.recording.depth_folder import DepthFolder
+from regkit.recording.description import RecordingDescription
+from regkit.recording.folder import RecordingFolder
+
+__all__ = ["CloudFolder", "DepthFolder", "RecordingDescription", "RecordingFolder"]
