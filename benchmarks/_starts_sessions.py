@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from regkit.api.recordings import GivenFrames
 from regkit.config.document import Document
 from regkit.experiment import Experiment
 from regkit.interfaces import Start
 from regkit.observation import Frame
 from regkit.system.optional import one_thread
 from regkit.tracking import TrackedFrame
+from regkit.tracking.given_frames import GivenFrames
 
 
 def experiment(kind: str, template: Mapping[str, Any], dataset: Mapping[str, Any]) -> Experiment:

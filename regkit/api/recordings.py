@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from collections.abc import Sequence as Many
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -12,42 +11,11 @@ from numpy.typing import ArrayLike
 
 from regkit.api.frame import Intrinsics, Measured, frame_of, tell_missing
 from regkit.interfaces import Dataset, Recording
-from regkit.observation import Frame
 from regkit.system.errors import ConfigError, DataError
+from regkit.tracking.given_frames import GivenFrames
 
 Frames = Recording | Dataset | str | Path | Many[Measured] | ArrayLike
 """Depth images (T, H, W) [m], a list of images or clouds, a folder, a dataset or a recording."""
-
-
-@dataclass(frozen=True)
-class GivenFrames(Recording):
-    """A recording of frames in memory.
-
-    Attributes:
-        given: The frames.
-    """
-
-    given: tuple[Frame, ...]
-
-    def __post_init__(self) -> None:
-        """Raises DataError if no frame holds a point."""
-        if not any(len(frame.points) for frame in self.given):
-            raise DataError(
-                "there is no measurement: all depths or points are zero, NaN or infinite",
-                place=self.name,
-            )
-
-    def frames(self) -> Iterator[Frame]:
-        """Yields all frames."""
-        yield from self.given
-
-    def some(self, indices: Iterable[int]) -> Iterator[tuple[int, Frame]]:
-        """Yields the frames of ``indices`` with their numbers, in ascending order."""
-        for index in sorted(set(indices)):
-            yield index, self.given[index]
-
-    def truth(self) -> None:
-        """Returns None: arrays have no reference joints."""
 
 
 def load_recording(folder: str | Path, *, frames: int | None = None) -> Recording:

@@ -7,13 +7,15 @@ from pathlib import Path
 from regkit.api.choices import Choice, Choices
 from regkit.api.frame import Intrinsics, Measured, frame_of
 from regkit.api.frame_files import load_frame
-from regkit.api.recordings import Frames, GivenFrames, recording_of
+from regkit.api.pipeline import Beginning, Pipeline
+from regkit.api.recordings import Frames, recording_of
 from regkit.api.registration import Registration
-from regkit.api.running import Beginning, tracked_through
+from regkit.api.running import tracked_through
 from regkit.api.tracking import Tracking
 from regkit.interfaces import Method, Preprocessor, Segmenter, Template, Tracker
 from regkit.system.errors import ConfigError
 from regkit.system.renamed import renamed_arguments
+from regkit.tracking.given_frames import GivenFrames
 
 OneFrame = Measured | str | Path
 """A depth image (H, W) [m], a cloud (N, 3) [m], a frame, or a file of one."""
@@ -64,7 +66,7 @@ def register(
     frame = frame_of(cloud, camera, place="cloud")
     recording = GivenFrames(name=frame.place or "cloud", fps=1.0, length=1, given=(frame,))
     chosen = (template, method, segmentation, preprocessor, None, start)
-    return tracked_through(recording, *chosen, "regkit.register")[0]
+    return tracked_through(recording, Pipeline.of(*chosen, place="regkit.register"))[0]
 
 
 @renamed_arguments(observer="preprocessor")
@@ -105,4 +107,4 @@ def track(
     """
     recording = recording_of(frames, camera, fps)
     chosen = (template, method, segmentation, preprocessor, tracker, start)
-    return tracked_through(recording, *chosen, "regkit.track")
+    return tracked_through(recording, Pipeline.of(*chosen, place="regkit.track"))

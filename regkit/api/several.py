@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from regkit.api.choices import Choice, Choices, load_template, segmenters_of
 from regkit.api.frame import Intrinsics
+from regkit.api.pipeline import Pipeline
 from regkit.api.recordings import Frames, recording_of
 from regkit.api.running import tracked_through
 from regkit.api.tracking import Tracking
@@ -66,12 +67,10 @@ def track_each(
     each = each_body(segmenters_of(segmentation, place=place), recording, loaded)
     # In a later frame the piece of the same number may be another's.
     sized_in = 3 if len(each) == 1 else 1
-    tracks = [
-        tracked_through(
-            recording, loaded, method, one, preprocessor, tracker, search, place, sized_in=sized_in
-        )
-        for one in each
+    pipelines = [
+        Pipeline.of(loaded, method, one, preprocessor, tracker, search, place=place) for one in each
     ]
+    tracks = [tracked_through(recording, one, sized_in=sized_in) for one in pipelines]
     if len(tracks) == 1:
         return tuple(tracks)
     return tuple(

@@ -55,8 +55,8 @@ class Tracking(Summary):
         registrar: The registrar of the frames.
         recorder: Frames recorded during tracking.
         indices: Positions of the frames among those that were recorded.
-        track: The frames as arrays: numbers (T,), times (T,) [s], root (T, 4, 4) [m], balls (T, n_ball, 4), hinges (T, n_hinge)
-            [rad], markers, seconds and more.
+        track: The frames as arrays: numbers (T,), times (T,) [s], root (T, 4, 4) [m], balls
+            (T, n_ball, 4), hinges (T, n_hinge) [rad], markers, seconds and more.
     """
 
     name: str
@@ -67,6 +67,22 @@ class Tracking(Summary):
     recorder: TrackRecorder
     indices: range
     track: Track
+
+    @classmethod
+    def of(
+        cls, name: str, method: str, fps: float, start: Start, recorder: TrackRecorder
+    ) -> Tracking:
+        """Returns everything that was recorded.
+
+        Args:
+            name: Name of the recording.
+            method: Name of the method.
+            fps: Frame rate of the recording [1/s].
+            start: The pose and size in the first frame.
+            recorder: The recorded frames.
+        """
+        rows, track = range(len(recorder)), recorder.track()
+        return cls(name, method, fps, start, recorder.registrar, recorder, rows, track)
 
     @property
     def body(self) -> Body:

@@ -90,8 +90,12 @@ class Follower:
         Args:
             reason: Why it cannot be read.
         """
-        self._past = self._past.interrupted()
+        self.pause()
         return TrackedFrame(None, self._past.last.without_data(reason), 0.0, 0.0)
+
+    def pause(self) -> None:
+        """Tells that the motion since the last frame is unknown, as after a gap in time."""
+        self._past = self._past.interrupted()
 
     def _step(self, frame: Frame) -> TrackedFrame:
         begun = time.perf_counter()

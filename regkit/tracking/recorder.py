@@ -9,8 +9,8 @@ from sys import intern
 import numpy as np
 
 from regkit.body import BodyFit
-from regkit.interfaces import Expected, Registrar
 from regkit.body.verdict import Verdict, frame_verdict
+from regkit.interfaces import Expected, Registrar
 from regkit.observation import Observation
 from regkit.skeleton import Placement, Pose
 from regkit.system.arrays import Array
