@@ -126,6 +126,11 @@ class LiveTrack:
         return self.start.body
 
     @property
+    def is_live(self) -> bool:
+        """Whether frames come at their own pace, and those that are late are dropped."""
+        return self._live.is_live
+
+    @property
     def is_begun(self) -> bool:
         """Whether a body has come into sight."""
         return self._live.is_begun

@@ -11,7 +11,15 @@ from regkit.config.document import Document
 from regkit.config.model import Model
 from regkit.config.plugin import slot_default, slot_defaults
 from regkit.config.yaml import yaml_value
-from regkit.interfaces import Method, Preprocessor, Segmenter, StartSearch, Template, Tracker
+from regkit.interfaces import (
+    Method,
+    Preprocessor,
+    Segmenter,
+    Source,
+    StartSearch,
+    Template,
+    Tracker,
+)
 from regkit.system.errors import ConfigError
 
 
@@ -30,16 +38,24 @@ class Choices(Model):
     """Preprocessing of frames; by default they are downsampled to about 900 points."""
     tracker: Tracker = slot_default(Tracker)
     """Tracker from frame to frame, if the method has none of its own."""
+    source: Source | None = None
+    """Camera or recording of ``regkit track``."""
     start: StartSearch = slot_default(StartSearch)
     """Search for pose and size in the first frame, or the pose itself (``kind: given``)."""
 
     @classmethod
-    def of(cls, options: Mapping[str, str | None], settings: Iterable[str]) -> tuple[Choices, str]:
+    def of(
+        cls,
+        options: Mapping[str, str | None],
+        settings: Iterable[str],
+        source: Mapping[str, Any] | None = None,
+    ) -> tuple[Choices, str]:
         """Returns the choices of the options after ``a.b.c=value`` settings, and the method's name.
 
         Args:
             options: Values of ``--template``, ``--method``, ...; None for an option that is absent.
             settings: Further changes.
+            source: Data of the source of ``regkit track``.
 
         Raises:
             ConfigError: One line for each mistake.
@@ -53,6 +69,8 @@ class Choices(Model):
                 data[name] = slot.named(data[name])
             elif name not in data:
                 data[name] = slot.default()
+        if source is not None:
+            data["source"] = dict(source)
         places: dict[Location, str] = {(name,): f"--{name} {text}" for name, text in given.items()}
         document = Document(data, {(): "regkit", **places}).overridden(settings, called="--set")
         return document.validated(cls), name_of(document.data["method"])

@@ -71,6 +71,11 @@ class Interrupt:
         if self.pressed:
             raise KeyboardInterrupt
 
+    def take_time(self) -> None:
+        """Lets the command end in its own time; another Ctrl-C still ends it at once."""
+        if self._timer is not None:
+            self._timer.cancel()
+
     def _note(self, *_: object) -> None:
         self.pressed = True
         signal.signal(signal.SIGINT, _leave)

@@ -3,52 +3,73 @@
 from __future__ import annotations
 
 import json
-import math
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import typer
+from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
 from regkit.api import Tracking
 from regkit.cli.console import errors, output
-from regkit.cli.hinge_table import hinge_table
+from regkit.cli.track_files import write_track
 from regkit.cli.verdicts import conclude
-from regkit.report.png import png
-from regkit.system.csv_table import csv_text
-from regkit.system.files import replacing, write_text
-from regkit.system.json_files import write_json
+from regkit.interfaces import Template
 from regkit.tracking import Verdict
 
-DPI = 110
 
-
-def finish(tracking: Tracking, out: Path | None, *, as_json: bool, strict: bool) -> None:
+def finish(
+    tracking: Tracking, template: Template, out: Path | None, *, as_json: bool, strict: bool
+) -> None:
     """Prints the result, writes it to a folder, and tells whether the body was found.
+
+    Args:
+        tracking: The result.
+        template: The template of the body.
+        out: The folder, if it is to be written.
+        as_json: Whether to print JSON instead of a table.
+        strict: Whether a doubtful result counts as not found.
 
     Raises:
         RegkitError: If a file cannot be written.
         Exit: With ``NOT_FOUND``, if the body was lost, or is doubtful and ``strict`` is set.
     """
-    show(tracking, out, as_json=as_json)
+    show(tracking, template, out, as_json=as_json)
     judged = tracking.judged
     conclude(judged.verdict, judged.reason, strict=strict)
 
 
-def show(tracking: Tracking, out: Path | None, *, as_json: bool) -> None:
+def show(
+    tracking: Tracking,
+    template: Template,
+    out: Path | None,
+    *,
+    as_json: bool,
+    console: Console = output,
+    more: Mapping[str, Any] | None = None,
+) -> None:
     """Prints the result and writes it to a folder.
+
+    Args:
+        tracking: The result.
+        template: The template of the body.
+        out: The folder, if it is to be written.
+        as_json: Whether to print JSON instead of a table.
+        console: Where the table is printed.
+        more: What else ``result.json`` holds, of a stream.
 
     Raises:
         RegkitError: If a file cannot be written.
     """
-    figures = _figures(tracking)
+    figures = _figures(tracking) | dict(more or {})
     if as_json:
         typer.echo(json.dumps(figures, indent=2, allow_nan=False))
     else:
-        output.print(_table(tracking, figures))
+        console.print(_table(tracking, figures))
     if out is not None:
-        _write(tracking, figures, out)
+        write_track(out, tracking, template, figures)
         errors.print(f"written: {out}")
 
 
@@ -99,6 +120,7 @@ def _table(tracking: Tracking, figures: dict[str, Any]) -> Table:
         ("covered", _percent(figures["coverage"], "the visible body has data")),
         ("converged", f"{figures['converged_frames']} of {len(tracking)}"),
         ("verdict", verdict),
+        ("stream", _stream(figures)),
         # The first frame includes the loading of data, so its speed says little.
         ("speed", "" if fps is None else f"{fps:.3g} frames per second"),
     ):
@@ -107,46 +129,15 @@ def _table(tracking: Tracking, figures: dict[str, Any]) -> Table:
     return table
 
 
-def _write(tracking: Tracking, figures: dict[str, Any], out: Path) -> None:
-    write_json(out / "result.json", figures)
-    write_text(out / "markers.csv", _markers(tracking))
-    write_text(out / "hinges.csv", hinge_table(tracking))
-    write_text(out / "frames.csv", _frames(tracking))
-    tracking.save(out / "poses.npz")
-    picture = png(tracking.plot(), DPI)
-    with replacing(out / "picture.png") as temporary:
-        temporary.write_bytes(picture)
-
-
-def _markers(tracking: Tracking) -> str:
-    """Returns the marker positions [m] in the format of a recording's ``truth.csv``."""
-    return csv_text(
-        ("frame", "joint", "x", "y", "z"),
-        [
-            (frame, name, *(f"{value:.6f}" for value in position))
-            for frame, markers in zip(tracking.numbers, tracking.markers, strict=True)
-            for name, position in zip(tracking.joint_names, markers, strict=True)
-        ],
-    )
-
-
-def _frames(tracking: Tracking) -> str:
-    """Returns a table of the frames: verdict, agreement with the data, and cost."""
-    track = tracking.track
-    columns = ("inlier_shares", "coverages", "misfits", "reliefs", "surface_distances")
-    shares = [
-        [f"{value:.6g}" if math.isfinite(value) else "" for value in row]
-        for row in zip(*(getattr(track, name) for name in columns), strict=True)
-    ]
-    return csv_text(
-        ("frame", "time_s", "verdict", "points", "inlier_share", "coverage", "misfit", "relief",
-         "surface_distance_m", "converged", "seconds"),
-        [
-            (frame, f"{track.times[at]:.6f}", track.verdicts[at], int(track.points[at]),
-             *shares[at], int(track.converged[at]), f"{track.seconds[at]:.6f}")
-            for at, frame in enumerate(tracking.numbers)
-        ],
-    )  # fmt: skip
+def _stream(figures: Mapping[str, Any]) -> str:
+    """Returns what happened to the frames of a stream."""
+    dropped, faults = figures.get("dropped_frames", 0), figures.get("faults", {})
+    parts = [f"{dropped} frames dropped"] if dropped or "latency_ms" in figures else []
+    parts += [f"{count} {fault}" for fault, count in faults.items()]
+    if "latency_ms" in figures:
+        latency = figures["latency_ms"]
+        parts.append(f"latency {latency['p50']:.3g} ms, {latency['p99']:.3g} ms in 1 % of frames")
+    return ", ".join(parts)
 
 
 def _share(percent: float | None) -> float | None:

@@ -81,6 +81,5 @@ def register(
         preprocessor=choices.preprocessor,
         start=choices.start,
     )
-    finish(
-        replace(found.tracking, name=file.stem, method=name), out, as_json=as_json, strict=strict
-    )
+    tracking = replace(found.tracking, name=file.stem, method=name)
+    finish(tracking, choices.template, out, as_json=as_json, strict=strict)

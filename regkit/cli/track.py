@@ -9,11 +9,13 @@ from typing import Annotated
 
 import typer
 
-from regkit.api import track as track_frames
 from regkit.api import track_each
-from regkit.api.tracking import TrackingError
+from regkit.api.pipeline import Pipeline
 from regkit.cli.choices import Choices
 from regkit.cli.completion import plugin_names
+from regkit.cli.console import errors, output
+from regkit.cli.exit_codes import INTERRUPTED
+from regkit.cli.live_run import LiveRun
 from regkit.cli.options import (
     MethodName,
     PluginFiles,
@@ -22,14 +24,17 @@ from regkit.cli.options import (
     Settings,
     Strict,
     TemplateName,
-    options,
     run_plugin_files,
 )
 from regkit.cli.out_folder import check_out
-from regkit.cli.outcome import finish, show
+from regkit.cli.outcome import show
+from regkit.cli.pose_stream import PoseOutput, is_pose_stream
+from regkit.cli.track_source import dataset_recording, described, opener
 from regkit.cli.verdicts import conclude
-from regkit.interfaces import Dataset, Recording
+from regkit.interfaces import Recording
+from regkit.system.errors import ConfigError
 from regkit.tracking import Verdict
+from regkit.tracking.live import OPENING
 
 
 class People(StrEnum):
@@ -40,11 +45,11 @@ class People(StrEnum):
 
 
 def track(
-    folder: Annotated[
-        Path,
+    source: Annotated[
+        str,
         typer.Argument(
-            metavar="FOLDER",
-            help="Folder of a recording: depth/ or clouds/ beside a sequence.yaml.",
+            metavar="SOURCE",
+            help="Folder or file of a recording, or a camera such as realsense:",
             show_default=False,
         ),
     ],
@@ -68,18 +73,34 @@ def track(
     frames: Annotated[
         int | None, typer.Option(min=1, metavar="N", help="Track only the first N frames.")
     ] = None,
+    opening: Annotated[
+        float,
+        typer.Option(
+            metavar="SECONDS",
+            help="Duration in which the body, its size and its surroundings are sought.",
+        ),
+    ] = OPENING,
+    every_frame: Annotated[
+        bool,
+        typer.Option(
+            "--every-frame", help="Track every frame of a camera, however late, and drop none."
+        ),
+    ] = False,
+    realtime: Annotated[
+        bool, typer.Option("--realtime", help="Play a recording at its own pace, as a camera.")
+    ] = False,
     people: Annotated[
         People,
         typer.Option(help="Track one body, or all that fit in the first frame, each by itself."),
     ] = People.ONE,
     settings: Settings = None,
     out: Annotated[
-        Path | None,
+        str | None,
         typer.Option(
-            metavar="FOLDER",
-            help="Folder for result.json, markers.csv, hinges.csv, frames.csv, poses.npz and "
-            "picture.png. "
-            "(default: tracks/RECORDING)",
+            metavar="FOLDER|FILE|-",
+            help="Folder for the results: result.json, markers.csv, hinges.csv, frames.csv, "
+            "poses.npz and picture.png; or a file .csv or .jsonl, or - for standard output, that "
+            "takes each pose as it comes. (default: tracks/RECORDING)",
             show_default=False,
         ),
     ] = None,
@@ -87,36 +108,59 @@ def track(
     strict: Strict = False,
     plugin: PluginFiles = None,
 ) -> None:
-    """Track a template through a recording; the first frame's pose is found automatically."""
+    """Track a template through a camera's stream or a recording, from the first frames on.
+
+    Ctrl-C ends the tracking; what was tracked is kept.
+    """
     run_plugin_files(plugin)
     named = {"template": template, "method": method, "preprocessor": preprocessor}
-    choices, name = Choices.of(
-        {**named, "segmentation": segmentation, "tracker": tracker}, settings or ()
-    )
-    data = Dataset.in_folder(folder, frames=frames)
-    with options(**{"dataset.recordings": "--recording"}):
-        chosen = Dataset.parse(data, place="FOLDER", field="dataset").only(recording)
-    results = out or Path("tracks") / chosen.name
-    check_out(results, whole=False)
+    named |= {"segmentation": segmentation, "tracker": tracker}
+    data = described(source, recording)
+    choices, name = Choices.of(named, settings or (), data)
+    stream = out if out is not None and is_pose_stream(out) else None
+    folder = None if out is None or stream is not None else Path(out)
+    if stream == "-" and as_json:
+        raise ConfigError("standard output takes the poses; leave one of both out", place="--json")
     if people is People.ALL:
-        _track_all(chosen, choices, name, results, as_json=as_json, strict=strict)
+        chosen = dataset_recording(source, recording, frames)
+        folder = folder or Path("tracks") / chosen.name
+        check_out(folder, whole=False)
+        _track_all(chosen, choices, name, folder, as_json=as_json, strict=strict)
         return
-    try:
-        found = track_frames(
-            chosen,
-            choices.template,
-            choices.method,
-            segmentation=choices.segmentation,
-            preprocessor=choices.preprocessor,
-            tracker=choices.tracker,
-            start=choices.start,
-        )
-    except TrackingError as error:
-        # What was tracked before the damaged frame is kept; the error decides the exit code.
-        if error.tracked is not None:
-            show(replace(error.tracked, method=name), results, as_json=as_json)
-        raise
-    finish(replace(found, method=name), results, as_json=as_json, strict=strict)
+    run = LiveRun(
+        opener(source, choices.source, recording, frames),
+        _pipeline(choices),
+        name,
+        folder,
+        opening=opening,
+        every_frame=every_frame,
+        realtime=realtime,
+        outputs=[] if stream is None else [lambda track: PoseOutput(stream, track.body)],
+    )
+    ended = run.followed()
+    tracking = replace(ended.track.tracking(), method=name)
+    shown = errors if stream == "-" else output
+    show(
+        tracking, choices.template, ended.folder, as_json=as_json, console=shown,
+        more=ended.figures(),
+    )  # fmt: skip
+    if ended.error is not None:
+        raise ended.error
+    if ended.interrupted and not ended.track.is_live:
+        raise typer.Exit(INTERRUPTED)
+    conclude(tracking.judged.verdict, tracking.judged.reason, strict=strict)
+
+
+def _pipeline(choices: Choices) -> Pipeline:
+    return Pipeline.of(
+        choices.template,
+        choices.method,
+        choices.segmentation,
+        choices.preprocessor,
+        choices.tracker,
+        choices.start,
+        place="regkit track",
+    )
 
 
 def _track_all(
@@ -138,7 +182,7 @@ def _track_all(
     )
     for one in found:
         folder = out if len(found) == 1 else out / one.name
-        show(replace(one, method=method), folder, as_json=as_json)
+        show(replace(one, method=method), choices.template, folder, as_json=as_json)
     verdicts = [one.verdict for one in found]
     worst = next(
         (one for one in (Verdict.LOST, Verdict.DOUBTFUL) if one in verdicts), Verdict.FOUND

@@ -5,11 +5,9 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from numpy.typing import NDArray
 
 from regkit.body import Body
@@ -18,25 +16,15 @@ from regkit.experiment.provenance import manifest
 from regkit.experiment.provenance.manifest import Manifest
 from regkit.experiment.provenance.setup import Setup
 from regkit.experiment.results_format import check_format
-from regkit.geometry.rigid import rigid
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.interchange.motion import TrackedMotion
 from regkit.interfaces import Template
-from regkit.skeleton import Pose
 from regkit.system.archives import read_arrays
-from regkit.system.arrays import Array, real_numbers
 from regkit.system.errors import ConfigError, DataError, RegkitError
 from regkit.system.guard import reading
 from regkit.system.links import check_links
 from regkit.system.notes import note
-from regkit.tracking import check_verdicts
-
-MOVING = ("root", "balls", "hinges", "markers")
-NEEDED = (*MOVING, "size")
-"""Arrays of ``poses.npz`` that define a motion."""
-
-SAME = 1e-6
-"""Tolerance [m] between stored markers and those of the body."""
+from regkit.tracking.stored_poses import checked_poses, placed
 
 
 def read_tracked_motion(folder: Path, fps: float | None = None) -> TrackedMotion:
@@ -63,7 +51,7 @@ def read_tracked_motion(folder: Path, fps: float | None = None) -> TrackedMotion
     for field in setup.templates:
         template = _present(results, field, setup)
         body = setup.body(field, name, size) if template is None else template.body(size)
-        transforms = _placed(body, arrays)
+        transforms = placed(body, arrays)
         if transforms is not None:
             skin = None
             if template is not None:
@@ -81,23 +69,6 @@ def read_tracked_motion(folder: Path, fps: float | None = None) -> TrackedMotion
     raise DataError(
         "no template of the run has these markers; run the experiment again", place=str(folder)
     )
-
-
-def _placed(body: Body, arrays: Mapping[str, NDArray[Any]]) -> Array | None:
-    """Returns T_world_segment (T, S, 4, 4), or None if the body's markers are not the stored."""
-    skeleton = body.skeleton
-    shapes = {
-        "balls": (len(skeleton.ball_links), 4),
-        "hinges": (len(skeleton.hinge_links),),
-        "markers": (len(body.markers.names), 3),
-    }
-    if any(arrays[name].shape[1:] != shape for name, shape in shapes.items()):
-        return None
-    poses = zip(arrays["root"], arrays["balls"], arrays["hinges"], strict=True)
-    transforms = np.array([body.place(Pose(*pose)).transforms for pose in poses])
-    placed = np.array([body.markers.place(one) for one in transforms])
-    same = np.abs(placed - arrays["markers"]).max(initial=0.0) <= SAME
-    return transforms if same else None
 
 
 def _arrays(folder: Path) -> dict[str, NDArray[Any]]:
@@ -118,12 +89,6 @@ def _arrays(folder: Path) -> dict[str, NDArray[Any]]:
         )
     check_format(results)
     track = Manifest.read(folder)
-    if track is None and (folder / "result.json").is_file():
-        raise ConfigError(
-            "this was written by `regkit track`; only the tracks of `regkit run` can be exported: "
-            "give RESULTS/METHOD/RECORDING",
-            place=str(folder),
-        )
     if track is None:
         raise ConfigError(
             f"the track is not finished ({manifest.FILE} is missing); continue the run",
@@ -131,21 +96,8 @@ def _arrays(folder: Path) -> dict[str, NDArray[Any]]:
         )
     track.check(folder)
     file = folder / "poses.npz"
-    arrays = read_arrays(file, what="the poses of regkit run")
-    missing = [name for name in NEEDED if name not in arrays]
-    if missing:
-        raise DataError(f"lacks the arrays {', '.join(missing)}", place=str(file))
-    with reading(file, "the poses of regkit run"):
-        numbers = {name: real_numbers(arrays[name], name) for name in NEEDED}
-        frames = len(numbers["root"])
-        whole = numbers["size"].shape == () and numbers["root"].shape == (frames, 4, 4)
-        if not whole or not all(
-            len(numbers[name]) == frames and np.isfinite(numbers[name]).all() for name in MOVING
-        ):
-            raise DataError(f"damaged: not {frames} finite poses and a size")
-        if "verdicts" in arrays:
-            check_verdicts(arrays["verdicts"], frames)
-    return arrays | numbers
+    what = "the poses of regkit run"
+    return checked_poses(read_arrays(file, what=what), file, what)
 
 
 def _fps(folder: Path, arrays: Mapping[str, NDArray[Any]]) -> float:
@@ -182,6 +134,4 @@ def _skin(template: Template, body: Body) -> SkinnedMesh | None:
     if description.mesh is None:
         return None
     mesh = SkinnedMesh.read(description.mesh)
-    scale = body.size / description.size.value
-    rest = rigid(mesh.rest[:, :3, :3], scale * mesh.rest[:, :3, 3])
-    return replace(mesh, vertices=scale * mesh.vertices, rest=rest)
+    return mesh.scaled(body.size / description.size.value)

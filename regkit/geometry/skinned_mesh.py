@@ -147,6 +147,11 @@ class SkinnedMesh(Brief):
                 rest=read_only(checked_bones(arrays, "rest_bone_poses", len(self.labels))),
             )
 
+    def scaled(self, scale: float) -> SkinnedMesh:
+        """Returns the mesh with all lengths multiplied by a factor."""
+        rest = rigid(self.rest[:, :3, :3], scale * self.rest[:, :3, 3])
+        return replace(self, vertices=scale * self.vertices, rest=rest)
+
     def bone(self, label: str) -> int:
         """Returns the index of the bone named ``label``.
 

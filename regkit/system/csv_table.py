@@ -6,8 +6,14 @@ import csv
 import io
 import re
 from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import TextIO
 
+from regkit.system.files import replacing
 from regkit.system.printable import one_line
+
+CsvTable = tuple[Sequence[str], Iterable[Sequence[object]]]
+"""Names of the columns, and rows."""
 
 _FORMULA = re.compile("\\s*[=+\\-@\uff1d\uff0b\uff0d\uff20]")
 """The beginning of a cell that a spreadsheet would run."""
@@ -22,10 +28,24 @@ def csv_text(columns: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
     apostrophe in front; control characters become escapes.
     """
     stream = io.StringIO()
+    _write(stream, columns, rows)
+    return stream.getvalue()
+
+
+def write_csv(path: Path, columns: Sequence[str], rows: Iterable[Sequence[object]]) -> None:
+    """Writes a table as CSV, row by row, and atomically.
+
+    Raises:
+        DataError: If it cannot be written.
+    """
+    with replacing(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as stream:
+        _write(stream, columns, rows)
+
+
+def _write(stream: TextIO, columns: Sequence[str], rows: Iterable[Sequence[object]]) -> None:
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow([safe_cell(column) for column in columns])
     writer.writerows([safe_cell(value) for value in row] for row in rows)
-    return stream.getvalue()
 
 
 def safe_cell(value: object) -> str:

@@ -1,7 +1,8 @@
 """Tracking of cameras and recordings as their frames come.
 
 - ``reader``: reads a stream in the background; of a camera the newest frame wins.
-- ``paced``: a recording that is played at its own pace.
+- ``paced``, ``limited``, ``recording_stream``: a recording at its own pace, the first frames of a
+  stream, and a dataset's recording as one.
 - ``watch``: what is wrong with the frames of a stream.
 - ``opening``: the frames in which the body is sought.
 - ``latency``: quantiles of times.
@@ -9,7 +10,18 @@
 """
 
 from regkit.tracking.live.latency import Quantiles
+from regkit.tracking.live.limited import LimitedStream
 from regkit.tracking.live.live_tracking import OPENING, LiveFrame, LiveSetup, LiveTracking
 from regkit.tracking.live.paced import PacedStream
+from regkit.tracking.live.recording_stream import RecordingStream
 
-__all__ = ["OPENING", "LiveFrame", "LiveSetup", "LiveTracking", "PacedStream", "Quantiles"]
+__all__ = [
+    "OPENING",
+    "LimitedStream",
+    "LiveFrame",
+    "LiveSetup",
+    "LiveTracking",
+    "PacedStream",
+    "Quantiles",
+    "RecordingStream",
+]

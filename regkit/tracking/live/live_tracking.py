@@ -120,6 +120,11 @@ class LiveTracking:
         return self._reader.dropped + self._reader.stream.dropped
 
     @property
+    def is_live(self) -> bool:
+        """Whether frames come at their own pace."""
+        return self._reader.stream.live
+
+    @property
     def is_begun(self) -> bool:
         """Whether a body has come into sight."""
         return self._found is not None

@@ -1,0 +1,79 @@
+"""The files that ``regkit register`` and ``regkit track`` write."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from regkit.api import Tracking
+from regkit.interfaces import Template
+from regkit.report.png import png
+from regkit.system.csv_table import CsvTable, write_csv
+from regkit.system.files import replacing
+from regkit.system.json_files import write_json
+from regkit.tracking.track_folder import POSES, TrackDescription, finish_rows
+
+DPI = 110
+
+
+def write_track(
+    out: Path, tracking: Tracking, template: Template, figures: Mapping[str, Any]
+) -> None:
+    """Writes the result of tracking into a folder.
+
+    Args:
+        out: The folder.
+        tracking: The result.
+        template: The template of the body.
+        figures: The content of ``result.json``.
+
+    Raises:
+        RegkitError: If a file cannot be written.
+    """
+    about = (tracking.name, tracking.method, tracking.fps, tracking.size, template)
+    TrackDescription.of(*about).write(out)
+    write_json(out / "result.json", figures)
+    write_csv(out / "markers.csv", *_markers(tracking))
+    write_csv(out / "hinges.csv", *_hinges(tracking))
+    write_csv(out / "frames.csv", *_frames(tracking))
+    tracking.save(out / POSES)
+    finish_rows(out)
+    picture = png(tracking.plot(), DPI)
+    with replacing(out / "picture.png") as temporary:
+        temporary.write_bytes(picture)
+
+
+def _markers(tracking: Tracking) -> CsvTable:
+    """Returns the marker positions [m] in the format of a recording's ``truth.csv``."""
+    return ("frame", "joint", "x", "y", "z"), (
+        (frame, name, *(f"{value:.6f}" for value in position))
+        for frame, markers in zip(tracking.numbers, tracking.markers, strict=True)
+        for name, position in zip(tracking.joint_names, markers, strict=True)
+    )
+
+
+def _hinges(tracking: Tracking) -> CsvTable:
+    """Returns a row for each frame with a column ``NAME_rad`` for each hinge."""
+    names = tracking.body.skeleton.hinge_names
+    return ("frame", *(f"{name}_rad" for name in names)), (
+        (frame, *(f"{angle:.6f}" for angle in angles))
+        for frame, angles in zip(tracking.numbers, tracking.track.hinges, strict=True)
+    )
+
+
+def _frames(tracking: Tracking) -> CsvTable:
+    """Returns a table of the frames: verdict, agreement with the data, and cost."""
+    track = tracking.track
+    columns = ("inlier_shares", "coverages", "misfits", "reliefs", "surface_distances")
+    shares = zip(*(getattr(track, name) for name in columns), strict=True)
+    return (
+        "frame", "time_s", "verdict", "points", "inlier_share", "coverage", "misfit", "relief",
+        "surface_distance_m", "converged", "seconds",
+    ), (
+        (frame, f"{track.times[at]:.6f}", track.verdicts[at], int(track.points[at]),
+         *(f"{value:.6g}" if math.isfinite(value) else "" for value in row),
+         int(track.converged[at]), f"{track.seconds[at]:.6f}")
+        for at, (frame, row) in enumerate(zip(tracking.numbers, shares, strict=True))
+    )  # fmt: skip
