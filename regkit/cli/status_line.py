@@ -75,7 +75,8 @@ class StatusLine:
         return text
 
     def _text(self, pose: LivePose) -> str:
-        parts = [f"frame {pose.number}"]
+        length = self._track.stream.length
+        parts = [f"frame {pose.number}" if length is None else f"frame {pose.number} of {length}"]
         if self._period > 0.0:
             parts.append(f"{1.0 / self._period:.0f} frames/s")
         if self._track.is_live:

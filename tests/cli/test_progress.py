@@ -74,7 +74,7 @@ def test_work_that_fails_is_shown_no_longer(shown):
 @pytest.mark.parametrize(
     ("arguments", "expected"),
     [
-        (("track", WALK, "--frames", "2", "--set", "template.height=1.63"), "tracking 1 of 2"),
+        (("track", WALK, "--frames", "2", "--set", "template.height=1.63"), "looking for the body"),
         (("align", "CLOUD", "CLOUD"), "aligning"),
     ],
 )

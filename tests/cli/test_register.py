@@ -16,7 +16,8 @@ START = (
     "--set",
     "start={kind: given, root: {position: [-0.05, -0.05, 3.25], rotation_deg: [180, 0, 0]}}",
 )
-FILES = {"result.json", "markers.csv", "hinges.csv", "frames.csv", "poses.npz", "picture.png"}
+TABLES = {"markers.csv", "hinges.csv", "frames.csv"}
+FILES = {"result.json", "track.json", "poses.npz", "picture.png", *TABLES}
 
 
 @pytest.fixture
@@ -103,15 +104,18 @@ def test_data_of_half_the_size_and_a_flat_wall_are_not_found(regkit, name):
     assert told in ended.err
 
 
-def test_track_that_ends_at_a_damaged_frame_keeps_what_was_tracked(regkit, tmp_path, out):
+def test_damaged_frame_is_passed_over_and_told(regkit, tmp_path, out):
     shutil.copytree(WALK, tmp_path / "walk")
     depth = tmp_path / "walk" / "depth"
     (depth / "000002.png").write_bytes((depth / "000001.png").read_bytes()[:500])
     ended = regkit("track", tmp_path / "walk", *HUMAN, *START, "--frames", 4, "--out", out)
-    assert ended.code == 1
+    assert ended.code == 0
     assert "000002.png" in ended.err
+    assert "doubtful: 1 of 4 frames have no data" in ended.err
     with (out / "frames.csv").open() as stream:
-        assert [row["verdict"] for row in csv.DictReader(stream)] == ["found", "found"]
+        verdicts = [row["verdict"] for row in csv.DictReader(stream)]
+    assert verdicts == ["found", "found", "no data", "found"]
+    assert json.loads((out / "result.json").read_text())["faults"] == {"damaged": 1}
 
 
 def test_settings_change_what_options_name(regkit):
@@ -134,7 +138,7 @@ def test_settings_change_what_options_name(regkit):
         (("register", WALK, "--set", "template.heigt=1"), ("template.heigt", "did you mean")),
         (("register", WALK, "--set", "metod=best"), ("--set metod=best", "did you mean 'method'")),
         (("register", WALK, "--set", "start={kind: given}"), ("start", "size")),
-        (("track", "nowhere"), ("nowhere", "no such folder")),
+        (("track", "nowhere"), ("nowhere", "no such file or folder")),
         (("track", DATA), ("--recording", "name one")),
         (("track", DATA, "--recording", "walk"), ("--recording", "no recording")),
         (("track", WALK, "--tracker", "velocity"), ("--tracker velocity", "did you mean")),

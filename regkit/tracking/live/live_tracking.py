@@ -23,6 +23,7 @@ from regkit.interfaces import (
 from regkit.system.brief import Brief
 from regkit.system.errors import DataError, NoBodyError, NoDataError, SourceLostError
 from regkit.system.notes import RegkitWarning
+from regkit.system.progress import working
 from regkit.tracking.live.latency import Quantiles
 from regkit.tracking.live.opening import Opening, openings
 from regkit.tracking.live.paced import PacedStream
@@ -222,7 +223,8 @@ class LiveTracking:
             with warnings.catch_warnings(record=True) as told:
                 warnings.simplefilter("always")
                 try:
-                    start = session.begin()
+                    with working("looking for the body"):
+                        start = session.begin()
                 except NoDataError as error:
                     reason = error
                     continue

@@ -55,7 +55,8 @@ def openings(frames: Iterable[Arrived], name: str, fps: float, seconds: float) -
             continue
         time = arrived.frame.time
         if not kept or time < kept[-1][0]:
-            # The first frame, or a clock that went back.
+            # At a clock that goes back an opening ends, and another begins.
+            yield from _opening(kept, name, fps)
             kept.clear()
             first, due = time, time + seconds
         if not kept or time >= kept[-1][0] + spacing:

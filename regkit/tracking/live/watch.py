@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, deque
+from statistics import median
 
 import numpy as np
 
@@ -46,8 +47,7 @@ class StreamWatch:
         self._period = 1.0 / fps
         self._last: TimedFrame | None = None
         self._number = 0
-        self._interval = self._period
-        self._seen = 0
+        self._intervals: deque[float] = deque(maxlen=SLOW_FRAMES)
         self._damaged = 0
 
     def damaged(self, arrived: Arrived, reason: str) -> None:
@@ -67,7 +67,9 @@ class StreamWatch:
     def is_repeated(self, number: int, frame: TimedFrame) -> bool:
         """Returns whether a frame is the last one again, in time and content; it adds nothing."""
         last = self._last
-        if last is None or not _same_picture(last.frame, frame.frame):
+        if last is None or not len(frame.frame.points):
+            return False
+        if not _same_picture(last.frame, frame.frame):
             return False
         same = frame.time == last.time
         what = "the frame before it again" if same else "the picture of the frame before it"
@@ -109,14 +111,14 @@ class StreamWatch:
             self._tell("other camera", f"frame {number} has other intrinsics than the last one")
 
     def _compare_rate(self, number: int, interval: float) -> None:
-        # A mean over the last frames, in which one gap alone does not make a slow stream.
-        self._seen += 1
-        self._interval += (min(interval, 4.0 * self._interval) - self._interval) / SLOW_FRAMES
-        if self._seen > SLOW_FRAMES and self._interval * SLOW > self._period:
+        self._intervals.append(interval)
+        # One gap alone does not make a slow stream.
+        usual = median(self._intervals)
+        if len(self._intervals) == SLOW_FRAMES and usual * SLOW > self._period:
             self._tell(
                 "slow",
-                f"at frame {number} the stream has {1.0 / self._interval:.2g} frames per second "
-                f"instead of {1.0 / self._period:.3g}; fast motion may be lost",
+                f"at frame {number} the stream has {1.0 / usual:.2g} frames per second instead of "
+                f"{1.0 / self._period:.3g}; fast motion may be lost",
             )
 
     def _tell(self, fault: str, message: str) -> None:

@@ -1,0 +1,207 @@
+"""Tracking of a stream: as of a recording, but for what cameras and dirty files do."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from streams import FPS, WALK, Scripted, empty_frame, walk_frames
+
+import regkit
+from regkit.api.live import LiveTrack, live_track, track_live
+from regkit.api.pipeline import Pipeline
+from regkit.interfaces import TimedFrame
+from regkit.system.errors import ConfigError, DataError, NoBodyError, SourceLostError
+from regkit.system.notes import RegkitWarning
+
+HUMAN = {"kind": "human", "height": 1.63}
+COUNT = 8
+
+
+@pytest.fixture(scope="module")
+def frames() -> list[TimedFrame]:
+    return walk_frames(COUNT)
+
+
+@pytest.fixture(scope="module")
+def usual(frames):
+    """The markers of the same frames as a recording."""
+    return regkit.track(regkit.load_recording(WALK, frames=COUNT), HUMAN).markers
+
+
+def following(script, *, live=False, **options) -> LiveTrack:
+    """A track of the script, which begins with the known start where it is a recording."""
+    pipeline = Pipeline.of(HUMAN, place="test")
+    return live_track(lambda: Scripted(list(script), live=live), pipeline, **options)
+
+
+def tracked(script, **options):
+    """Numbers, markers and faults of a script."""
+    with following(script, **options) as track:
+        poses = list(track)
+        return [one.number for one in poses], [one.markers for one in poses], track.faults
+
+
+def test_stream_is_tracked_as_its_recording(frames, usual):
+    numbers, markers, faults = tracked(frames)
+    assert numbers == list(range(COUNT))
+    np.testing.assert_array_equal(markers, usual)
+    assert not faults
+
+
+def test_every_frame_of_a_camera_is_tracked_if_asked_for(frames, usual):
+    numbers, markers, _ = tracked(frames, live=True, every_frame=True)
+    assert numbers == list(range(COUNT))
+    np.testing.assert_array_equal(markers, usual)
+
+
+def test_newest_frame_of_a_camera_wins(frames):
+    """Those that come at once while the body is sought wait in vain, but for the last."""
+    first = replace(frames[0], time=-1.0)
+    script = [first, 0.1, frames[0], 0.1, *frames[1:]]
+    with following(script, live=True, opening=0.01) as track:
+        assert track.start is not None
+        numbers = [pose.number for pose in track]
+        assert numbers == [COUNT]
+        assert track.dropped == COUNT - 2
+        assert track.tracking().numbers == tuple(numbers)
+
+
+def test_repeated_frame_is_passed_over_and_told(frames, usual):
+    with pytest.warns(RegkitWarning, match="frame 3 is the frame before it again"):
+        numbers, markers, faults = tracked([*frames[:3], frames[2], *frames[3:]])
+    assert numbers == [0, 1, 2, *range(4, COUNT + 1)]
+    np.testing.assert_array_equal(markers, usual)
+    assert faults == {"repeated": 1}
+
+
+def test_frozen_picture_is_told_but_tracked(frames):
+    frozen = [replace(frames[0], time=at / FPS) for at in range(3)]
+    with pytest.warns(RegkitWarning, match="picture of the frame before"):
+        numbers, _, faults = tracked(frozen)
+    assert numbers == [0, 1, 2]
+    assert faults == {"repeated": 2}
+
+
+def test_damaged_frame_keeps_the_pose_and_the_tracking_goes_on(frames, usual):
+    script = [*frames[:3], DataError("cut short", place="000003.png"), *frames[4:]]
+    with pytest.warns(RegkitWarning, match="frame 3 is passed over: 000003.png: cut short"):
+        numbers, markers, faults = tracked(script)
+    assert numbers == list(range(COUNT))
+    np.testing.assert_array_equal(markers[3], markers[2])
+    assert np.linalg.norm(markers[-1] - usual[-1], axis=1).max() < 0.03
+    assert faults == {"damaged": 1}
+
+
+def test_stream_that_ends_within_a_frame_keeps_the_rest(frames):
+    script = [*frames[:3], DataError("ends within the frame")]
+    with pytest.warns(RegkitWarning, match="ends within the frame"):
+        numbers, _, faults = tracked(script)
+    assert numbers == [0, 1, 2, 3]
+    assert faults == {"damaged": 1}
+
+
+def test_time_that_goes_back_is_told_and_tracked(frames, usual):
+    script = [*frames[:4], *(replace(frame, time=frame.time - 1.0) for frame in frames[4:])]
+    with pytest.warns(RegkitWarning, match=r"frame 4 is 0\.967 s before the last one"):
+        numbers, markers, faults = tracked(script)
+    assert numbers == list(range(COUNT))
+    assert np.linalg.norm(markers[-1] - usual[-1], axis=1).max() < 0.03
+    assert faults == {"back in time": 1}
+
+
+def test_gap_is_told(frames):
+    script = [*frames[:4], *(replace(frame, time=frame.time + 1.0) for frame in frames[4:])]
+    with pytest.warns(RegkitWarning, match=r"frame 4 comes 1\.03 s after"):
+        numbers, _, faults = tracked(script)
+    assert numbers == list(range(COUNT))
+    assert faults == {"gaps": 1}
+
+
+def test_slow_stream_is_told_with_its_rate(frames):
+    slow = [replace(frames[at % 2], time=0.5 * at) for at in range(24)]
+    with (
+        pytest.warns(RegkitWarning, match="2 frames per second instead of 30"),
+        pytest.warns(RegkitWarning, match=r"comes 0\.5 s after"),
+    ):
+        _, _, faults = tracked(slow)
+    assert faults["slow"] > 0
+
+
+def test_other_resolution_is_told(frames):
+    half = [_halved(frame) for frame in frames[4:]]
+    with pytest.warns(RegkitWarning, match="frame 4 has 88x72 pixels, the last one 176x144"):
+        numbers, _, faults = tracked([*frames[:4], *half])
+    assert numbers == list(range(COUNT))
+    assert faults == {"other size": 1}
+
+
+def _halved(timed: TimedFrame) -> TimedFrame:
+    frame = timed.frame
+    depth, camera = frame.depth[::2, ::2], frame.camera
+    camera = replace(
+        camera, width=88, height=72, fx=camera.fx / 2, fy=camera.fy / 2,
+        cx=camera.cx / 2, cy=camera.cy / 2,
+    )  # fmt: skip
+    return replace(timed, frame=replace(
+        frame, depth=depth, camera=camera, points=camera.back_projected(depth)
+    ))  # fmt: skip
+
+
+def test_stalled_camera_is_told(frames, monkeypatch):
+    monkeypatch.setattr("regkit.tracking.live.live_tracking.STALL", 0.2)
+    with pytest.warns(RegkitWarning, match="no frame has come"):
+        _, _, faults = tracked([*frames[:-1], 0.8, frames[-1]], live=True, every_frame=True)
+    assert faults == {"stalled": 1}
+
+
+def test_unplugged_camera_keeps_what_was_tracked(frames):
+    lost = SourceLostError("unplugged")
+    with following([*frames, lost], live=True, every_frame=True, opening=0.1) as track:
+        with pytest.raises(SourceLostError, match="scripted: unplugged"):
+            list(track)
+        assert len(track.tracking()) == COUNT
+
+
+def test_stream_of_damaged_frames_ends(frames):
+    damaged = [DataError(f"damage {at}") for at in range(200)]
+    with following([*frames[:2], *damaged]) as track:
+        with pytest.warns(RegkitWarning), pytest.raises(SourceLostError, match="in a row"):
+            list(track)
+        assert len(track.tracking()) < 150
+
+
+def test_body_that_comes_into_sight_later_is_found(frames, usual):
+    blank = [empty_frame(at / FPS) for at in range(20)]
+    later = [replace(frame, time=(20 + at) / FPS) for at, frame in enumerate(frames)]
+    with following([*blank, *later], opening=0.5) as track:
+        poses = list(track)
+        assert [pose.number for pose in poses] == list(range(20 + COUNT))
+        assert {str(pose.verdict) for pose in poses[:20]} == {"no data"}
+        assert {str(pose.verdict) for pose in poses[20:]} == {"found"}
+    assert np.linalg.norm(poses[-1].markers - usual[-1], axis=1).max() < 0.03
+
+
+def test_stream_without_a_body_is_refused():
+    with following([empty_frame(at / FPS) for at in range(20)], opening=0.2) as track:
+        with pytest.raises(NoBodyError, match="no body comes into sight"):
+            list(track)
+        assert not track.is_begun
+
+
+def test_streams_are_closed(frames):
+    opened = []
+
+    def source():
+        opened.append(Scripted(frames))
+        return opened[-1]
+
+    with live_track(source, Pipeline.of(HUMAN, place="test")) as track:
+        list(track)
+    assert len(opened) == 2
+    assert all(stream.is_closed for stream in opened)
+
+
+@pytest.mark.parametrize("opening", [0.0, -1.0, np.nan, np.inf])
+def test_opening_must_be_positive(opening):
+    with pytest.raises(ConfigError, match="opening"):
+        track_live(WALK, HUMAN, opening=opening)
