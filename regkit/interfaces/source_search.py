@@ -74,7 +74,7 @@ def _with_scheme(scheme: str, address: str) -> type[Source]:
         raise ConfigError(
             f"no source has the scheme '{scheme}:' (there are: {schemes}), and there is no such "
             "file" + did_you_mean(scheme, list(known)),
-            place=address,
+            place=address.rstrip(":"),
         )
     return known[scheme]
 

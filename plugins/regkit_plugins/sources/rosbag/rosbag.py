@@ -88,10 +88,7 @@ class Rosbag(Source):
 
 
 def _mending(path: Path) -> str:
-    """Returns how a bag that was cut short is mended, for a message."""
-    commands = {
-        ".mcap": "mcap recover FILE -o MENDED",
-        ".bag": "rosbag reindex FILE",
-    }
-    command = commands.get(path.suffix.lower(), "ros2 bag reindex FOLDER")
-    return f" (a recorder that was killed leaves no index; mend it by '{command}')"
+    """Returns how a bag is mended whose recorder was killed before it wrote the index."""
+    commands = {".mcap": "mcap recover FILE -o MENDED", ".bag": "rosbag reindex FILE"}
+    command = commands.get(path.suffix.lower())
+    return f" ('{command}' mends one whose recorder was killed)" if command else ""
