@@ -8,6 +8,7 @@ from regkit.api.recordings import load_recording
 from regkit.api.registering import register, track
 from regkit.api.registration import Registration
 from regkit.api.several import track_each
+from regkit.api.sources import open_source
 from regkit.api.tracking import Tracking, TrackingError
 from regkit.geometry.camera import Camera
 from regkit.observation import Truth
@@ -30,6 +31,7 @@ __all__ = [
     "load_frame",
     "load_recording",
     "load_template",
+    "open_source",
     "preview",
     "register",
     "track",

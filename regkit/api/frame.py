@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from regkit.api.numbers import checked_numbers
 from regkit.geometry.camera import Camera
 from regkit.geometry.intrinsics import intrinsics_of
+from regkit.geometry.lens import Lens
 from regkit.observation import Frame
 from regkit.system.arrays import measured_points
 from regkit.system.errors import ConfigError, DataError
@@ -50,12 +51,13 @@ def frame_of(
     # A cloud without points is a frame without data; an image without pixels is a mistake.
     if not len(values) and values.shape[1] != 3:
         raise DataError("the array is empty", place=place)
-    lens = None if camera is None else _camera(camera, values.shape)
-    if values.shape[1] == 3 and (lens is None or (lens.height, lens.width) != values.shape):
+    lens = None if camera is None else _lens(camera, values.shape)
+    seen = None if lens is None else lens.camera
+    if values.shape[1] == 3 and (seen is None or (seen.height, seen.width) != values.shape):
         points = measured_points(values, place=place)
         if tell:
             tell_missing(len(values) - len(points), place)
-        return Frame(points, lens, place=place)
+        return Frame(points, seen, place=place)
     if lens is None:
         raise ConfigError(
             f"{place} of shape {values.shape} is a depth image, which needs a camera: its "
@@ -70,7 +72,7 @@ def frame_of(
             place=place,
         )
     try:
-        return Frame(lens.back_projected(values), lens, values, place=place)
+        return Frame.of_image(values, lens, place=place)
     except DataError as error:
         raise error.at(place) from None
 
@@ -84,12 +86,12 @@ def tell_missing(count: int, place: str) -> None:
         )
 
 
-def _camera(camera: Intrinsics, shape: tuple[int, ...]) -> Camera:
-    """Returns the camera of an image of shape (H, W)."""
+def _lens(camera: Intrinsics, shape: tuple[int, ...]) -> Lens:
+    """Returns the camera of an image of shape (H, W), with the distortion in its file."""
     if isinstance(camera, Camera):
-        return camera
+        return Lens(camera)
     if isinstance(camera, (str, Path)):
-        return Camera.read(Path(camera))
+        return Lens.read(Path(camera))
     matrix = checked_numbers(camera, place="camera", whole=True)
     if matrix.shape != (3, 3):
         raise DataError(
@@ -104,6 +106,6 @@ def _camera(camera: Intrinsics, shape: tuple[int, ...]) -> Camera:
             place="camera",
         )
     try:
-        return Camera(width, height, *intrinsics_of(matrix))
+        return Lens(Camera(width, height, *intrinsics_of(matrix)))
     except DataError as error:
         raise error.at("camera") from None

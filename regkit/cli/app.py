@@ -33,6 +33,7 @@ COMMANDS = {
     "export": "Export a tracked motion to other programs: BVH, CSV or glTF.",
     "register": "Register a template to one frame: body size, pose, and quality of the fit.",
     "track": "Track a template through a recording; the first frame's pose is found automatically.",
+    "record": "Record the depth images of a camera, or of a file, as a folder that regkit reads.",
     "preview": "Show what the segmentation removes from a recording, and what it leaves of it.",
     "align": "Align a rigid cloud or mesh to another: T_target_source, and how well they match.",
     "calibrate": "Create a template with the body proportions of the person or hand in a "

@@ -22,6 +22,7 @@ KINDS = (
     "tracker",
     "template",
     "dataset",
+    "source",
 )
 """The kinds of plug-ins that ``regkit.scaffold`` knows; a completion does not import it."""
 
@@ -50,7 +51,7 @@ def new(
         f"the {what} is in {folder / 'src' / scaffold.module / f'{what}.py'}; next:",
         f'  cd {folder} && pip install -e ".[testing]"',
         "  pytest",
-        "  regkit run example.yaml",
+        f"  {scaffold.command}",
     ]
     for line in lines:
         output.print(line)

@@ -71,6 +71,12 @@ class ProgressDisplay:
         if self._bars is not None:
             self._bars.advance(work.bar, by)
 
+    def describe(self, task: int, what: str) -> None:
+        """Changes the text of a task."""
+        self._works[task].what = what
+        if self._bars is not None:
+            self._bars.update(self._works[task].bar, description=what)
+
     def end(self, task: int, *, keep: bool = False) -> None:
         """Removes a task; ``keep`` leaves its bar on the terminal."""
         work = self._works.pop(task)

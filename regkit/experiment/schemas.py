@@ -10,7 +10,7 @@ from pydantic_core import core_schema
 
 from regkit.body import BodyDescription
 from regkit.experiment.sweeps.sweep import SweptExperiment
-from regkit.interfaces import Dataset, Method
+from regkit.interfaces import Dataset, Method, Source
 from regkit.skeleton import SkeletonDescription
 
 
@@ -22,6 +22,7 @@ def schemas() -> dict[str, dict[str, Any]]:
         "skeleton": schema_of(SkeletonDescription),
         "method": _whole(schema_of(Method), "A method as a file: a preset."),
         "dataset": _whole(schema_of(Dataset), "A dataset as a file: a preset."),
+        "source": _whole(schema_of(Source), "A source as a file: a preset, and an address."),
     }
 
 
@@ -37,7 +38,7 @@ def schema_of(model: type[BaseModel]) -> dict[str, Any]:
 
 def _whole(schema: dict[str, Any], description: str) -> dict[str, Any]:
     """Returns the schema of a file that must name its kind, from the schema of a slot."""
-    definitions = schema["$defs"]
+    definitions = schema.get("$defs", {})
     # pydantic moves a slot to the definitions only if it is used more than once.
     slot = definitions[schema["$ref"].rpartition("/")[2]] if "$ref" in schema else schema
     (named,) = (form for form in slot["anyOf"] if "oneOf" in form)

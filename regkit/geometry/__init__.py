@@ -5,6 +5,7 @@
 - ``bilinear``: quaternion products as matrix products with constant tables.
 - ``principal_axes``: principal axes of points.
 - ``camera``, ``intrinsics``: pinhole cameras, and their matrix.
+- ``lens``, ``distortion``: cameras with lens distortion, and the rectification of their images.
 - ``capsules``: tapered capsules and their signed distance.
 - ``skinned_mesh``, ``mesh_file``: triangle meshes with linear blend skinning, and their files.
 - ``surface``: skinned surfaces in segment frames, with or without triangles.
@@ -14,7 +15,8 @@ The package exports classes; import functions from ``rotation`` and ``rigid``.
 
 from regkit.geometry.camera import Camera
 from regkit.geometry.capsules import AxisPoints, Capsules
+from regkit.geometry.lens import Lens
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.geometry.surface import SkinnedSurface
 
-__all__ = ["AxisPoints", "Camera", "Capsules", "SkinnedMesh", "SkinnedSurface"]
+__all__ = ["AxisPoints", "Camera", "Capsules", "Lens", "SkinnedMesh", "SkinnedSurface"]

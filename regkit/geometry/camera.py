@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass
 from numbers import Integral
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -76,6 +78,19 @@ class Camera:
                 "centre: check whether the matrix is by rows or by columns"
             )
 
+    def check_size(self, depth: Array, *, place: str | None = None) -> None:
+        """Refuses a depth image (H, W) of another size.
+
+        Raises:
+            DataError: If the image size differs from the camera's.
+        """
+        if depth.shape != (self.height, self.width):
+            raise DataError(
+                f"the depth image has {depth.shape[1]}x{depth.shape[0]} pixels, but the camera has "
+                f"{self.width}x{self.height}; use the intrinsics of this image",
+                place=place,
+            )
+
     def back_projected(self, depth: Array, *, place: str | None = None) -> Array:
         """Returns the points (N, 3) [m] of all pixels with depth > 0, in row-major order.
 
@@ -87,12 +102,7 @@ class Camera:
             DataError: If the image size differs from the camera's, or a depth is beyond
                 ``MAX_DISTANCE``.
         """
-        if depth.shape != (self.height, self.width):
-            raise DataError(
-                f"the depth image has {depth.shape[1]}x{depth.shape[0]} pixels, but the camera has "
-                f"{self.width}x{self.height}; use the intrinsics of this image",
-                place=place,
-            )
+        self.check_size(depth, place=place)
         points, farthest = back_project(
             loop_input(depth), float(self.fx), float(self.fy), float(self.cx), float(self.cy)
         )
@@ -123,35 +133,64 @@ class Camera:
     def read(cls, path: Path) -> Camera:
         """Reads Open3D's ``PinholeCameraIntrinsic`` JSON, with its matrix by columns or by rows.
 
+        ``Lens.read`` reads the distortion of the lens too.
+
         Raises:
             DataError: If the file is missing, or does not describe such a camera.
         """
-        if not path.exists():
-            raise DataError(
-                "the file is missing; it should hold the camera's intrinsics", place=str(path)
-            )
+        content = camera_content(path)
         with reading(path, "a camera file"):
-            content = read_json(path)
-            missing = [name for name in FIELDS if name not in content]
-            if missing:
-                raise DataError(
-                    f"not a camera file: {', '.join(missing)} missing; it must have width, height "
-                    "and intrinsic_matrix (9 numbers), as Open3D writes them"
-                )
-            camera = cls(
-                content["width"], content["height"], *intrinsics_of(content["intrinsic_matrix"])
-            )
-        unread = [name for name in content if name not in FIELDS]
-        if unread:
-            note(
-                f"passed over: {shortened(', '.join(unread), 200)}; a camera here has no "
-                "distortion, and the scale of its images is given elsewhere",
-                place=path,
-            )
+            camera = cls.described_by(content)
+        tell_unread(content, path)
         return camera
+
+    @classmethod
+    def described_by(cls, content: Mapping[str, Any]) -> Camera:
+        """Returns the camera that the content of its file describes.
+
+        Raises:
+            DataError: If it does not describe a camera.
+        """
+        missing = [name for name in FIELDS if name not in content]
+        if missing:
+            raise DataError(
+                f"not a camera file: {', '.join(missing)} missing; it must have width, height "
+                "and intrinsic_matrix (9 numbers), as Open3D writes them"
+            )
+        return cls(content["width"], content["height"], *intrinsics_of(content["intrinsic_matrix"]))
 
     def to_json(self) -> str:
         """Returns the JSON text that ``read`` accepts."""
         matrix = [self.fx, 0.0, 0.0, 0.0, self.fy, 0.0, self.cx, self.cy, 1.0]
         content = {"width": self.width, "height": self.height, "intrinsic_matrix": matrix}
         return json.dumps(content, indent=2) + "\n"
+
+
+def camera_content(path: Path) -> dict[str, Any]:
+    """Returns the content of a camera's file.
+
+    Raises:
+        DataError: If it is missing, or no JSON object.
+    """
+    if not path.exists():
+        raise DataError(
+            "the file is missing; it should hold the camera's intrinsics", place=str(path)
+        )
+    return read_json(path)
+
+
+def tell_unread(content: Mapping[str, Any], path: Path, besides: tuple[str, ...] = ()) -> None:
+    """Tells which fields of a camera's file are not read.
+
+    Args:
+        content: The content of the file.
+        path: The file.
+        besides: Fields that are read besides those of a pinhole camera.
+    """
+    unread = [name for name in content if name not in (*FIELDS, *besides)]
+    if unread:
+        note(
+            f"passed over: {shortened(', '.join(unread), 200)}; a pinhole camera has no "
+            "distortion, and the scale of its images is given elsewhere",
+            place=path,
+        )

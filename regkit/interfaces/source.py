@@ -15,7 +15,7 @@ class Source(Plugin, ABC):
 
     ``realsense:0123`` is the camera of a serial number, as the plug-in with the scheme
     ``realsense`` opens it; ``walk.mcap`` is a file whose suffix a plug-in lists and which it
-    accepts.
+    accepts; ``camera.yaml`` is a file with the kind and the fields of a source.
     """
 
     group = "regkit.sources"

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from regkit.config.model import did_you_mean, path_in
+from regkit.config.preset import YAML
 from regkit.interfaces.source import Source
 from regkit.system.errors import ConfigError, DataError, PluginError
 
@@ -40,6 +41,8 @@ def described(address: str, kind: str | None) -> dict[str, Any]:
             + _cameras(" or a camera, "),
             place=address,
         )
+    if found is None and path.suffix.lower() in YAML:
+        return Source.named(address)
     found = found or _accepting(path, address)
     return {"kind": _kind(found), **found.fields_of(address)}
 
@@ -71,7 +74,7 @@ def _with_scheme(scheme: str, address: str) -> type[Source]:
         raise ConfigError(
             f"no source has the scheme '{scheme}:' (there are: {schemes}), and there is no such "
             "file" + did_you_mean(scheme, list(known)),
-            place=address,
+            place=address.rstrip(":"),
         )
     return known[scheme]
 

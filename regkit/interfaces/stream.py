@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Iterator
 from types import TracebackType
 from typing import Self
 
@@ -39,6 +40,11 @@ class Stream(ABC):
             SourceLostError: If the source yields no further frame although it has not ended, such
                 as an unplugged camera.
         """
+
+    def __iter__(self) -> Iterator[TimedFrame]:
+        """Yields the frames that are left; errors are those of ``read``."""
+        while (timed := self.read()) is not None:
+            yield timed
 
     def close(self) -> None:  # noqa: B027
         """Releases the file or device; calling it again does nothing."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from pathlib import Path
+from typing import BinaryIO
 
 import numpy as np
 
@@ -21,15 +22,25 @@ def read_depth(path: Path) -> Array:
     Raises:
         DataError: If the file is missing, damaged, too large, or an image of another kind.
     """
-    from PIL import Image
-
     if not path.exists():
         raise DataError("there is no such image", place=str(path))
+    with reading(path, "a PNG depth image, or cut short"):
+        return decoded_depth(path)
+
+
+def decoded_depth(file: Path | BinaryIO) -> Array:
+    """Returns the values (H, W) of a single-channel 16-bit PNG image, in units of the file.
+
+    Raises:
+        DataError: If it is too large, or an image of another kind.
+        Exception: If it is damaged; libraries raise many.
+    """
+    from PIL import Image
+
     # The size is checked below, so Pillow's warning about it is superfluous.
     with (
-        reading(path, "a PNG depth image, or cut short"),
         warnings.catch_warnings(action="ignore", category=Image.DecompressionBombWarning),
-        Image.open(path, formats=("PNG",)) as image,
+        Image.open(file, formats=("PNG",)) as image,
     ):
         width, height = image.size
         if width * height > MAX_PIXELS:

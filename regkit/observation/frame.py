@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from regkit.geometry.camera import Camera
+from regkit.geometry.lens import Lens
 from regkit.observation.compiled_removal import kept_points, remaining_depth
 from regkit.system.arrays import Array, Indices, loop_input
 from regkit.system.brief import Brief
@@ -34,6 +35,22 @@ class Frame(Brief):
     camera: Camera | None = None
     depth: Array | None = None
     place: str | None = None
+
+    @classmethod
+    def of_image(cls, depth: Array, lens: Lens, *, place: str | None = None) -> Frame:
+        """Returns the frame of a depth image as a camera measures it, rectified.
+
+        Args:
+            depth: Distance along the optical axis, (H, W) [m]; zero marks an invalid pixel.
+            lens: The camera with its distortion.
+            place: Source of the frame, for error messages.
+
+        Raises:
+            DataError: If the image size differs from the camera's, or a depth is beyond any camera.
+        """
+        rectified = lens.rectified(depth, place=place)
+        points = lens.camera.back_projected(rectified, place=place)
+        return cls(points, lens.camera, rectified, place)
 
     @cached_property
     def pixels(self) -> Indices | None:

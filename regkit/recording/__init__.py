@@ -11,11 +11,13 @@ truth.csv          optional: frame,joint,x,y,z [m] in the camera's frame
 - ``folder``: the folder of one recording; ``search`` finds those below a root.
 - ``depth_folder``, ``cloud_folder``: its frames.
 - ``times``: ``times.csv``.
+- ``writer``: writes it, frame by frame.
 """
 
 from regkit.recording.cloud_folder import CloudFolder
 from regkit.recording.depth_folder import DepthFolder
 from regkit.recording.description import RecordingDescription
 from regkit.recording.folder import RecordingFolder
+from regkit.recording.writer import FolderWriter
 
-__all__ = ["CloudFolder", "DepthFolder", "RecordingDescription", "RecordingFolder"]
+__all__ = ["CloudFolder", "DepthFolder", "FolderWriter", "RecordingDescription", "RecordingFolder"]

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar
 
-from regkit.geometry.camera import Camera
+from regkit.geometry.lens import Lens
 from regkit.observation import Frame
 from regkit.observation.depth_image import read_depth
 from regkit.recording.folder import RecordingFolder
@@ -21,12 +21,12 @@ class DepthFolder(RecordingFolder):
     beside: ClassVar[tuple[str, ...]] = (*RecordingFolder.beside, "camera.json")
 
     def reader(self) -> Callable[[int], Frame]:
-        """Returns the function that reads and back-projects an image."""
-        camera = Camera.read(self.folder / "camera.json")
+        """Returns the function that reads, rectifies and back-projects an image."""
+        lens = Lens.read(self.folder / "camera.json")
 
         def read(index: int) -> Frame:
             place = str(self.files[index])
             depth = read_depth(self.files[index]) / self.description.depth_scale
-            return Frame(camera.back_projected(depth, place=place), camera, depth, place)
+            return Frame.of_image(depth, lens, place=place)
 
         return read

@@ -22,6 +22,7 @@ from regkit.interfaces import (
     Segmenter,
     ShapeModel,
     Solver,
+    Source,
     StartSearch,
     Template,
     Term,
@@ -49,6 +50,7 @@ KINDS: dict[str, type[Plugin]] = {
     "tracker": Tracker,
     "template": Template,
     "dataset": Dataset,
+    "source": Source,
 }
 """The kinds of plug-ins that can be scaffolded, by their name on the command line."""
 
@@ -104,6 +106,13 @@ class Scaffold:
         """Name of the Python package."""
         return f"regkit_{self.name}"
 
+    @property
+    def command(self) -> str:
+        """Command that tries the plug-in, in the package's folder."""
+        # Experiments have no sources.
+        example = (FOLDER / self.what / f"example.yaml{SUFFIX}").is_file()
+        return "regkit run example.yaml" if example else "regkit record data/ball.json recorded"
+
     def write(self, out: Path) -> Path:
         """Writes the package to a new folder in ``out``, and returns the folder.
 
@@ -136,6 +145,7 @@ class Scaffold:
             "module": self.module,
             "class_name": "".join(map(str.capitalize, self.name.split("_"))) + self.what.title(),
             "recording": RECORDING,
+            "command": self.command,
         }
         for folder in ("package", self.what):
             for path in sorted((FOLDER / folder).rglob("*")):
@@ -148,7 +158,8 @@ class Scaffold:
 
     def _copy_data(self, folder: Path) -> None:
         """Copies the data that the package's example names and that it does not contain yet."""
-        example = (folder / "example.yaml").read_text(encoding="utf-8")
+        file = folder / "example.yaml"
+        example = file.read_text(encoding="utf-8") if file.is_file() else ""
         for name, source in (
             (RECORDING, examples_folder() / RECORDING),
             (CLOUDS, FOLDER / "dataset" / "data" / "lump"),

@@ -19,6 +19,7 @@ from regkit.testing.preprocessor_laws import PreprocessorLaws
 from regkit.testing.segmenter_laws import SegmenterLaws
 from regkit.testing.shape_laws import ShapeLaws
 from regkit.testing.solver_laws import SolverLaws
+from regkit.testing.source_laws import SourceLaws
 from regkit.testing.start_laws import StartLaws
 from regkit.testing.template_laws import TemplateLaws
 from regkit.testing.term_laws import TermLaws
@@ -27,6 +28,7 @@ from regkit.testing.tracker_laws import TrackerLaws
 LAWS: Mapping[str, tuple[type[Laws], ...]] = {
     "plugin": (PluginLaws,),
     "dataset": (DatasetLaws,),
+    "source": (SourceLaws,),
     "template": (TemplateLaws,),
     "segmenter": (SegmenterLaws,),
     "preprocessor": (PreprocessorLaws,),

@@ -183,6 +183,8 @@ def test_schema_describes_the_fields_of_every_plugin(regkit, tmp_path):
     text = (tmp_path / "schemas" / "experiment.json").read_text()
     schema = json.loads(text)
     assert {"name", "dataset", "template", "methods"} <= set(schema["required"])
+    # An experiment has datasets, and no sources.
+    text += (tmp_path / "schemas" / "source.json").read_text()
     for slot in SLOTS:
         for kind in slot.available():
             assert f'"{kind}"' in text

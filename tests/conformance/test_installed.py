@@ -41,6 +41,7 @@ TestInstalled = conformance(
             "root": str(PUBLIC / "pdt13"),
             "intrinsics": {"focal_px": 36.0, "centre_px": [19.0, 15.5]},
         },
+        "sources.folder": {"path": str(DATA / "human_walk")},
         "templates.file": {"path": str(LINKAGE)},
         "templates.cloud": {"path": str(DATA / "mannequin" / "model.npz")},
         "kernels.likelihood": [{}, {"outliers": 0.2}],

@@ -12,6 +12,9 @@ from regkit.cli import new
 from regkit.config.document import Document
 from regkit.scaffold import KINDS, Scaffold
 
+RUN = tuple(what for what in KINDS if what != "source")
+"""Kinds that an experiment uses."""
+
 LONG = ("term", "preprocessor", "tracker")
 """Kinds whose example runs for a release only; each runs the plug-ins of the others."""
 
@@ -64,7 +67,7 @@ def installed(packages, environment, monkeypatch) -> dict[str, Path]:
     return packages
 
 
-@pytest.mark.parametrize("what", KINDS)
+@pytest.mark.parametrize("what", RUN)
 def test_example_of_a_new_package_is_whole(regkit, installed, what):
     example = installed[what] / "example.yaml"
     assert regkit("validate", example).code == 0
@@ -74,7 +77,7 @@ def test_example_of_a_new_package_is_whole(regkit, installed, what):
 
 @pytest.mark.parametrize(
     "what",
-    [pytest.param(one, marks=[pytest.mark.long] if one in LONG else []) for one in KINDS],
+    [pytest.param(one, marks=[pytest.mark.long] if one in LONG else []) for one in RUN],
 )
 def test_example_of_a_new_package_runs(regkit, installed, tmp_path, what):
     example = installed[what] / "example.yaml"
