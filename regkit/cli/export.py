@@ -13,6 +13,7 @@ from regkit.cli.options import PluginFiles, options, run_plugin_files
 from regkit.experiment.tracked_motion import read_tracked_motion
 from regkit.interchange.motions import FORMATS, write_motion
 from regkit.system.errors import ConfigError
+from regkit.tracking.track_folder import TrackDescription, is_track_folder
 
 
 class Unit(StrEnum):
@@ -26,8 +27,9 @@ def export(
     results: Annotated[
         Path,
         typer.Argument(
-            metavar="RESULTS/METHOD/RECORDING",
-            help="Folder of a tracked recording in the results of a run.",
+            metavar="TRACK",
+            help="Folder of a track: RESULTS/METHOD/RECORDING of `regkit run`, or that of `regkit "
+            "track`.",
             show_default=False,
         ),
     ],
@@ -55,7 +57,10 @@ def export(
     if fps is not None and not 0.0 < fps < float("inf"):
         raise ConfigError(f"{fps:g} frames per second; it must be positive", place="--fps")
     with options(fps="--fps"):
-        motion = read_tracked_motion(results, fps)
+        if is_track_folder(results):
+            motion = TrackDescription.read(results).motion(results, fps)
+        else:
+            motion = read_tracked_motion(results, fps)
     write_motion(motion, to, scale=0.01 if unit is Unit.CM else 1.0)
     output.print(
         f"written: {to} (frames: {len(motion.transforms)}, {motion.fps:g} per second; "

@@ -84,7 +84,8 @@ def _arrays(folder: Path) -> dict[str, NDArray[Any]]:
         hint = f"; there are: {', '.join(str(other.parent) for other in others)}" if others else ""
         lack = "no finished track is here" if folder.exists() else "there is no such folder"
         raise ConfigError(
-            f"{lack}; give the folder of a finished recording, RESULTS/METHOD/RECORDING{hint}",
+            f"{lack}; give the folder of a finished recording, RESULTS/METHOD/RECORDING, or of "
+            f"`regkit track`{hint}",
             place=str(folder),
         )
     check_format(results)
