@@ -21,6 +21,7 @@ from regkit.interfaces import (
     Start,
     Stream,
     Template,
+    TimedFrame,
     Tracker,
 )
 from regkit.observation import Observation
@@ -231,6 +232,7 @@ def live_track(
     every_frame: bool = False,
     realtime: bool = False,
     rows: Callable[[Start], Rows] | None = None,
+    tap: Callable[[TimedFrame], None] | None = None,
     check: Callable[[], None] | None = None,
 ) -> LiveTrack:
     """Tracks a body as the frames of a stream come; as ``track_live``.
@@ -242,6 +244,7 @@ def live_track(
         every_frame: As in ``track_live``.
         realtime: As in ``track_live``.
         rows: Returns where the values of the track are kept; in memory by default.
+        tap: Called with every frame of the track when it is read, in another thread.
         check: Called between two frames; what it raises ends the tracking.
 
     Raises:
@@ -258,6 +261,7 @@ def live_track(
         opening=opening,
         every_frame=every_frame,
         realtime=realtime,
+        tap=tap,
         check=check or (lambda: None),
     )
     return LiveTrack(LiveTracking(source, setup), pipeline.method_name)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from contextlib import ExitStack, closing
+from contextlib import ExitStack, closing, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
@@ -12,6 +12,7 @@ from regkit.api.live import LivePose, LiveTrack, live_track
 from regkit.api.pipeline import Pipeline
 from regkit.cli.interrupt import Interrupt
 from regkit.cli.out_folder import check_out
+from regkit.cli.recording_tap import RecordingTap
 from regkit.cli.status_line import StatusLine
 from regkit.interfaces import Start, Stream
 from regkit.system.errors import RegkitError
@@ -44,6 +45,7 @@ class LiveRun:
         opening: Duration in which the body is sought [s].
         every_frame: Whether every frame of a camera is tracked.
         realtime: Whether a recording is played at its own pace.
+        record: New folder that takes the frames as a recording.
         outputs: Open what takes the poses, when the body is found.
     """
 
@@ -54,6 +56,7 @@ class LiveRun:
     opening: float = OPENING
     every_frame: bool = False
     realtime: bool = False
+    record: Path | None = None
     outputs: Sequence[Callable[[LiveTrack], Output]] = ()
 
     def followed(self) -> Ended:
@@ -63,6 +66,7 @@ class LiveRun:
             RegkitError: If the source cannot be opened, or no body comes into sight.
         """
         interrupt = Interrupt(STOPPING, checked=True)
+        tap = None if self.record is None else RecordingTap(self.record)
         track = live_track(
             self.source,
             self.pipeline,
@@ -70,10 +74,13 @@ class LiveRun:
             every_frame=self.every_frame,
             realtime=self.realtime,
             rows=lambda start: self._rows(track, start),
+            tap=tap,
             check=interrupt.check,
         )
         folder = self.folder(track)
-        with track:
+        with track, tap or nullcontext():
+            if tap is not None:
+                tap.begin(track.stream)
             check_out(folder, whole=False)
             # The search for the body ends at Ctrl-C; from here on Ctrl-C ends the track.
             track.start  # noqa: B018

@@ -136,7 +136,7 @@ def _stream(figures: Mapping[str, Any]) -> str:
     parts += [f"{count} {fault}" for fault, count in faults.items()]
     if "latency_ms" in figures:
         latency = figures["latency_ms"]
-        parts.append(f"latency {latency['p50']:.3g} ms, {latency['p99']:.3g} ms in 1 % of frames")
+        parts.append(f"latency {latency['p50']:.3g} ms (p99 {latency['p99']:.3g} ms)")
     return ", ".join(parts)
 
 

@@ -89,6 +89,14 @@ def track(
     realtime: Annotated[
         bool, typer.Option("--realtime", help="Play a recording at its own pace, as a camera.")
     ] = False,
+    record: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="DIR",
+            help="Record all frames, also those that are dropped, into this new folder.",
+            show_default=False,
+        ),
+    ] = None,
     people: Annotated[
         People,
         typer.Option(help="Track one body, or all that fit in the first frame, each by itself."),
@@ -135,6 +143,7 @@ def track(
         opening=opening,
         every_frame=every_frame,
         realtime=realtime,
+        record=record,
         outputs=[] if stream is None else [lambda track: PoseOutput(stream, track.body)],
     )
     ended = run.followed()

@@ -75,6 +75,7 @@ class LiveSetup:
         opening: Duration of the opening [s].
         every_frame: Whether every frame of a camera is tracked, however late.
         realtime: Whether a recording is played at its own pace after its opening was seen.
+        tap: Called with every frame of the track when it is read, in another thread.
         check: Called between two frames, and while none comes; what it raises ends the tracking.
     """
 
@@ -85,6 +86,7 @@ class LiveSetup:
     opening: float = OPENING
     every_frame: bool = False
     realtime: bool = False
+    tap: Callable[[TimedFrame], None] | None = None
     check: Callable[[], None] = lambda: None
 
 
@@ -105,8 +107,9 @@ class LiveTracking:
     def __init__(self, source: Callable[[], Stream], setup: LiveSetup) -> None:
         self._source = source
         self._setup = setup
-        self._reader = FrameReader(source(), every_frame=setup.every_frame)
-        self.stream = self._reader.stream
+        self.stream = source()
+        # Of a recording, the opening is read again.
+        self._reader = self._reading(self.stream, tapped=self.stream.live)
         self.watch = StreamWatch(self.stream.name, self.stream.fps)
         self.latencies = Quantiles()
         # Those that an opening may begin with; it lasts a little longer than it should.
@@ -259,8 +262,12 @@ class LiveTracking:
             self._reader.close()
             stream = self._source()
             stream = PacedStream(stream) if self._setup.realtime else stream
-            self._reader = FrameReader(stream, every_frame=every_frame)
+            self._reader = self._reading(stream, tapped=True)
         yield from self._arrivals()
+
+    def _reading(self, stream: Stream, *, tapped: bool) -> FrameReader:
+        setup = self._setup
+        return FrameReader(stream, every_frame=setup.every_frame, tap=setup.tap if tapped else None)
 
     def _warm(self, session: Session, frame: TimedFrame | None) -> None:
         """Loads everything that a step needs, so that no camera's frame waits for it."""

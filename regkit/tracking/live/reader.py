@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from threading import Condition, Thread
 
@@ -44,10 +44,18 @@ class FrameReader:
     Args:
         stream: The stream, which the reader closes at the end.
         every_frame: Whether a camera's frames wait for the tracking too, up to ``BUFFERED``.
+        tap: Called with every frame, also those that are dropped, in the thread that reads.
     """
 
-    def __init__(self, stream: Stream, *, every_frame: bool = False) -> None:
+    def __init__(
+        self,
+        stream: Stream,
+        *,
+        every_frame: bool = False,
+        tap: Callable[[TimedFrame], None] | None = None,
+    ) -> None:
         self.stream = stream
+        self._tap = tap
         self.dropped = 0
         """Number of frames that were not tracked because newer ones had arrived."""
         self._limit = (BUFFERED if every_frame else 1) if stream.live else AHEAD
@@ -92,6 +100,8 @@ class FrameReader:
     def _run(self) -> None:
         try:
             for arrived in _frames(self.stream):
+                if self._tap is not None and arrived.frame is not None:
+                    self._tap(arrived.frame)
                 if not self._hold(arrived):
                     break
         except RegkitError as error:

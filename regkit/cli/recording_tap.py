@@ -1,0 +1,67 @@
+"""Recording of a stream while it is tracked."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from threading import Lock
+from types import TracebackType
+
+from regkit.cli.console import errors
+from regkit.interfaces import Stream, TimedFrame
+from regkit.recording import FolderWriter
+from regkit.recording.writer import check_new
+from regkit.system.errors import DataError
+from regkit.system.notes import note
+
+
+class RecordingTap:
+    """Writes all frames of a stream into a folder; where that is not possible, tracking goes on.
+
+    Args:
+        folder: A new folder.
+
+    Raises:
+        ConfigError: If the folder has content, or is a file.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        check_new(folder)
+        self._folder = folder
+        self._writer: FolderWriter | None = None
+        self._lock = Lock()
+        self._over = False
+
+    def begin(self, stream: Stream) -> None:
+        """Begins the recording of an opened stream; frames before are not recorded."""
+        name = self._folder.absolute().name
+        self._writer = FolderWriter(
+            self._folder, name, stream.fps, stream.depth_scale, source=stream.name
+        )
+
+    def __call__(self, frame: TimedFrame) -> None:
+        """Writes a frame."""
+        with self._lock:
+            if self._writer is None or self._over:
+                return
+            try:
+                self._writer.add(frame)
+            except DataError as error:
+                self._over = True
+                note(f"the recording ends here, the tracking goes on: {error}", place=self._folder)
+
+    def __enter__(self) -> RecordingTap:
+        """Returns the tap."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        """Ends the recording."""
+        with self._lock:
+            self._over = True
+            if self._writer is not None:
+                self._writer.close()
+                errors.print(f"recorded: {self._writer.count} frames, in {self._folder}")
