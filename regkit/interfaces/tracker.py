@@ -64,9 +64,13 @@ class Past:
             searches=_older((*self.searches, *new)),
         )
 
+    def paused(self) -> Past:
+        """Returns the past without the last motion, as after a gap between two frames."""
+        return replace(self, before=None)
+
     def interrupted(self) -> Past:
         """Returns the past after a frame without data, in which the motion is unknown."""
-        return replace(self, before=None, missed=self.missed + 1, searches=_older(self.searches))
+        return replace(self.paused(), missed=self.missed + 1, searches=_older(self.searches))
 
 
 def _older(searches: tuple[BodySearch, ...]) -> tuple[BodySearch, ...]:

@@ -22,6 +22,13 @@ from regkit.system.compilations import loaded_loops
 from regkit.system.errors import NoDataError, RegkitError
 from regkit.tracking.segmented import segmented
 
+LONG = 1.0
+"""After a gap of this time [s] a body may be anywhere, as after frames without data.
+
+Shorter gaps are not treated so: a search for the body takes a part of a second itself, in which a
+camera's frames are dropped.
+"""
+
 
 @dataclass(frozen=True)
 class TrackedFrame:
@@ -90,12 +97,17 @@ class Follower:
         Args:
             reason: Why it cannot be read.
         """
-        self.pause()
+        self._past = self._past.interrupted()
         return TrackedFrame(None, self._past.last.without_data(reason), 0.0, 0.0)
 
-    def pause(self) -> None:
-        """Tells that the motion since the last frame is unknown, as after a gap in time."""
-        self._past = self._past.interrupted()
+    def pause(self, seconds: float) -> None:
+        """Tells that the motion since the last frame is unknown, as after a gap in time.
+
+        Args:
+            seconds: Duration of the gap [s].
+        """
+        long = seconds >= LONG
+        self._past = self._past.interrupted() if long else self._past.paused()
 
     def _step(self, frame: Frame) -> TrackedFrame:
         begun = time.perf_counter()

@@ -114,13 +114,18 @@ class LiveTracking:
         self.latencies = Quantiles()
         # Those that an opening may begin with; it lasts a little longer than it should.
         span = 2.0 * setup.opening * self.stream.fps
+        self._dropped_before = 0
         self._early: deque[Arrived] = deque(maxlen=ceil(span) + 1)
         self._found: tuple[Session, Start, Opening] | None = None
         self._recorder: TrackRecorder | None = None
 
     @property
     def dropped(self) -> int:
-        """Number of frames that were not tracked because newer ones had arrived."""
+        """Number of frames since the start that were not tracked because newer ones had arrived."""
+        return self._all_dropped - self._dropped_before
+
+    @property
+    def _all_dropped(self) -> int:
         return self._reader.dropped + self._reader.stream.dropped
 
     @property
@@ -194,8 +199,9 @@ class LiveTracking:
                 raise arrived.error or DataError("it is damaged")
             if self.watch.is_repeated(arrived.number, frame):
                 return None
-            if self.watch.has_gap(arrived.number, frame):
-                follower.pause()
+            gap = self.watch.gap(arrived.number, frame)
+            if gap is not None:
+                follower.pause(gap)
             return follower.follow(frame.frame)
         except DataError as error:
             self.watch.damaged(arrived, str(error))
@@ -257,7 +263,11 @@ class LiveTracking:
             yield from (one for one in self._early if one.number >= opening.first)
             self._early.clear()
         else:
-            self._warm(session, opening.arrived[-1].frame)
+            self._warm(session, opening)
+            if self.stream.live and (found := opening.arrived[0]).frame is not None:
+                # Since then the body has moved.
+                self.watch.gap(found.number, found.frame)
+        self._dropped_before = self._all_dropped
         if not self.stream.live:
             self._reader.close()
             stream = self._source()
@@ -269,11 +279,11 @@ class LiveTracking:
         setup = self._setup
         return FrameReader(stream, every_frame=setup.every_frame, tap=setup.tap if tapped else None)
 
-    def _warm(self, session: Session, frame: TimedFrame | None) -> None:
+    def _warm(self, session: Session, opening: Opening) -> None:
         """Loads everything that a step needs, so that no camera's frame waits for it."""
-        if frame is not None:
-            registrar, pose = self.recorder.registrar, self.start.pose
-            session.follower(registrar, self._setup.tracker, pose).follow(frame.frame)
+        registrar, pose = self.recorder.registrar, self.start.pose
+        follower = session.follower(registrar, self._setup.tracker, pose)
+        follower.follow(opening.recording.given[0])
 
     def _arrivals(self) -> Iterator[Arrived]:
         """Yields the frames of the reader until its end."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter, deque
 from statistics import median
 
@@ -76,8 +77,10 @@ class StreamWatch:
         self._tell("repeated", f"frame {number} is {what}")
         return same
 
-    def has_gap(self, number: int, frame: TimedFrame) -> bool:
-        """Returns whether the motion since the last frame is unknown, and notes why.
+    def gap(self, number: int, frame: TimedFrame) -> float | None:
+        """Returns the time [s] since the last frame in which the motion is unknown; None if none.
+
+        A time that goes back is a gap of any length. What is wrong is noted.
 
         Args:
             number: Number of the frame.
@@ -86,21 +89,21 @@ class StreamWatch:
         last, self._last, self._damaged = self._last, frame, 0
         since, self._number = number - self._number, number
         if last is None:
-            return False
+            return None
         self._compare_cameras(number, last.frame, frame.frame)
         step = frame.time - last.time
         if step < 0.0:
             self._tell("back in time", f"frame {number} is {-step:.3g} s before the last one")
-            return True
+            return math.inf
         if step == 0.0:
             self._tell("same time", f"frame {number} has the time of the last one")
-            return False
+            return None
         # Between two tracked frames of a camera others may have come, which were dropped.
         interval = step / max(since, 1)
         self._compare_rate(number, interval)
         if interval > GAP * self._period:
             self._tell("gaps", f"frame {number} comes {interval:.3g} s after the one before it")
-        return step > GAP * self._period
+        return step if step > GAP * self._period else None
 
     def _compare_cameras(self, number: int, before: Frame, after: Frame) -> None:
         sizes = [None if one.depth is None else one.depth.shape for one in (before, after)]
