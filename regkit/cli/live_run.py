@@ -109,7 +109,7 @@ class LiveRun:
         return None
 
     def _rows(self, track: LiveTrack, start: Start) -> RowsInFile:
-        """Keeps the frames on disk: memory does not grow, and a kill loses hardly a frame."""
+        """Keeps the frames on disk: memory does not grow, and a kill loses half a second."""
         about = (track.name, self.method, track.stream.fps, start.body.size)
         description = TrackDescription.of(*about, self.pipeline.template)
         return description.rows(self.folder(track), start.body)

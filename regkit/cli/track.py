@@ -155,7 +155,7 @@ def track(
     )  # fmt: skip
     if ended.error is not None:
         raise ended.error
-    if ended.interrupted and not ended.track.is_live:
+    if ended.interrupted and not ended.track.stream.live:
         raise typer.Exit(INTERRUPTED)
     conclude(tracking.judged.verdict, tracking.judged.reason, strict=strict)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import time
 from abc import ABC, abstractmethod
 from array import array
 from collections.abc import Mapping
@@ -21,8 +22,8 @@ Layout = Mapping[str, tuple[int, ...]]
 
 Arrays = dict[str, Array]
 
-WRITTEN_EVERY = 64
-"""Number of rows that are written to a file together."""
+WRITTEN_EVERY = 0.5
+"""Time after which the rows that wait are written to a file [s]."""
 
 LONGEST_HEAD = 1 << 20
 """Largest length of a file's first line."""
@@ -88,7 +89,7 @@ class RowsInMemory(Rows):
 
 
 class RowsInFile(Rows):
-    """Rows in a file, so that memory does not grow and a killed process loses hardly a frame.
+    """Rows in a file, so that memory does not grow and a killed process loses half a second.
 
     The first line is JSON with the layout and what ``about`` says; rows of doubles follow.
 
@@ -105,6 +106,7 @@ class RowsInFile(Rows):
         super().__init__(layout)
         self._path = path
         self._waiting: list[bytes] = []
+        self._written = time.monotonic()
         head = json.dumps(
             {"layout": {name: list(shape) for name, shape in layout.items()}, **about}
         )
@@ -127,10 +129,11 @@ class RowsInFile(Rows):
         except OSError as error:
             raise _unwritten(self._path, error) from None
         self._waiting.clear()
+        self._written = time.monotonic()
 
     def _store(self, row: bytes) -> None:
         self._waiting.append(row)
-        if len(self._waiting) >= WRITTEN_EVERY:
+        if time.monotonic() - self._written >= WRITTEN_EVERY:
             self.flush()
 
     def _stored(self) -> Array:
