@@ -5,7 +5,9 @@ from itertools import product
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+import numpy as np
 from bags import walk_rows, write_bag
+from kinect_files import write_kinect
 from places import DATA
 from public_layouts import SMALL, write_itop, write_pdt13, write_records
 
@@ -23,6 +25,9 @@ write_records(PUBLIC / "records" / "seq_b_3.bin", RECORD)
 for view, split in product(("side", "top"), ("train", "test")):
     write_itop(PUBLIC / "itop", view, split)
 write_pdt13(PUBLIC / "pdt13")
+
+KINECT = [np.full((288, 320), 1000 + index, np.uint16) for index in range(4)]
+"""Images of an Azure Kinect in one of its modes."""
 
 RECORDED = {}
 if find_spec("pyrealsense2") is not None:
@@ -50,6 +55,7 @@ TestInstalled = conformance(
             "root": str(PUBLIC / "pdt13"),
             "intrinsics": {"focal_px": 36.0, "centre_px": [19.0, 15.5]},
         },
+        "sources.azure_kinect": {"path": str(write_kinect(PUBLIC / "walk.mkv", KINECT))},
         "sources.folder": {"path": str(DATA / "human_walk")},
         "sources.rosbag": {"path": str(write_bag(PUBLIC / "walk", "mcap", walk_rows(4)))},
         **RECORDED,
