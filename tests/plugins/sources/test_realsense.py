@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from bags import CAMERA, walk_images
+from places import ASSETS
 
 from regkit.geometry import Camera
 from regkit.interfaces import Source
@@ -133,6 +134,26 @@ def test_recording_is_what_was_recorded(recording):
             np.testing.assert_array_equal(timed.frame.depth, image / 1000.0)
             assert timed.frame.camera == Camera(176, 144, 231.0, 231.0, 87.5, 71.5)
             assert timed.time == pytest.approx(number / 30.0)
+
+
+def test_bag_of_the_library_before_its_databases_is_read():
+    """Written by version 2.55 of RealSense's library; later ones write databases."""
+    source = Source.at(ASSETS / "realsense.bag")
+    assert isinstance(source, RealSenseRecording)
+    with source.open() as stream:
+        found = list(stream)
+    assert [one.frame.depth.max() for one in found] == [1.0, 1.001, 1.002, 1.003, 1.004]
+    assert all((one.frame.depth == one.frame.depth.max()).all() for one in found)
+    assert found[-1].time == pytest.approx(4 / 30.0)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.5])
+def test_bag_that_is_cut_short_is_told(tmp_path, share):
+    path = tmp_path / "cut.bag"
+    content = (ASSETS / "realsense.bag").read_bytes()
+    path.write_bytes(content[: int(share * len(content))])
+    with pytest.raises(RegkitError, match=r"cut\.bag"), RealSenseRecording(path=path).open() as one:
+        list(one)
 
 
 @pytest.mark.parametrize("share", [0.0, 0.5])
