@@ -63,14 +63,13 @@ def record(
     check_new(folder)
     with Interrupt("ending the recording", checked=True) as interrupt, chosen.open() as stream:
         name = folder.absolute().name
-        writer = FolderWriter(folder, name, stream.fps, stream.depth_scale, source=source)
         interrupt.last_words = f"what was recorded is in {folder}"
-        recorder = Recorder(stream, writer, frames, seconds)
-        try:
-            recorder.run(interrupt)
-        finally:
-            writer.close()
-            recorder.tell()
+        with FolderWriter(folder, name, stream.fps, stream.depth_scale, source=source) as writer:
+            recorder = Recorder(stream, writer, frames, seconds)
+            try:
+                recorder.run(interrupt)
+            finally:
+                recorder.tell()
     if interrupt.pressed:
         raise typer.Exit(INTERRUPTED)
     if not writer.count:

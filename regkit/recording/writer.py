@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 import re
 from pathlib import Path
-from typing import TextIO
+from types import TracebackType
+from typing import Self, TextIO
 
 import numpy as np
 
@@ -105,6 +106,19 @@ class FolderWriter:
         if self._times is not None:
             self._times.close()
             self._times = None
+
+    def __enter__(self) -> Self:
+        """Returns the writer."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        """Ends the recording."""
+        self.close()
 
     def _write(self, image: Array, camera: Camera, time: float) -> None:
         from PIL import Image

@@ -1,9 +1,13 @@
 """Every plug-in that is installed keeps the laws of its group: the built-ins, and all others."""
 
+from importlib.util import find_spec
 from itertools import product
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+import numpy as np
+from bags import walk_rows, write_bag
+from kinect_files import write_kinect
 from places import DATA
 from public_layouts import SMALL, write_itop, write_pdt13, write_records
 
@@ -21,6 +25,16 @@ write_records(PUBLIC / "records" / "seq_b_3.bin", RECORD)
 for view, split in product(("side", "top"), ("train", "test")):
     write_itop(PUBLIC / "itop", view, split)
 write_pdt13(PUBLIC / "pdt13")
+
+KINECT = [np.full((288, 320), 1000 + index, np.uint16) for index in range(4)]
+"""Images of an Azure Kinect in one of its modes."""
+
+RECORDED = {}
+if find_spec("pyrealsense2") is not None:
+    from soft_camera import record_walk
+
+    walk = record_walk(PUBLIC / "realsense.db3", 4)
+    RECORDED["sources.realsense_recording"] = {"path": str(walk)}
 
 LOSSES = ("squares", "huber", "tukey", "geman_mcclure")
 RIGID = {"shape": "cloud_gsog", "kernel": "local_likelihood", "solver": "gauss_newton"}
@@ -41,7 +55,10 @@ TestInstalled = conformance(
             "root": str(PUBLIC / "pdt13"),
             "intrinsics": {"focal_px": 36.0, "centre_px": [19.0, 15.5]},
         },
+        "sources.azure_kinect": {"path": str(write_kinect(PUBLIC / "walk.mkv", KINECT))},
         "sources.folder": {"path": str(DATA / "human_walk")},
+        "sources.rosbag": {"path": str(write_bag(PUBLIC / "walk", "mcap", walk_rows(4)))},
+        **RECORDED,
         "templates.file": {"path": str(LINKAGE)},
         "templates.cloud": {"path": str(DATA / "mannequin" / "model.npz")},
         "kernels.likelihood": [{}, {"outliers": 0.2}],

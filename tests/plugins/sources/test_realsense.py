@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from bags import CAMERA, walk_images
+from places import ASSETS
 
 from regkit.geometry import Camera
 from regkit.interfaces import Source
@@ -15,63 +16,16 @@ from regkit_plugins.sources.realsense.devices import connected
 from regkit_plugins.sources.realsense.stream import CameraStream
 
 rs = pytest.importorskip("pyrealsense2")
+soft_camera = pytest.importorskip("soft_camera")
+SoftCamera, record_walk = soft_camera.SoftCamera, soft_camera.record_walk
 
 COUNT = 6
-
-
-class SoftCamera:
-    """A camera of RealSense's library without hardware, which shows what it is given."""
-
-    def __init__(self, serial="0123", unit=0.001, model=None, coefficients=(0.0,) * 5):
-        self.device = rs.software_device()
-        self.device.register_info(rs.camera_info.serial_number, serial)
-        self.device.register_info(rs.camera_info.name, "Soft Camera")
-        self.sensor = self.device.add_sensor("Stereo Module")
-        intrinsics = rs.intrinsics()
-        intrinsics.width, intrinsics.height = CAMERA.width, CAMERA.height
-        intrinsics.fx, intrinsics.fy = CAMERA.fx, CAMERA.fy
-        intrinsics.ppx, intrinsics.ppy = CAMERA.cx, CAMERA.cy
-        intrinsics.model = rs.distortion.brown_conrady if model is None else model
-        intrinsics.coeffs = list(coefficients)
-        self.profiles = [self._profile(intrinsics, fps) for fps in (30, 15)]
-        self.sensor.add_read_only_option(rs.option.depth_units, unit)
-        self.unit = unit
-
-    def _profile(self, intrinsics, fps):
-        stream = rs.video_stream()
-        stream.type, stream.fmt = rs.stream.depth, rs.format.z16
-        stream.index, stream.uid, stream.bpp, stream.fps = 0, fps, 2, fps
-        stream.width, stream.height = intrinsics.width, intrinsics.height
-        stream.intrinsics = intrinsics
-        return self.sensor.add_video_stream(stream, fps == 30)
-
-    def show(self, image, number):
-        """Measures an image of ``u2``."""
-        frame = rs.software_video_frame()
-        frame.bpp, frame.stride = 2, 2 * image.shape[1]
-        frame.timestamp, frame.domain = number * 1000.0 / 30.0, rs.timestamp_domain.hardware_clock
-        frame.frame_number, frame.depth_units = number, self.unit
-        frame.profile = self.profiles[0].as_video_stream_profile()
-        frame.pixels = np.ascontiguousarray(image)
-        self.sensor.on_video_frame(frame)
 
 
 @pytest.fixture(scope="module")
 def recording(tmp_path_factory) -> Path:
     """The first frames of the shipped walk, recorded by RealSense's library."""
-    path = tmp_path_factory.mktemp("realsense") / "walk.db3"
-    camera = SoftCamera()
-    recorder = rs.recorder(str(path), camera.device)
-    (sensor,) = recorder.query_sensors()
-    queue = rs.frame_queue(COUNT, keep_frames=True)
-    sensor.open(camera.profiles[0])
-    sensor.start(queue)
-    for number, image in enumerate(walk_images(COUNT)):
-        camera.show(image, number)
-        queue.wait_for_frame()
-    sensor.stop()
-    sensor.close()
-    return path
+    return record_walk(tmp_path_factory.mktemp("realsense") / "walk.db3", COUNT)
 
 
 def test_camera_shows_what_it_measures():
@@ -180,6 +134,26 @@ def test_recording_is_what_was_recorded(recording):
             np.testing.assert_array_equal(timed.frame.depth, image / 1000.0)
             assert timed.frame.camera == Camera(176, 144, 231.0, 231.0, 87.5, 71.5)
             assert timed.time == pytest.approx(number / 30.0)
+
+
+def test_bag_of_the_library_before_its_databases_is_read():
+    """Written by version 2.55 of RealSense's library; later ones write databases."""
+    source = Source.at(ASSETS / "realsense.bag")
+    assert isinstance(source, RealSenseRecording)
+    with source.open() as stream:
+        found = list(stream)
+    assert [one.frame.depth.max() for one in found] == [1.0, 1.001, 1.002, 1.003, 1.004]
+    assert all((one.frame.depth == one.frame.depth.max()).all() for one in found)
+    assert found[-1].time == pytest.approx(4 / 30.0)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.5])
+def test_bag_that_is_cut_short_is_told(tmp_path, share):
+    path = tmp_path / "cut.bag"
+    content = (ASSETS / "realsense.bag").read_bytes()
+    path.write_bytes(content[: int(share * len(content))])
+    with pytest.raises(RegkitError, match=r"cut\.bag"), RealSenseRecording(path=path).open() as one:
+        list(one)
 
 
 @pytest.mark.parametrize("share", [0.0, 0.5])
