@@ -9,11 +9,13 @@ from sys import intern
 import numpy as np
 
 from regkit.body import BodyFit
+from regkit.body.support import segment_supports
 from regkit.interfaces import Expected, Registrar
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit.system.brief import Brief
 from regkit.tracking.loop import TrackedFrame
+from regkit.tracking.sample import FrameSample
 from regkit.tracking.session import Session
 from regkit.tracking.track import Track
 
@@ -38,7 +40,7 @@ class TrackRecorder:
 
     It stores the values of a ``Track`` for every frame, and the points of only three frames with
     data: the first, the last, and the one whose points are farthest from the surface. Other frames
-    are read again on request.
+    are read again on request. A ``FrameSample`` has thinned points for a replay.
 
     Args:
         session: The session.
@@ -48,6 +50,7 @@ class TrackRecorder:
     def __init__(self, session: Session, registrar: Registrar) -> None:
         self._session = session
         self.registrar = registrar
+        self.sample = FrameSample()
         self._values = {field.name: array("d") for field in fields(Track)}
         self._messages: list[str] = []
         self._snapshots: dict[str, Snapshot] = {}
@@ -60,20 +63,25 @@ class TrackRecorder:
     def add(self, frame: TrackedFrame) -> None:
         """Records the next frame."""
         body, found = self.registrar.body, frame.registered
+        transforms = body.place(found.pose).transforms
         points, fit = None, BodyFit.unknown()
+        supports = np.zeros(len(transforms))
         if frame.observation is not None:
             points = frame.observation.points
+            supports = segment_supports(body, transforms, points)
+            self.sample.add(len(self), frame.observation)
             fit = BodyFit.of(body, found.pose, points, frame.observation.silhouette)
         values = {
             "root": found.pose.root,
             "balls": found.pose.balls,
             "hinges": found.pose.hinges,
-            "markers": body.markers.place(body.place(found.pose).transforms),
+            "markers": body.markers.place(transforms),
             "surface_distances": fit.distance,
             "inlier_shares": fit.inlier_share,
             "coverages": fit.coverage,
             "misfits": fit.misfit,
             "reliefs": fit.relief,
+            "supports": supports,
             "points": 0 if points is None else len(points),
             "energies": found.energy,
             "evaluations": found.evaluations,
@@ -102,6 +110,7 @@ class TrackRecorder:
             "balls": rest.balls.shape,
             "hinges": rest.hinges.shape,
             "markers": (len(markers.names), 3),
+            "supports": (len(self.registrar.body.skeleton.names),),
         }
         return Track(
             **{
