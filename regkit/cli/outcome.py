@@ -12,6 +12,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from regkit.api import Tracking
+from regkit.api.viewing import scene_of
 from regkit.cli.console import errors, output
 from regkit.cli.hinge_table import hinge_table
 from regkit.cli.verdicts import conclude
@@ -20,6 +21,7 @@ from regkit.system.csv_table import csv_text
 from regkit.system.files import replacing, write_text
 from regkit.system.json_files import write_json
 from regkit.tracking import Verdict
+from regkit.viewer.track_file import write_scene
 
 DPI = 110
 
@@ -113,6 +115,7 @@ def _write(tracking: Tracking, figures: dict[str, Any], out: Path) -> None:
     write_text(out / "hinges.csv", hinge_table(tracking))
     write_text(out / "frames.csv", _frames(tracking))
     tracking.save(out / "poses.npz")
+    write_scene(scene_of(tracking), out)
     picture = png(tracking.plot(), DPI)
     with replacing(out / "picture.png") as temporary:
         temporary.write_bytes(picture)

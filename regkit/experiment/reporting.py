@@ -10,6 +10,7 @@ from regkit.experiment.provenance import manifest
 from regkit.experiment.provenance.contents import Contents
 from regkit.experiment.results import Results
 from regkit.experiment.results_format import check_format
+from regkit.experiment.scenes import write_replay
 from regkit.experiment.stated import read_config, read_environment
 from regkit.experiment.summary_file import SummaryFile
 from regkit.metrics import Measure
@@ -45,7 +46,7 @@ def report(
         measures: Metrics by method and recording.
         failures: Reasons of failures, by method and recording.
         pairs: Pairs of methods to compare, in addition to the best one with each other.
-        figures: Whether to draw figures.
+        figures: Whether to draw figures, and to write the replay.
 
     Returns:
         The path of the report.
@@ -59,7 +60,8 @@ def report(
         for method, by_recording in measures.items()
     }
     run = replace(_run(folder, measures, failures), records=records, chosen=tuple(pairs))
-    write_report(run, folder, figures=figures)
+    shown = write_replay(run, results) if figures else None
+    write_report(run, folder, figures=figures, replay=shown)
     return folder / "report.html"
 
 

@@ -19,6 +19,9 @@ SIGMAS = 2.0
 MOST_SOLIDS = 2000
 """Maximum number of solids; of more, as a cloud's, the centres are shown."""
 
+MOST_TRIANGLES = 30_000
+"""Maximum number of triangles of a mesh that is shown."""
+
 MOST_DOTS = 4000
 """Maximum number of points of a model."""
 
@@ -28,7 +31,7 @@ def shapes_of(registrar: Registrar) -> tuple[Shape, ...]:
     body = registrar.body
     model = model_shape(registrar.primitives, len(body.skeleton.names))
     surface = body.surface
-    if surface is None or not len(surface.faces):
+    if surface is None or not 0 < len(surface.faces) <= MOST_TRIANGLES:
         return (model,)
     mesh = _mesh(body, surface)
     # The vertices of a mesh are better seen as its surface.

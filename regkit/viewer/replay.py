@@ -1,112 +1,85 @@
-"""A replay: the scene of a run as one file that opens without a network, of limited size."""
+"""A replay: a scene as one file of limited size, which opens without a network."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from regkit.system.errors import DataError
 from regkit.viewer.page import page
 from regkit.viewer.points import FramePoints
-from regkit.viewer.recording_scene import recording_scene
-from regkit.viewer.scene import RecordingScene, Scene
-from regkit.viewer.track_scene import TrackScene
-
-FRAMES, ALL_FRAMES, FEWEST = 60, 240, 4
-"""Maximum number of frames of one recording and of all, and what each recording has at least."""
+from regkit.viewer.scene import MethodScene, Scene
+from regkit.viewer.shapes import MeshShape
 
 BYTES, ALL_BYTES = 5_000_000, 20_000_000
 """Maximum size of a replay of one recording and of several."""
 
-MOST_RECORDINGS = ALL_FRAMES // FEWEST
-"""Maximum number of recordings in a replay."""
-
 SPARE = 0.95
 """Part of the room that points may take, since how well they shrink is only known afterwards."""
 
-
-@dataclass(frozen=True)
-class Replayed:
-    """A recording of a run.
-
-    Attributes:
-        tracks: Reads the track of each method that finished it; None for one that was stored
-            without a scene.
-    """
-
-    tracks: Mapping[str, Callable[[], TrackScene | None]]
+MOST_DOTS = 300
+"""Number of points that stand for a mesh where there is no room for it."""
 
 
-def replay(title: str, recordings: Mapping[str, Replayed], colours: Mapping[str, str]) -> str:
-    """Returns the page with the scene of recordings.
+def replay(scene: Scene) -> str:
+    """Returns the page of a scene, of at most 5 MB for one recording and 20 MB for several.
+
+    Points are thinned until it has that size, and meshes become points if that is not enough; the
+    page tells it.
 
     Args:
-        title: The title.
-        recordings: Recordings by name; tracks are read one recording at a time.
-        colours: Colours of the methods, #rrggbb.
+        scene: The scene.
 
     Raises:
-        DataError: If no track has a scene, or a file is damaged.
+        DataError: If it is larger even so.
     """
-    shown = list(recordings)[:MOST_RECORDINGS]
-    each = max(FEWEST, min(FRAMES, ALL_FRAMES // max(len(shown), 1)))
-    scenes, lacking = [], []
-    for name in shown:
-        read = {method: track() for method, track in recordings[name].tracks.items()}
-        lacking += [f"{method} on {name}" for method, track in read.items() if track is None]
-        tracks = {method: track for method, track in read.items() if track is not None}
-        if tracks:
-            scenes.append(recording_scene(name, tracks, colours, each))
-    if not scenes:
-        raise DataError("no track has a scene; they are older than replays, run them again")
-    notes = _thinned(scenes)
-    if len(recordings) > len(shown):
-        notes.append(f"{len(shown)} of {len(recordings)} recordings are shown.")
-    if lacking:
-        notes.append(f"Without a stored scene, and not shown: {', '.join(lacking)}.")
-    most = BYTES if len(scenes) == 1 else ALL_BYTES
-    return _capped(Scene(title, tuple(scenes), " ".join(notes)), most)
-
-
-def _thinned(scenes: list[RecordingScene]) -> list[str]:
-    """Returns what is told of the frames that are left out."""
-    shown = sum(len(scene.frames) for scene in scenes)
-    every = sum(scene.length for scene in scenes)
-    return [] if shown == every else [f"{shown} of {every} frames are shown."]
-
-
-def _capped(scene: Scene, most: int) -> str:
-    """Returns the page of a scene, whose points are thinned until it has at most ``most`` bytes.
-
-    Raises:
-        DataError: If it is larger even without points.
-    """
+    most = BYTES if len(scene.recordings) == 1 else ALL_BYTES
     whole = page(scene.title, scene.json())
     if len(whole.encode()) <= most:
         return whole
-    bare = len(page(scene.title, _with_points(scene, 0.0).json()).encode())
+    bare = _size(with_points(scene, 0.0))
+    if bare > most:
+        scene = _noted(_without_meshes(scene), "Meshes are shown as points.")
+        bare = _size(with_points(scene, 0.0))
     if bare > most:
         raise DataError(
-            f"the replay has {bare / 1e6:.1f} MB without any points, more than {most / 1e6:g} MB: "
-            "its models are too large"
+            f"the replay has {bare / 1e6:.1f} MB without any points, more than {most / 1e6:g} MB"
         )
     share = 1.0
-    while len(whole.encode()) > most:
-        share *= SPARE * (most - bare) / (len(whole.encode()) - bare)
-        less = _with_points(scene, share)
-        told = f"{scene.note} {100.0 * share:.0f} % of their points are shown.".strip()
-        whole = page(scene.title, replace(less, note=told).json())
+    while (size := len(whole.encode())) > most:
+        share *= min(SPARE * (most - bare) / (size - bare), SPARE)
+        told = f"{100.0 * share:.0f} % of the points are shown."
+        whole = page(scene.title, _noted(with_points(scene, share), told).json())
     return whole
 
 
-def _with_points(scene: Scene, share: float) -> Scene:
-    """Returns the scene with a share of the points of each frame."""
-    return replace(
-        scene,
-        recordings=tuple(
-            replace(one, points=one.points.thinned(share))
-            if isinstance(one.points, FramePoints)
-            else one
-            for one in scene.recordings
-        ),
-    )
+def with_points(scene: Scene, share: float) -> Scene:
+    """Returns a scene with a share of the points of each frame, from 0 to 1."""
+    recordings = [
+        replace(one, points=one.points.thinned(share))
+        if isinstance(one.points, FramePoints)
+        else one
+        for one in scene.recordings
+    ]
+    return replace(scene, recordings=tuple(recordings))
+
+
+def _size(scene: Scene) -> int:
+    return len(page(scene.title, scene.json()).encode())
+
+
+def _noted(scene: Scene, told: str) -> Scene:
+    return replace(scene, note=f"{scene.note} {told}".strip())
+
+
+def _without_meshes(scene: Scene) -> Scene:
+    """Returns a scene whose methods show their shape model alone, and meshes as points."""
+
+    def lighter(method: MethodScene) -> MethodScene:
+        model = method.track.shapes[0]
+        shape = model.dots(MOST_DOTS) if isinstance(model, MeshShape) else model
+        return replace(method, track=replace(method.track, shapes=(shape,)))
+
+    recordings = [
+        replace(one, methods=tuple(map(lighter, one.methods))) for one in scene.recordings
+    ]
+    return replace(scene, recordings=tuple(recordings))

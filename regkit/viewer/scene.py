@@ -59,18 +59,19 @@ class MethodScene:
     colour: str
     track: TrackScene
 
-    def json(self, frames: Indices) -> dict[str, Any]:
+    def json(self, frames: Indices, values: int) -> dict[str, Any]:
         """Returns the method as JSON.
 
         Args:
             frames: Numbers of the frames in the scene, (F,).
+            values: Maximum number of values of a curve.
         """
         track = self.track
         supports = track.supports[frames]
         # A segment without a surface of its own is as sure as those around it.
         known = np.isfinite(supports)
         confidence = packed(np.where(known, supports, 1.0), "f4") if known.any() else None
-        every = max(1, -(-len(track) // MOST_VALUES))
+        every = max(1, -(-len(track) // values))
         numbers = packed(np.arange(0, len(track), every), "u4")
         return {
             "name": self.name,
@@ -114,6 +115,7 @@ class RecordingScene:
         reference: Their positions, (F, J, 3) [m]; NaN where unknown.
         camera: The camera, if it is known.
         up: The direction that is up.
+        values: Maximum number of values of a curve.
     """
 
     name: str
@@ -128,6 +130,7 @@ class RecordingScene:
     reference: Array = field(default_factory=lambda: np.zeros((0, 0, 3)))
     camera: Camera | None = None
     up: Sequence[float] = UP
+    values: int = MOST_VALUES
 
     def json(self) -> dict[str, Any]:
         """Returns the recording as JSON."""
@@ -146,7 +149,7 @@ class RecordingScene:
             "joints": joints,
             "up": list(self.up),
             "camera": None if self.camera is None else vars(self.camera),
-            "methods": [method.json(self.frames) for method in self.methods],
+            "methods": [method.json(self.frames, self.values) for method in self.methods],
         }
 
 

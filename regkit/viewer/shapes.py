@@ -120,11 +120,21 @@ class MeshShape(Shape):
 
     def placed(self, transforms: Array) -> Array:
         """Returns the vertices, (V, 3) [m]."""
+        carried = moved(transforms[self.carriers], self._local())
+        return np.asarray((self.weights[..., None] * carried).sum(axis=1))
+
+    def dots(self, most: int) -> Dots:
+        """Returns at most ``most`` vertices as points, each on its main carrier."""
+        main = np.arange(len(self.vertices)), self.weights.argmax(axis=1)
+        every = max(1, -(-len(self.vertices) // most))
+        return Dots(self.carriers[main][::every], self._local()[main][::every])
+
+    def _local(self) -> Array:
+        """Returns the vertices in the frames of their carriers, (V, C, 3) [m]."""
         rest = self.rest[self.carriers]
         inverse = np.swapaxes(to_matrix(rest[..., :4]), -1, -2)
-        local = (inverse @ (self.vertices[:, None] - rest[..., 4:])[..., None])[..., 0]
-        carried = moved(transforms[self.carriers], local)
-        return np.asarray((self.weights[..., None] * carried).sum(axis=1))
+        offsets = self.vertices[:, None] - rest[..., 4:]
+        return np.asarray((inverse @ offsets[..., None])[..., 0])
 
 
 @dataclass(frozen=True)

@@ -74,6 +74,7 @@ def test_resumed_run_does_only_what_is_missing(regkit, files):
         "gsog/second/measure.json",
         "gsog/second/poses.npz",
         "gsog/second/record.npz",
+        "gsog/second/scene.npz",
         "gsog/second/overlay.png",
     }
     for method, figures in files.metrics().items():
