@@ -215,7 +215,7 @@ class LiveViewer:
                     seen += 1
                     yield frame.event
                 elif self._closed is not None:
-                    yield b"event: closed\n" + _event(self._closed)
+                    yield b"event: end\ndata: " + " ".join(self._closed.split()).encode() + b"\n\n"
                     return
                 else:
                     yield b": waiting\n\n"
