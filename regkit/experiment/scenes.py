@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 
 from regkit.experiment.results import Results
@@ -49,16 +50,16 @@ def recorded_scene(
     )
 
 
-def stored_scenes(run: Run, results: Results) -> dict[str, Stored]:
-    """Returns what reads the scenes of the methods that are drawn, by recording."""
+def stored_scenes(run: Run, results: Results, methods: Sequence[str]) -> dict[str, Stored]:
+    """Returns what reads the scenes of some methods, by recording."""
     return {
         name: {
             method: partial(results.scene, method, name)
-            for method in run.drawn
+            for method in methods
             if name in run.finished[method]
         }
         for name in run.recordings
-        if any(name in run.finished[method] for method in run.drawn)
+        if any(name in run.finished[method] for method in methods)
     }
 
 
@@ -72,7 +73,7 @@ def write_replay(run: Run, results: Results) -> str | None:
         DataError: If a file is damaged or cannot be written.
     """
     file = results.folder / REPLAY
-    stored = stored_scenes(run, results)
+    stored = stored_scenes(run, results, run.drawn)
     colours = {method: run.style(method).colour for method in run.drawn}
     scene = run_scene(run.name, stored, colours)
     if scene is None:

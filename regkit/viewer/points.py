@@ -9,7 +9,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from regkit.system.arrays import Array, Indices, real_numbers
+from regkit.system.arrays import Array, Indices, real_numbers, whole_numbers
 from regkit.viewer.packed import packed
 
 STEPS = 2000
@@ -100,13 +100,14 @@ class FramePoints:
 
         Raises:
             KeyError: If an array is missing.
-            DataError: If an array holds no numbers.
+            DataError: If an array does not hold the right kind of numbers.
             ValueError: If the arrays contradict each other.
         """
-        frames = real_numbers(named["frames"], "frames").astype(np.intp)
-        offsets = real_numbers(named["offsets"], "offsets").astype(np.intp)
+        frames = whole_numbers(named["frames"], "frames")
+        offsets = whole_numbers(named["offsets"], "offsets")
         origin = real_numbers(named["origin"], "origin")
-        positions = np.cumsum(named["differences"], axis=0, dtype=np.int16)
+        differences = whole_numbers(named["differences"], "differences")
+        positions = np.cumsum(differences, axis=0, dtype=np.int16)
         step = float(named["step"])
         sound = (
             positions.shape == (len(positions), 3)

@@ -12,9 +12,6 @@ from regkit.viewer.track_scene import TrackScene
 FRAMES, ALL_FRAMES, FEWEST = 60, 240, 4
 """Maximum number of frames of one recording and of all, and what each recording has at least."""
 
-MOST_RECORDINGS = ALL_FRAMES // FEWEST
-"""Maximum number of recordings."""
-
 FEWEST_VALUES = 200
 """Number of values that a curve has at least, if there are so many frames."""
 
@@ -23,7 +20,10 @@ Stored = Mapping[str, Callable[[], TrackScene | None]]
 
 
 def run_scene(
-    title: str, recordings: Mapping[str, Stored], colours: Mapping[str, str]
+    title: str,
+    recordings: Mapping[str, Stored],
+    colours: Mapping[str, str],
+    frames: int = ALL_FRAMES,
 ) -> Scene | None:
     """Returns the scene of recordings; None if nothing was stored of any.
 
@@ -31,12 +31,13 @@ def run_scene(
         title: The title.
         recordings: What reads the tracks of each recording, by its name.
         colours: Colours of the methods, #rrggbb.
+        frames: Maximum number of frames of all recordings; each has at most ``FRAMES``.
 
     Raises:
         DataError: If a file is damaged.
     """
-    shown = list(recordings)[:MOST_RECORDINGS]
-    most = max(FEWEST, min(FRAMES, ALL_FRAMES // max(len(shown), 1)))
+    shown = list(recordings)[: frames // FEWEST]
+    most = min(FRAMES, frames // max(len(shown), 1))
     values = max(FEWEST_VALUES, MOST_VALUES // max(len(shown), 1))
     scenes, lacking = [], []
     for name in shown:
@@ -49,9 +50,9 @@ def run_scene(
     if not scenes:
         return None
     notes = []
-    frames, every = sum(len(one.frames) for one in scenes), sum(one.length for one in scenes)
-    if frames < every:
-        notes.append(f"{frames} of {every} frames are shown.")
+    parts, every = sum(len(one.frames) for one in scenes), sum(one.length for one in scenes)
+    if parts < every:
+        notes.append(f"{parts} of {every} frames are shown.")
     if len(recordings) > len(shown):
         notes.append(f"{len(shown)} of {len(recordings)} recordings are shown.")
     if lacking:

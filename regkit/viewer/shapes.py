@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from regkit.geometry.rotation import to_matrix
-from regkit.system.arrays import Array, Indices, real_numbers
+from regkit.system.arrays import Array, Indices, real_numbers, whole_numbers
 from regkit.viewer.packed import packed
 
 INTEGERS = {"segments": "u2", "carriers": "u2", "triangles": "u4"}
@@ -178,7 +178,8 @@ def shape_of(named: Mapping[str, NDArray[Any]], segments: int) -> Shape:
     """
     kind = KINDS[str(named["kind"])]
     values: dict[str, NDArray[Any]] = {
-        name: real_numbers(named[name], name) for name in kind.widths
+        name: (whole_numbers if name in INTEGERS else real_numbers)(named[name], name)
+        for name in kind.widths
     }
     lengths: dict[int | str, int] = {"S": segments}
     for name, array in values.items():
@@ -191,10 +192,9 @@ def shape_of(named: Mapping[str, NDArray[Any]], segments: int) -> Shape:
             raise ValueError(f"'{name}' of {kind.kind} has the shape {array.shape}")
     bounds = {"segments": segments, "carriers": segments, "triangles": lengths.get("V", 0)}
     for name in values.keys() & bounds.keys():
-        indices = values[name].astype(np.intp)
+        indices = values[name]
         if indices.size and not (indices.min() >= 0 and indices.max() < bounds[name]):
             raise ValueError(f"'{name}' of {kind.kind} is out of range")
-        values[name] = indices
     return kind(**values)
 
 

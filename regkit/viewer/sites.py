@@ -12,6 +12,7 @@ import numpy as np
 from regkit.interfaces import Recording
 from regkit.viewer.page import page
 from regkit.viewer.points import frame_bytes
+from regkit.viewer.reference import reference_of
 from regkit.viewer.scene import RecordingScene, Scene
 from regkit.viewer.server import BYTES, HTML, JSON, Answer
 
@@ -76,11 +77,15 @@ class RecordingSite:
     def _site(self) -> SceneSite:
         recording = self.recording
         camera = next((frame.camera for _, frame in recording.some([0])), None)
+        frames = np.arange(recording.length)
+        joints, reference = reference_of(recording.truth(), frames)
         shown = RecordingScene(
             name=recording.name,
             fps=recording.fps,
             length=recording.length,
-            frames=np.arange(recording.length),
+            frames=frames,
+            joints=joints,
+            reference=reference,
             points="points/0/{index}",
             camera=camera,
         )

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from regkit.body import Markers
 from regkit.geometry.camera import Camera
 from regkit.system.archives import read_arrays
-from regkit.system.arrays import real_numbers
+from regkit.system.arrays import real_numbers, whole_numbers
 from regkit.system.files import write_arrays
 from regkit.system.guard import reading
 from regkit.tracking import check_verdicts
@@ -22,6 +22,9 @@ from regkit.viewer.track_scene import Curve, TrackScene
 
 FILE = "scene.npz"
 """Name of the file in the folder of a track."""
+
+WHOLE = ("bones", "marker_segments", "marked_frames")
+"""Arrays that hold indices."""
 
 
 def write_scene(scene: TrackScene, folder: Path) -> None:
@@ -96,18 +99,23 @@ def scene_of(named: Mapping[str, NDArray[Any]]) -> TrackScene:
         "curves": (len(named["curve_names"]), frames),
         "marked_frames": (len(named["marked_why"]),),
     }
-    values = {name: real_numbers(named[name], name) for name in numbers}
+    values: dict[str, NDArray[Any]] = {
+        name: (whole_numbers if name in WHOLE else real_numbers)(named[name], name)
+        for name in numbers
+    }
     for name, shape in numbers.items():
         if values[name].shape != shape:
             raise ValueError(f"'{name}' has the shape {values[name].shape}, not {shape}")
-    indices = {name: values[name].astype(np.intp) for name in ("bones", "marker_segments")}
-    _check_range(indices["bones"], count + len(names), "bones")
-    _check_range(indices["marker_segments"], count, "marker_segments")
+    _check_range(values["bones"], count + len(names), "bones")
+    _check_range(values["marker_segments"], count, "marker_segments")
     _check_range(points.frames, frames, "frames")
-    marked = values["marked_frames"].astype(int)
+    marked = values["marked_frames"]
     _check_range(marked, frames, "marked_frames")
     if not np.isfinite(transforms).all():
         raise ValueError("'transforms' has numbers that are not finite")
+    fps = float(named["fps"])
+    if not 0.0 < fps < np.inf:
+        raise ValueError(f"{fps} frames per second")
     units = _texts(named["curve_units"])
     camera = None
     if "camera" in named:
@@ -117,10 +125,10 @@ def scene_of(named: Mapping[str, NDArray[Any]]) -> TrackScene:
     while own := _part(named, f"shape{len(shapes)}_"):
         shapes.append(shape_of(own, count))
     return TrackScene(
-        fps=float(named["fps"]),
+        fps=fps,
         segments=segments,
-        bones=indices["bones"],
-        markers=Markers(names, indices["marker_segments"], values["marker_points"]),
+        bones=values["bones"],
+        markers=Markers(names, values["marker_segments"], values["marker_points"]),
         transforms=transforms,
         supports=values["supports"],
         verdicts=named["verdicts"],

@@ -18,6 +18,7 @@ from regkit.system.arrays import Array, Indices
 from regkit.tracking import Track
 from regkit.viewer.model_shapes import shapes_of, transforms_of
 from regkit.viewer.points import FramePoints
+from regkit.viewer.reference import reference_of
 from regkit.viewer.shapes import Shape, moved
 
 
@@ -100,13 +101,7 @@ class TrackScene:
         body = registrar.body
         placed = [body.place(track.pose(frame)).transforms for frame in range(len(track))]
         known = FramePoints.of(points)
-        joints: tuple[str, ...] = ()
-        reference = np.zeros((len(known), 0, 3))
-        if truth is not None:
-            joints = tuple(truth.joints)
-            reference = np.full((len(known), len(joints), 3), np.nan)
-            there = known.frames < len(truth.positions)
-            reference[there] = truth.positions[known.frames[there]]
+        joints, reference = reference_of(truth, known.frames)
         curves = [
             Curve("inlier share", "%", 100.0 * track.inlier_shares),
             Curve("surface distance", "mm", 1000.0 * track.surface_distances),

@@ -16,7 +16,9 @@ START = (
     "--set",
     "start={kind: given, root: {position: [-0.05, -0.05, 3.25], rotation_deg: [180, 0, 0]}}",
 )
-FILES = {"result.json", "markers.csv", "hinges.csv", "frames.csv", "poses.npz", "scene.npz", "picture.png"}
+FILES = {"result.json", "markers.csv", "hinges.csv", "frames.csv", "poses.npz", "scene.npz"} | {
+    "picture.png"
+}
 
 
 @pytest.fixture
