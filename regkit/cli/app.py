@@ -31,7 +31,7 @@ COMMANDS = {
     "run": "Run an experiment: register the template to every recording with every method.",
     "report": "Write the report of a results folder again, also after an interrupted run.",
     "view": "Show tracks, clouds or a recording in a browser, until Ctrl-C.",
-    "export": "Export a tracked motion to other programs: BVH, CSV or glTF.",
+    "export": "Export a tracked motion: BVH, CSV or glTF, or an animated picture.",
     "register": "Register a template to one frame: body size, pose, and quality of the fit.",
     "track": "Track a template through a recording; the first frame's pose is found automatically.",
     "preview": "Show what the segmentation removes from a recording, and what it leaves of it.",

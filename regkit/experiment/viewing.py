@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from regkit.clouds import read_cloud
@@ -27,6 +28,7 @@ from regkit.viewer.scene import Scene
 from regkit.viewer.server import Answer
 from regkit.viewer.sites import RecordingSite, SceneSite
 from regkit.viewer.track_file import FILE, read_scene
+from regkit.viewer.track_scene import TrackScene
 
 FRAMES = 1200
 """Maximum number of frames of all recordings in a browser on this machine."""
@@ -39,6 +41,23 @@ KNOWN = (
 
 Site = Callable[[str], Answer | None]
 """What a server answers."""
+
+
+@dataclass(frozen=True)
+class StoredTrack:
+    """A track in a folder.
+
+    Attributes:
+        recording: Name of the recording.
+        method: Name of the method.
+        colour: Colour of the method, #rrggbb.
+        track: What is shown of it.
+    """
+
+    recording: str
+    method: str
+    colour: str
+    track: TrackScene
 
 
 def site_of(what: Path, recording: str | None = None, methods: Sequence[str] = ()) -> Site:
@@ -59,7 +78,11 @@ def site_of(what: Path, recording: str | None = None, methods: Sequence[str] = (
     if methods:
         raise ConfigError("only the results of a run have methods", place="--method")
     if what.is_dir() and any((what / name).is_file() for name in (manifest.FILE, "result.json")):
-        return SceneSite(_track(what))
+        one = read_track(what)
+        stored: Stored = {one.method: lambda: one.track}
+        return SceneSite(
+            _shown(one.recording, {one.recording: stored}, {one.method: one.colour}, what)
+        )
     if what.suffix.lower() == ".json":
         return SceneSite(_alignment(what))
     if what.is_file():
@@ -83,20 +106,36 @@ def _results(folder: Path, recording: str | None, methods: Sequence[str]) -> Sce
     return _shown(run.name, stored, colours, folder)
 
 
-def _track(folder: Path) -> Scene:
-    """Returns the scene of a track, of a run or of ``regkit track``."""
+def read_track(folder: Path) -> StoredTrack:
+    """Returns the track in a folder of ``regkit track``, or in ``RESULTS/METHOD/RECORDING``.
+
+    Raises:
+        ConfigError: If there is no finished track.
+        DataError: If it is damaged, or was stored without a scene.
+    """
+    if not (folder / manifest.FILE).is_file() and not (folder / "result.json").is_file():
+        others = sorted(path.parent for path in folder.glob(f"**/{FILE}"))
+        hint = f"; there are: {', '.join(map(str, others[:5]))}" if others else ""
+        raise ConfigError(
+            "no finished track is here; give RESULTS/METHOD/RECORDING, or a folder of "
+            f"`regkit track`{hint}",
+            place=str(folder),
+        )
     place = Path(os.path.abspath(folder))  # noqa: PTH100 - links must remain.
-    results, method, name = place.parent.parent, place.parent.name, place.name
-    if not (folder / manifest.FILE).is_file():
+    results, method, colour = place.parent.parent, place.parent.name, PALETTE[0]
+    if (folder / manifest.FILE).is_file():
+        check_links(results)
+        check_format(results)
+        Results(results).finished(method, place.name)
+        colour = method_styles(read_config(results), [method])[method].colour
+    else:
         method = str(read_json(folder / "result.json").get("method", "track"))
-        stored: Stored = {method: lambda: read_scene(folder) if (folder / FILE).is_file() else None}
-        return _shown(name, {name: stored}, {method: PALETTE[0]}, folder)
-    check_links(results)
-    check_format(results)
-    run = Results(results)
-    run.finished(method, name)
-    colours = {method: method_styles(read_config(results), [method])[method].colour}
-    return _shown(name, {name: {method: lambda: run.scene(method, name)}}, colours, folder)
+    if not (folder / FILE).is_file():
+        raise DataError(
+            f"the track has no {FILE}: an earlier version wrote it; run or track again",
+            place=str(folder),
+        )
+    return StoredTrack(place.name, method, colour, read_scene(folder))
 
 
 def _shown(title: str, stored: dict[str, Stored], colours: dict[str, str], place: Path) -> Scene:

@@ -128,7 +128,7 @@ def test_interrupted_run_is_completed_later(regkit, files, interrupt):
     begun = len(steps)
     assert regkit(*arguments).code == 0
     assert len(steps) - begun == FRAMES
-    assert len(files.written()) == 10
+    assert len(files.written()) == 12
 
 
 @pytest.mark.filterwarnings("default::regkit.system.notes.RegkitWarning")
