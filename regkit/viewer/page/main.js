@@ -37,7 +37,8 @@ class Page {
     themeSwitch($("theme"), () => this.paint());
     $("curve").addEventListener("change", () => this.chart());
     $("recordings").addEventListener("change", () => this.go({ recording: $("recordings").value }));
-    if (this.stage) this.stage.view.renamed = () => showControls(this.player, this.stage.view.name);
+    if (this.stage) this.stage.view.renamed = () => showControls(this.player, this.stage.view);
+    $("panel").open = !matchMedia("(max-width: 760px)").matches;
     this.title();
     this.go(read(location.hash));
     if (scene.live) this.listen();
@@ -78,12 +79,18 @@ class Page {
     this.choose(methods);
     offer(this.recording, this.display);
     this.panel.open(this.recording);
+    this.draft();
+    $("transport").hidden = !this.recording.live && this.recording.length < 2;
+    this.curves();
+    this.player.open(this.recording);
+    this.explain();
+  }
+
+  /** Makes what is drawn of the recording. */
+  draft() {
     this.picture?.dispose();
     this.picture = this.stage && new Picture(this.stage, this.recording);
     this.fitted = false;
-    this.curves();
-    this.player.open(this.recording);
-    explain($("legend"), this.recording, this.display, this.picture?.ground.cell);
   }
 
   /** Switches methods on by their names: all, if none of them is one of the recording's. */
@@ -97,12 +104,13 @@ class Page {
 
   /** Offers the curves that the methods have. */
   curves() {
-    const names = new Set(this.recording.methods.flatMap((method) => method.curves.map((curve) => curve.name)));
-    if ($("curve").options.length === names.size && [...$("curve").options].every(({ value }) => names.has(value))) return;
+    const names = new Set(this.recording.methods.flatMap(({ curves }) => curves.map(({ name }) => name)));
     const before = $("curve").value;
-    $("curve").replaceChildren(...[...names].map((name) => new Option(name, name)));
-    if (names.has(before)) $("curve").value = before;
-    $("curve").closest("label").hidden = names.size === 0;
+    if ($("curve").options.length !== names.size || !names.has(before)) {
+      $("curve").replaceChildren(...[...names].map((name) => new Option(name, name)));
+      if (names.has(before)) $("curve").value = before;
+      $("curve").closest("label").hidden = names.size === 0;
+    }
     this.chart();
   }
 
@@ -117,14 +125,18 @@ class Page {
   }
 
   chosen() {
-    explain($("legend"), this.recording, this.display, this.picture?.ground.cell);
+    this.explain();
     this.show();
+  }
+
+  explain() {
+    explain($("legend"), this.recording, this.display, this.picture?.ground.cell);
   }
 
   /** Shows the player's frame everywhere. */
   show() {
     const { frame } = this.player;
-    showControls(this.player, this.stage?.view.name);
+    showControls(this.player, this.stage?.view);
     if (!frame) return showBanner("Waiting for the first frame");
     this.panel.show(frame);
     const told = readout(this.recording, frame, this.methods);
@@ -169,7 +181,9 @@ class Page {
 
   paint() {
     this.picture?.paint();
+    this.panel.paint();
     this.timeline.draw();
+    this.explain();
   }
 
   drawn() {
@@ -181,8 +195,9 @@ class Page {
   listen() {
     listen(this.recording, {
       arrived: (dropped) => {
+        // A scene without frames has no size; the first frame gives it one.
+        if (!this.picture?.whole) this.draft();
         this.curves();
-        this.timeline.draw();
         const { player, recording } = this;
         player.go(player.following ? recording.frames.length - 1 : player.index - dropped);
       },

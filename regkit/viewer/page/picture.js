@@ -24,7 +24,7 @@ export class Picture {
     this.ground = new Ground();
     this.ground.object.visible = this.whole !== null;
     if (this.whole) this.ground.lay({ ...this.whole, radius: Math.max(size, this.whole.radius) });
-    this.points = new Cloud({ size: 0.011 * size });
+    this.points = new Cloud({ size: 0.013 * size });
     this.points.uniforms.depths.value.set(...(this.whole?.depths ?? [0, 1]));
     this.joints = new Cloud({ size: 0.035 * size, least: 9, most: 15, cross: true, above: true });
     this.clouds = recording.clouds.map((source) => {
@@ -77,7 +77,7 @@ export class Picture {
     this.points.uniforms.near.value.set(colour("near"));
     this.points.uniforms.far.value.set(colour("far"));
     this.joints.uniforms.near.value.set(colour("ink"));
-    for (const model of this.models) model.skeleton.paint();
+    for (const model of this.models) model.paint();
   }
 
   dispose() {
