@@ -24,7 +24,7 @@ function* meanings(recording, display, cell) {
   if (cell !== undefined) {
     yield ["line", "", `ground grid, ${cell >= 1 ? `${cell} m` : `${Math.round(1e6 * cell) / 1e4} cm`}`];
   }
-  if (methods.some((method) => method.verdicts.words.length > 0)) {
+  if (recording.live || recording.length > 1) {
     yield ["ribbon found", "", "found"];
     yield ["ribbon doubtful", "", "doubtful"];
     yield ["ribbon lost", "", "lost: the model is faint"];

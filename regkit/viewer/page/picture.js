@@ -5,9 +5,10 @@ import { Ground } from "./ground.js";
 import { look } from "./material.js";
 import { Model } from "./model.js";
 import { Cloud } from "./points.js";
-import { colour } from "./theme.js";
+import { colour, dark } from "./theme.js";
 
-const SEE_THROUGH = 0.42;
+/** How much a model covers of what is behind it, on a light and on a dark page. */
+const COVER = { light: 0.42, dark: 0.6 };
 
 export class Picture {
   /** @param {import("./stage.js").Stage} stage @param {import("./recording.js").Recording} recording */
@@ -52,6 +53,8 @@ export class Picture {
    * @param {import("./display.js").Display} display
    */
   show(frame, display) {
+    /** The frame that is drawn. */
+    this.frame = frame;
     this.points.object.visible = display.points && frame.points !== null;
     if (this.points.object.visible) {
       const { positions, step, origin } = frame.points;
@@ -62,7 +65,7 @@ export class Picture {
     this.joints.object.visible = display.joints && frame.joints !== null;
     if (this.joints.object.visible) this.joints.set(frame.joints);
     this.look.weighed.value = Number(display.confidence);
-    this.look.opacity.value = display.solid ? 1 : SEE_THROUGH;
+    this.look.opacity.value = display.solid ? 1 : COVER[dark() ? "dark" : "light"];
     this.models.forEach((model, m) => {
       model.show(frame.poses[m], this.recording.methods[m].verdicts.at(frame.number), display);
     });
