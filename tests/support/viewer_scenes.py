@@ -117,7 +117,7 @@ def recording(
             "origin": [0.0, 0.0, 2.5],
             "step": 0.0005,
             "offsets": entry("u4", 200 * np.arange(frames + 1)),
-            "positions": entry("i2", np.concatenate(points) / 0.0005),
+            "positions": entry("i2", np.reshape(points, (-1, 3)) / 0.0005),
         },
         "clouds": [],
         "joints": {
@@ -138,7 +138,10 @@ def scene(*recordings: dict[str, Any], title: str = "demo", **more: Any) -> byte
 
 
 def walk(**more: Any) -> bytes:
-    """Two methods on a walk: one loses the figure in the middle, where a mark is."""
+    """Two methods on a walk: one loses the figure in the middle, where a mark is.
+
+    A second recording is a cloud without methods.
+    """
     made, numbers, length = recording(marked=[{"frame": 30, "why": "worst of icp"}])
     confidence = entry("f4", np.tile([1.0, 0.6, 0.1], (len(numbers), 1)))
     made["methods"] = [
@@ -151,4 +154,5 @@ def walk(**more: Any) -> bytes:
             verdicts=[["found", 25], ["doubtful", 5], ["lost", 10], ["no data", 10], ["found", 10]],
         ),
     ]
-    return scene(made, **more)
+    single = {"name": "cloud", "joints": None, "camera": None}
+    return scene(made, recording(frames=1, every=1)[0] | single, **more)

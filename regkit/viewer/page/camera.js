@@ -9,6 +9,10 @@ const UP = new Vector3(0, 1, 0);
 const BESIDE = 0.45;
 const ABOVE = 0.2;
 
+/** Heights that the banner above and the buttons below take from the picture, in pixels. */
+const BANNER = 52;
+const BUTTONS = 48;
+
 export class View {
   /** @param {HTMLCanvasElement} canvas @param {() => void} changed */
   constructor(canvas, changed) {
@@ -22,6 +26,8 @@ export class View {
     this.distance = 1;
     /** Name of the view, until it is turned by hand. */
     this.name = "";
+    /** Takes the named view again, for another size of the canvas. @type {(() => void) | null} */
+    this.again = null;
     /** Called when the view's name changed. @type {() => void} */
     this.renamed = () => {};
   }
@@ -35,8 +41,8 @@ export class View {
     this.width = width;
     this.height = height;
     this.camera.aspect = width / height;
-    if (this.sensor) this.project();
-    else this.camera.updateProjectionMatrix();
+    this.camera.updateProjectionMatrix();
+    this.again?.();
   }
 
   /**
@@ -45,6 +51,7 @@ export class View {
    * @param {import("./extent.js").Extent} extent
    */
   look(name, extent) {
+    this.again = () => this.look(name, extent);
     this.sensor = null;
     const ahead = extent.ahead.clone().projectOnPlane(UP);
     // A depth camera that looks straight down has no front; any horizontal direction serves.
@@ -59,15 +66,19 @@ export class View {
         ahead.clone().multiplyScalar(-Math.cos(ABOVE)).applyAxisAngle(UP, BESIDE)
           .addScaledVector(UP, Math.sin(ABOVE)),
     }[name]();
-    const vertical = (this.camera.fov * Math.PI) / 360;
-    const narrow = Math.min(vertical, Math.atan(Math.tan(vertical) * this.camera.aspect));
+    const tangent = Math.tan((this.camera.fov * Math.PI) / 360);
+    const free = Math.max(1 - (BANNER + BUTTONS) / this.height, 0.4);
+    const narrow = Math.atan(tangent * Math.min(free, this.camera.aspect));
     this.distance = extent.radius / Math.sin(narrow);
+    const middle = ((BANNER - BUTTONS) / this.height) * tangent * this.distance;
+    const target = extent.centre.clone();
+    if (name !== "top") target.addScaledVector(UP, middle);
     this.camera.near = this.distance / 100;
     this.camera.far = this.distance * 60;
     this.controls.minDistance = this.distance / 40;
     this.controls.maxDistance = this.distance * 12;
-    this.controls.target.copy(extent.centre);
-    this.camera.position.copy(extent.centre).addScaledVector(from, this.distance);
+    this.controls.target.copy(target);
+    this.camera.position.copy(target).addScaledVector(from, this.distance);
     this.camera.up.copy(UP);
     this.camera.updateProjectionMatrix();
     this.controls.enabled = true;
@@ -82,6 +93,7 @@ export class View {
    * @param {import("./extent.js").Extent} extent
    */
   see(sensor, world, extent) {
+    this.again = () => this.see(sensor, world, extent);
     this.sensor = sensor;
     const turned = (x, y, z) => new Vector3(x, y, z).applyQuaternion(world.quaternion);
     this.camera.position.set(0, 0, 0);
@@ -99,6 +111,8 @@ export class View {
     const { width, height, fx, fy, cx, cy } = this.sensor;
     const wide = Math.max(1, (this.width / this.height) * (height / fy) / (width / fx));
     const high = Math.max(1, (this.height / this.width) * (width / fx) / (height / fy));
+    /** Size of the depth camera's picture in the canvas, as a style. */
+    this.border = { width: `${100 / wide}%`, height: `${100 / high}%` };
     const near = this.distance / 100;
     const across = (column) => ((width / 2 - cx + (column * wide * width) / 2) / fx) * near;
     const down = (row) => ((height / 2 - cy + (row * high * height) / 2) / fy) * near;
@@ -110,6 +124,7 @@ export class View {
 
   /** Goes over from a named view to one that is turned by hand. */
   leave() {
+    this.again = null;
     if (this.sensor) {
       this.sensor = null;
       this.camera.up.copy(UP);

@@ -1,8 +1,8 @@
 /** Draws what the timeline tells: verdicts in ribbons, a curve of each method, marks, numbers. */
 
-import { colour } from "./theme.js";
+import { colour, readable } from "./theme.js";
 
-const AXIS = 18;
+const AXIS = 25;
 const ROW = 9;
 const GAP = 4;
 const CURVE = 64;
@@ -80,7 +80,7 @@ function drawAxis(pen, scale, recording) {
 }
 
 function drawRibbon(pen, scale, method, top) {
-  pen.fillStyle = method.colour;
+  pen.fillStyle = readable(method.colour);
   pen.fillRect(0, top, 9, ROW);
   pen.fillStyle = colour("soft");
   pen.textAlign = "left";
@@ -113,7 +113,7 @@ function drawCurves(pen, scale, methods, quantity, top) {
   }
   if (low > high) return;
   if (low >= 0 && low < 0.6 * high) low = 0;
-  if (low === high) [low, high] = [low - 0.5, high + 0.5];
+  if (low === high) [low, high] = [Math.min(low, 0), Math.max(high, 0) || 1];
   const [ceiling, floor] = [top + 6, scale.height - 6];
   const y = (value) => floor - ((value - low) / (high - low)) * (floor - ceiling);
   const unit = curves[0][1].unit;
@@ -124,7 +124,7 @@ function drawCurves(pen, scale, methods, quantity, top) {
     pen.fillText(`${value.toFixed(digits)}${scale.left > 100 && unit ? ` ${unit}` : ""}`, scale.left - 6, y(value));
     pen.fillStyle = colour("soft");
   }
-  for (const [method, curve] of curves) drawCurve(pen, scale, method.colour, curve, y);
+  for (const [method, curve] of curves) drawCurve(pen, scale, readable(method.colour), curve, y);
 }
 
 function drawCurve(pen, scale, colour, { frames, values }, y) {

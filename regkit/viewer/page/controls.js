@@ -69,6 +69,9 @@ export function showControls(player, view) {
   $("mark").hidden = recording.marks.length === 0;
   $("follow").setAttribute("aria-pressed", player.following);
   for (const button of document.querySelectorAll("[data-view]")) {
-    button.setAttribute("aria-pressed", button.dataset.view === view);
+    button.setAttribute("aria-pressed", button.dataset.view === view?.name);
   }
+  // The border of the depth camera's picture, where the scene is seen as it sees it.
+  $("border").hidden = !view?.sensor;
+  if (view?.sensor) Object.assign($("border").style, view.border);
 }

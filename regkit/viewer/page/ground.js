@@ -45,7 +45,7 @@ export class Ground {
 
   /** Lays the grid below an extent. @param {import("./extent.js").Extent} extent */
   lay({ centre, radius, lowest }) {
-    const cell = rounded(radius / 3);
+    const cell = rounded(radius / 1.5);
     const wide = Math.ceil((3.2 * radius) / cell) * cell;
     this.uniforms.cell.value = cell;
     this.uniforms.radius.value = wide;

@@ -22,6 +22,7 @@ export class Instances {
    * @param {{depth: any, shown: any}} materials
    */
   constructor(geometry, segments, places, materials) {
+    this.material = materials.shown;
     this.segments = segments;
     this.places = places;
     this.confidence = new InstancedBufferAttribute(new Float32Array(places.length).fill(1), 1);
@@ -50,6 +51,11 @@ export class Instances {
     this.confidence.needsUpdate = true;
   }
 
+  /** @param {string} colour */
+  paint(colour) {
+    this.material.color.set(colour);
+  }
+
   dispose() {
     this.objects[0].geometry.dispose();
     for (const object of this.objects) {
@@ -60,7 +66,7 @@ export class Instances {
 }
 
 /** Returns ellipsoids of a scene. */
-export function ellipsoids(shape, look, presence, colour) {
+export function ellipsoids(shape, look, presence) {
   const [centres, rotations, radii] = ["centres", "rotations", "radii"].map((key) => numbers(shape[key]));
   const segments = numbers(shape.segments);
   const places = Array.from(segments, (_, k) =>
@@ -70,12 +76,12 @@ export function ellipsoids(shape, look, presence, colour) {
       new Vector3().fromArray(radii, 3 * k),
     ),
   );
-  const materials = surface(look, presence, colour);
+  const materials = surface(look, presence);
   return new Instances(new SphereGeometry(1, 24, 16), segments, places, materials);
 }
 
 /** Returns tapered capsules of a scene: the hulls of two spheres. */
-export function capsules(shape, look, presence, colour) {
+export function capsules(shape, look, presence) {
   const [ends, radii, segments] = [shape.ends, shape.radii, shape.segments].map(numbers);
   const tapers = new Float32Array(4 * segments.length);
   const places = Array.from(segments, (_, k) => {
@@ -91,7 +97,7 @@ export function capsules(shape, look, presence, colour) {
   });
   const geometry = capsuleGeometry();
   geometry.setAttribute("taper", new InstancedBufferAttribute(tapers, 4));
-  return new Instances(geometry, segments, places, surface(look, presence, colour, true));
+  return new Instances(geometry, segments, places, surface(look, presence, true));
 }
 
 /** Returns the vertices of a capsule as its material expects them: rings from pole to pole. */

@@ -1,6 +1,7 @@
 /** What the colours and signs of the scene and the timeline mean. */
 
 import { element } from "./panel.js";
+import { readable } from "./theme.js";
 
 /**
  * Returns the rows of the legend: classes and colour of a sign, and its meaning.
@@ -15,19 +16,19 @@ function* meanings(recording, display, cell) {
   }
   for (const cloud of clouds) yield ["plain", cloud.colour, cloud.name];
   const [first] = methods;
-  if (first?.bones.length) yield ["line knot", first.colour, "bones and markers of a method"];
+  if (first?.bones.length) yield ["line knot", readable(first.colour), "bones and markers of a method"];
   if (jointNames.length > 0) yield ["cross", "", "reference joints"];
   if (frames.some((frame) => frame.poses.some((pose) => pose.confidence))) {
-    yield ["sure", first.colour, "model: little data, well supported"];
+    yield ["sure", readable(first.colour), "model, from little to good support by data"];
   }
   if (cell !== undefined) {
     yield ["line", "", `ground grid, ${cell >= 1 ? `${cell} m` : `${Math.round(1e6 * cell) / 1e4} cm`}`];
   }
-  if (methods.some((method) => method.verdicts.words.length > 0)) {
-    yield ["ribbon found", "var(--found)", "found"];
-    yield ["ribbon doubtful", "var(--doubtful)", "doubtful"];
-    yield ["ribbon lost", "var(--lost)", "lost: the model is drawn faint"];
-    yield ["ribbon no-data", "var(--no-data)", "no data: the last pose, faint"];
+  if (recording.live || recording.length > 1) {
+    yield ["ribbon found", "", "found"];
+    yield ["ribbon doubtful", "", "doubtful"];
+    yield ["ribbon lost", "", "lost: the model is faint"];
+    yield ["ribbon no-data", "", "no data: the last pose, faint"];
   }
 }
 

@@ -37,7 +37,8 @@ class Page {
     themeSwitch($("theme"), () => this.paint());
     $("curve").addEventListener("change", () => this.chart());
     $("recordings").addEventListener("change", () => this.go({ recording: $("recordings").value }));
-    if (this.stage) this.stage.view.renamed = () => showControls(this.player, this.stage.view.name);
+    if (this.stage) this.stage.view.renamed = () => showControls(this.player, this.stage.view);
+    $("panel").open = !matchMedia("(max-width: 760px)").matches;
     this.title();
     this.go(read(location.hash));
     if (scene.live) this.listen();
@@ -62,14 +63,15 @@ class Page {
   go({ recording, frame, play, speed, methods }) {
     const { recordings } = this.scene;
     const source = recordings.find((one) => one.name === recording);
-    if (!this.recording || (source && source !== this.source)) this.open(source ?? recordings[0], methods);
+    const other = !this.recording || (source && source !== this.source);
+    if (other) this.open(source ?? recordings[0], methods, frame);
     else if (methods) this.choose(methods);
     if (speed) this.controls.pace(speed);
-    if (frame !== undefined) this.player.seek(this.recording.nearest(frame));
+    if (!other && frame !== undefined) this.player.seek(this.recording.nearest(frame));
     if (play !== undefined) this.player.play(play);
   }
 
-  open(source, methods) {
+  open(source, methods, frame = 0) {
     this.source = source;
     this.recording = new Recording(source);
     this.recording.live = this.scene.live;
@@ -78,12 +80,18 @@ class Page {
     this.choose(methods);
     offer(this.recording, this.display);
     this.panel.open(this.recording);
+    this.draft();
+    $("transport").hidden = !this.recording.live && this.recording.length < 2;
+    this.curves();
+    this.player.open(this.recording, frame);
+    this.explain();
+  }
+
+  /** Makes what is drawn of the recording. */
+  draft() {
     this.picture?.dispose();
     this.picture = this.stage && new Picture(this.stage, this.recording);
     this.fitted = false;
-    this.curves();
-    this.player.open(this.recording);
-    explain($("legend"), this.recording, this.display, this.picture?.ground.cell);
   }
 
   /** Switches methods on by their names: all, if none of them is one of the recording's. */
@@ -97,12 +105,13 @@ class Page {
 
   /** Offers the curves that the methods have. */
   curves() {
-    const names = new Set(this.recording.methods.flatMap((method) => method.curves.map((curve) => curve.name)));
-    if ($("curve").options.length === names.size && [...$("curve").options].every(({ value }) => names.has(value))) return;
+    const names = new Set(this.recording.methods.flatMap(({ curves }) => curves.map(({ name }) => name)));
     const before = $("curve").value;
-    $("curve").replaceChildren(...[...names].map((name) => new Option(name, name)));
-    if (names.has(before)) $("curve").value = before;
-    $("curve").closest("label").hidden = names.size === 0;
+    if ($("curve").options.length !== names.size || !names.has(before)) {
+      $("curve").replaceChildren(...[...names].map((name) => new Option(name, name)));
+      if (names.has(before)) $("curve").value = before;
+      $("curve").closest("label").hidden = names.size === 0;
+    }
     this.chart();
   }
 
@@ -117,14 +126,18 @@ class Page {
   }
 
   chosen() {
-    explain($("legend"), this.recording, this.display, this.picture?.ground.cell);
+    this.explain();
     this.show();
+  }
+
+  explain() {
+    explain($("legend"), this.recording, this.display, this.picture?.ground.cell);
   }
 
   /** Shows the player's frame everywhere. */
   show() {
     const { frame } = this.player;
-    showControls(this.player, this.stage?.view.name);
+    showControls(this.player, this.stage?.view);
     if (!frame) return showBanner("Waiting for the first frame");
     this.panel.show(frame);
     const told = readout(this.recording, frame, this.methods);
@@ -136,15 +149,22 @@ class Page {
   /** Draws a frame, as soon as its points are here. */
   async draw(frame) {
     if (!this.picture) return;
-    try {
-      await this.recording.load(frame);
-      this.recording.load(this.recording.frames[this.player.index + 1] ?? frame);
-    } catch (error) {
-      showBanner(`The points of frame ${frame.number} are not there: ${error.message}`);
-    }
+    if (frame.href && !frame.points) await this.fetch(frame);
     if (frame !== this.player.frame) return;
     if (!this.fitted) this.look("free");
     this.picture.show(frame, this.display);
+    // The next frame's points will be wanted soon; should they be missing, that is told then.
+    this.recording.load(this.recording.frames[this.player.index + 1] ?? frame).catch(() => {});
+  }
+
+  async fetch(frame) {
+    this.player.waiting = true;
+    try {
+      await this.recording.load(frame);
+    } catch (error) {
+      showBanner(`The points of frame ${frame.number} are not there: ${error.message}`);
+    }
+    if (frame === this.player.frame) this.player.waiting = false;
   }
 
   look(name) {
@@ -169,11 +189,14 @@ class Page {
 
   paint() {
     this.picture?.paint();
+    this.panel.paint();
+    this.show();
     this.timeline.draw();
+    this.explain();
   }
 
   drawn() {
-    root.dataset.ready = this.player.frame?.number ?? "";
+    root.dataset.ready = this.picture?.frame?.number ?? "";
     root.dataset.triangles = this.stage.renderer.info.render.triangles;
     root.dataset.draws = Number(root.dataset.draws ?? 0) + 1;
   }
@@ -181,16 +204,25 @@ class Page {
   listen() {
     listen(this.recording, {
       arrived: (dropped) => {
-        this.curves();
-        this.timeline.draw();
-        const { player, recording } = this;
-        player.go(player.following ? recording.frames.length - 1 : player.index - dropped);
+        this.dropped = (this.dropped ?? 0) + dropped;
+        // Frames that come faster than the screen shows pictures are shown together.
+        this.refresh ??= requestAnimationFrame(() => this.grow());
       },
       told: (text, broken = false) => {
         $("status").textContent = text;
         $("status").toggleAttribute("data-broken", broken);
       },
     });
+  }
+
+  /** Shows the frames that have arrived. */
+  grow() {
+    const { player, recording, dropped } = this;
+    Object.assign(this, { refresh: undefined, dropped: 0 });
+    // A scene without frames has no size; the first frame gives it one.
+    if (!this.picture?.whole) this.draft();
+    this.curves();
+    player.go(player.following ? recording.frames.length - 1 : player.index - dropped);
   }
 }
 

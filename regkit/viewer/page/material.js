@@ -24,19 +24,18 @@ float sure = mix(1.0, confident, weighed);
 diffuseColor.rgb = mix(faint, diffuseColor.rgb, mix(0.15, 1.0, sure));
 float rim = 1.0 - abs(dot(normalize(vViewPosition), normal));
 diffuseColor.a = mix(strength, 1.0, 0.75 * rim * rim);
-diffuseColor.a *= mix(0.3, 1.0, sure) * presence;`;
+diffuseColor.a *= mix(0.35, 1.0, sure) * presence;`;
 
 /**
  * Returns the material of a method's surfaces, and one that draws only their depth: drawn before
  * it, only the nearest surface is seen through, whatever the order of the parts.
  * @param {Look} look
  * @param {{value: number}} presence 1, or less for a body that was not found.
- * @param {string} colour
  * @param {boolean} capsules Whether the vertices are those of tapered capsules.
  */
-export function surface(look, presence, colour, capsules = false) {
+export function surface(look, presence, capsules = false) {
   const made = (options) => {
-    const material = new MeshLambertMaterial({ color: colour, transparent: true, ...options });
+    const material = new MeshLambertMaterial({ transparent: true, ...options });
     material.onBeforeCompile = (shader) => patch(shader, look, presence, capsules);
     material.customProgramCacheKey = () => `surface ${capsules}`;
     return material;

@@ -7,6 +7,7 @@ import { Cloud } from "./points.js";
 import { setMatrices } from "./rigid.js";
 import { Skeleton } from "./skeleton.js";
 import { Skin } from "./skin.js";
+import { readable } from "./theme.js";
 
 /** How the kinds of shapes are called, in the order in which they are offered. */
 export const KINDS = { mesh: "mesh", capsules: "capsules", ellipsoids: "ellipsoids", points: "points" };
@@ -37,7 +38,7 @@ export class Model {
     /** Shapes by their kind. */
     this.shapes = new Map();
     for (const entry of method.shapes) {
-      const shape = MAKERS[entry.kind](entry, look, this.presence, method.colour, size);
+      const shape = MAKERS[entry.kind](entry, look, this.presence, size);
       shape.objects.forEach((object, pass) => (object.renderOrder = 1 + 2 * order + pass));
       this.object.add(...shape.objects);
       this.shapes.set(entry.kind, [...(this.shapes.get(entry.kind) ?? []), shape]);
@@ -76,6 +77,12 @@ export class Model {
     return Object.keys(KINDS).find((kind) => this.shapes.has(kind)) ?? "none";
   }
 
+  /** Takes the method's colour as it is at present. */
+  paint() {
+    this.skeleton.paint();
+    for (const shape of [...this.shapes.values()].flat()) shape.paint(readable(this.method.colour));
+  }
+
   dispose() {
     this.skeleton.dispose();
     for (const shape of [...this.shapes.values()].flat()) shape.dispose();
@@ -86,12 +93,11 @@ const place = new Vector3();
 
 /** Points that segments carry. */
 class CarriedPoints {
-  constructor(shape, look, presence, colour, size) {
+  constructor(shape, look, presence, size) {
     this.segments = numbers(shape.segments);
     this.centres = numbers(shape.centres);
     this.places = new Float32Array(this.centres.length);
     this.cloud = new Cloud({ size: 0.012 * size });
-    this.cloud.uniforms.near.value.set(colour);
     this.objects = [this.cloud.object];
   }
 
@@ -104,6 +110,10 @@ class CarriedPoints {
   }
 
   weigh() {}
+
+  paint(colour) {
+    this.cloud.uniforms.near.value.set(colour);
+  }
 
   dispose() {
     this.cloud.dispose();

@@ -1,5 +1,7 @@
 /** The methods beside the scene: their switches, verdicts and values in the frame. */
 
+import { readable } from "./theme.js";
+
 /** Segments with less confidence are named. */
 const UNSURE = 0.35;
 const NAMED = 4;
@@ -46,11 +48,16 @@ export class Panel {
   open(recording) {
     this.items = recording.methods.map((method) => this.item(method));
     this.list.replaceChildren(...this.items.map((item) => item.row));
+    this.paint();
+  }
+
+  /** Takes the methods' colours as they are at present. */
+  paint() {
+    for (const { row, method } of this.items) row.style.setProperty("--colour", readable(method.colour));
   }
 
   item(method) {
     const row = element("li");
-    row.style.setProperty("--colour", method.colour);
     const label = element("label", "name");
     const box = element("input");
     box.type = "checkbox";

@@ -5,9 +5,10 @@ import { Ground } from "./ground.js";
 import { look } from "./material.js";
 import { Model } from "./model.js";
 import { Cloud } from "./points.js";
-import { colour } from "./theme.js";
+import { colour, dark } from "./theme.js";
 
-const SEE_THROUGH = 0.42;
+/** How much a model covers of what is behind it, on a light and on a dark page. */
+const COVER = { light: 0.42, dark: 0.6 };
 
 export class Picture {
   /** @param {import("./stage.js").Stage} stage @param {import("./recording.js").Recording} recording */
@@ -24,7 +25,7 @@ export class Picture {
     this.ground = new Ground();
     this.ground.object.visible = this.whole !== null;
     if (this.whole) this.ground.lay({ ...this.whole, radius: Math.max(size, this.whole.radius) });
-    this.points = new Cloud({ size: 0.011 * size });
+    this.points = new Cloud({ size: 0.013 * size });
     this.points.uniforms.depths.value.set(...(this.whole?.depths ?? [0, 1]));
     this.joints = new Cloud({ size: 0.035 * size, least: 9, most: 15, cross: true, above: true });
     this.clouds = recording.clouds.map((source) => {
@@ -52,6 +53,8 @@ export class Picture {
    * @param {import("./display.js").Display} display
    */
   show(frame, display) {
+    /** The frame that is drawn. */
+    this.frame = frame;
     this.points.object.visible = display.points && frame.points !== null;
     if (this.points.object.visible) {
       const { positions, step, origin } = frame.points;
@@ -62,7 +65,7 @@ export class Picture {
     this.joints.object.visible = display.joints && frame.joints !== null;
     if (this.joints.object.visible) this.joints.set(frame.joints);
     this.look.weighed.value = Number(display.confidence);
-    this.look.opacity.value = display.solid ? 1 : SEE_THROUGH;
+    this.look.opacity.value = display.solid ? 1 : COVER[dark() ? "dark" : "light"];
     this.models.forEach((model, m) => {
       model.show(frame.poses[m], this.recording.methods[m].verdicts.at(frame.number), display);
     });
@@ -77,7 +80,7 @@ export class Picture {
     this.points.uniforms.near.value.set(colour("near"));
     this.points.uniforms.far.value.set(colour("far"));
     this.joints.uniforms.near.value.set(colour("ink"));
-    for (const model of this.models) model.skeleton.paint();
+    for (const model of this.models) model.paint();
   }
 
   dispose() {

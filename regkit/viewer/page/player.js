@@ -10,16 +10,22 @@ export class Player {
     this.index = 0;
     this.speed = 1;
     this.playing = false;
+    /** Whether the frame still waits for its points; the clock stands still meanwhile. */
+    this.waiting = false;
     /** Whether the newest frame of a live recording is shown. */
     this.following = false;
     this.tick = this.tick.bind(this);
   }
 
-  /** Goes to a recording. @param {import("./recording.js").Recording} recording */
-  open(recording) {
+  /**
+   * Goes to a recording.
+   * @param {import("./recording.js").Recording} recording
+   * @param {number} number Number of its frame, if it is not a live one.
+   */
+  open(recording, number) {
     this.recording = recording;
     this.following = recording.live;
-    this.go(this.following ? recording.frames.length - 1 : 0);
+    this.go(this.following ? recording.frames.length - 1 : recording.nearest(number));
   }
 
   get frame() {
@@ -66,7 +72,7 @@ export class Player {
     if (!this.playing) return;
     const passed = Math.min((now - (this.before ?? now)) / 1000, PAUSE);
     this.before = now;
-    this.advance(passed * this.speed);
+    if (!this.waiting) this.advance(passed * this.speed);
     if (this.playing) this.request ??= requestAnimationFrame(this.tick);
   }
 

@@ -19,14 +19,18 @@ uniform vec3 near, far;
 uniform float opacity;
 varying float shade;
 void main() {
+  float clear = opacity;
   vec2 place = 2.0 * gl_PointCoord - 1.0;
   #ifdef CROSS
     vec2 arm = abs(vec2(place.x + place.y, place.x - place.y));
     if (min(arm.x, arm.y) > 0.26 || max(arm.x, arm.y) > 1.6) discard;
   #else
-    if (dot(place, place) > 1.0) discard;
+    float edge = length(place);
+    float inside = clamp((1.0 - edge) / fwidth(edge) + 0.5, 0.0, 1.0);
+    if (inside == 0.0) discard;
+    clear *= inside;
   #endif
-  gl_FragColor = vec4(mix(near, far, shade), opacity);
+  gl_FragColor = vec4(mix(near, far, shade), clear);
   #include <colorspace_fragment>
 }`;
 
@@ -55,6 +59,8 @@ export class Cloud {
       fragmentShader: FRAGMENT,
       defines: cross ? { CROSS: "" } : {},
       transparent: above,
+      // Edges are smoothed by the samples of a pixel, which need no order of the points.
+      alphaToCoverage: !above,
       depthTest: !above,
       depthWrite: !above,
     });

@@ -2,7 +2,7 @@
 
 import { Color, CylinderGeometry, DynamicDrawUsage, Group, InstancedMesh, Matrix4, MeshBasicMaterial, Quaternion, Vector3 } from "three";
 import { Cloud } from "./points.js";
-import { colour as styled } from "./theme.js";
+import { colour, readable } from "./theme.js";
 
 const AXIS = new Vector3(0, 1, 0);
 const start = new Vector3();
@@ -52,7 +52,7 @@ export class Skeleton {
 
   /** Takes the method's colour, nearer to the ink, so that it stands out from its surface. */
   paint() {
-    const shade = new Color(this.method.colour).lerp(new Color(styled("ink")), 0.45);
+    const shade = new Color(readable(this.method.colour)).lerp(new Color(colour("ink")), 0.45);
     this.bones.material.color.copy(shade);
     this.knots.uniforms.near.value.copy(shade);
   }

@@ -7,7 +7,7 @@ import { matricesOf } from "./rigid.js";
 
 export class Skin {
   /** @param {any} shape The mesh of a scene. */
-  constructor(shape, look, presence, colour) {
+  constructor(shape, look, presence) {
     this.vertices = numbers(shape.vertices);
     this.carriers = numbers(shape.carriers);
     this.weights = numbers(shape.weights);
@@ -25,7 +25,8 @@ export class Skin {
     this.confidence = new BufferAttribute(new Float32Array(this.count).fill(1), 1);
     geometry.setAttribute("confidence", this.confidence.setUsage(DynamicDrawUsage));
     this.geometry = geometry;
-    const materials = surface(look, presence, colour);
+    const materials = surface(look, presence);
+    this.material = materials.shown;
     this.objects = [materials.depth, materials.shown].map((one) => new Mesh(geometry, one));
     for (const object of this.objects) object.frustumCulled = false;
   }
@@ -71,6 +72,11 @@ export class Skin {
       }
     }
     this.confidence.needsUpdate = true;
+  }
+
+  /** @param {string} colour */
+  paint(colour) {
+    this.material.color.set(colour);
   }
 
   dispose() {

@@ -16,6 +16,16 @@ export function colour(name) {
   return getComputedStyle(probe).color;
 }
 
+/**
+ * Returns a method's colour as it stands out at present: nearer to white on a dark page.
+ * @param {string} given As #rrggbb.
+ */
+export function readable(given) {
+  if (!dark()) return given;
+  const lighter = (at) => Math.round(0.68 * parseInt(given.slice(at, at + 2), 16) + 0.32 * 255);
+  return `rgb(${lighter(1)}, ${lighter(3)}, ${lighter(5)})`;
+}
+
 /** Lets a button switch between light and dark. @param {() => void} changed */
 export function themeSwitch(button, changed) {
   button.addEventListener("click", () => {

@@ -1,9 +1,7 @@
 /** Verdicts of frames: in which runs they come, and how they are said. */
 
-/** Verdicts from the best to the worst. */
-export const VERDICTS = ["found", "doubtful", "no data", "lost"];
-
-const ALARMS = { doubtful: "Doubtful", lost: "Body lost", "no data": "No body in sight" };
+/** What is said about verdicts that must not be overlooked, the worst first. */
+const ALARMS = { lost: "Body lost", "no data": "No body in sight", doubtful: "Doubtful" };
 
 /** The verdicts of a recording's frames, as runs of the same verdict. */
 export class Verdicts {
@@ -49,18 +47,15 @@ export class Verdicts {
 }
 
 /**
- * Returns what has to be said about a frame: the worst verdict, its alarm, and whose it is.
+ * Returns what has to be said about a frame: the worst verdict, its alarm, and what else is not well.
  * @param {{name: string, verdict: string}[]} methods The methods that are shown.
- * @returns {{verdict: string, alarm: string, whose: string} | null}
+ * @returns {{verdict: string, alarm: string, more: string} | null}
  */
 export function alarm(methods) {
-  const bad = methods.filter(({ verdict }) => verdict in ALARMS);
-  if (bad.length === 0) return null;
-  bad.sort((a, b) => VERDICTS.indexOf(b.verdict) - VERDICTS.indexOf(a.verdict));
-  const verdict = bad[0].verdict;
-  const alike = bad.length === methods.length && bad.every((one) => one.verdict === verdict);
-  const parts = VERDICTS.filter((word) => bad.some((one) => one.verdict === word)).reverse();
-  const names = (word) => bad.filter((one) => one.verdict === word).map((one) => one.name);
-  const whose = alike ? "" : parts.map((word) => `${word}: ${names(word).join(", ")}`).join(" · ");
-  return { verdict, alarm: ALARMS[verdict], whose };
+  const names = (verdict) => methods.filter((one) => one.verdict === verdict).map((one) => one.name);
+  const [worst, ...others] = Object.keys(ALARMS).filter((verdict) => names(verdict).length > 0);
+  if (!worst) return null;
+  const whose = names(worst).length < methods.length ? `: ${names(worst).join(", ")}` : "";
+  const more = others.map((verdict) => `${verdict}: ${names(verdict).join(", ")}`).join(" · ");
+  return { verdict: worst, alarm: ALARMS[worst] + whose, more };
 }
