@@ -8,21 +8,41 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from _animation import write_animation
 from matplotlib.figure import Figure
 from PIL import Image
 
 import regkit
+from regkit.api.viewing import scene_of
+from regkit.viewer.animation.film import drawing_of, encoded
+from regkit.viewer.animation.pose import ShownPose
+from regkit.viewer.animation.view import Sheet
 from regkit_plugins.datasets.synthetic import Synthetic, SyntheticRecording
 from regkit_synthesis.rooms import ROOMS
 
 DOCS = Path(__file__).parent
 DATA = DOCS / "examples" / "data"
 
+MILLISECONDS = 66
+"""How long each picture of the walk is shown: its two seconds take four."""
+
+SOLE = 0.01
+"""How far the sole is below the lowest marker, at the toes [m]."""
+
 
 def track() -> None:
-    """The sample walk as the README shows it."""
-    write_animation(DATA / "human_walk", DOCS / "images" / "track.webp")
+    """The sample walk as the README shows it: points, the model that appears in them, the walk."""
+    walk = regkit.load_recording(DATA / "human_walk")
+    tracked = regkit.track(walk, regkit.load_template("human", height=1.63))
+    scene = scene_of(tracked)
+    poses = [ShownPose.of(scene, index, frame.points) for index, frame in enumerate(walk.frames())]
+    ground = SOLE + float(tracked.markers[..., 1].max())
+    drawing = drawing_of(scene, poses, Sheet(800, 470), ground)
+    appearing = [(poses[0], presence) for presence in (0.0, 0.0, 0.0, 0.0, 0.0, 0.25, 0.5, 0.75)]
+    going = [(poses[-1], presence) for presence in (1.0, 1.0, 1.0, 0.66, 0.33)]
+    shown = [*appearing, *((pose, 1.0) for pose in poses), *going]
+    pictures = [drawing.picture(pose, presence) for pose, presence in shown]
+    content = encoded(pictures, [MILLISECONDS] * len(pictures), ".webp")
+    (DOCS / "images" / "track.webp").write_bytes(content)
     print("docs/images/track.webp")
 
 

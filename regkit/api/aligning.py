@@ -21,6 +21,8 @@ from regkit.system.arrays import Array, without_missing
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from regkit.viewer.embedded import SceneView
+
 Cloud = str | Path | ArrayLike
 """Points (N, 3) [m], or the file of a cloud or a mesh."""
 
@@ -61,6 +63,18 @@ class CloudAlignment(Summary):
         from regkit.report.alignment_figure import alignment_figure
 
         return alignment_figure(self.source, self.aligned, self.target)
+
+    def view(self, *, height: int = 560) -> SceneView:
+        """Returns a view of the target, the source and the aligned source, for a notebook.
+
+        Args:
+            height: Height in a notebook [px].
+        """
+        from regkit.viewer.alignment_scene import alignment_scene
+        from regkit.viewer.embedded import SceneView
+
+        scene = alignment_scene("alignment", self.source, self.target, self.aligned)
+        return SceneView(scene, height)
 
     def save(self, path: str | Path) -> None:
         """Writes the aligned source as a cloud; the suffix of ``path`` selects the format.

@@ -45,6 +45,8 @@ class LivePose(Brief):
         pose: The pose.
         segments: T_camera_segment of each of S segments, (S, 4, 4) [m].
         markers: The markers in the camera's frame, (M, 3) [m].
+        supports: How well data support each segment, (S,), from 0 to 1; NaN for one without
+            capsules.
         verdict: Whether the body was found.
         inlier_share: Fraction of the points that lie on the body; NaN without data.
         observation: The data of the frame; None if it has none.
@@ -57,6 +59,7 @@ class LivePose(Brief):
     pose: Pose
     segments: Array
     markers: Array
+    supports: Array
     verdict: Verdict
     inlier_share: float
     observation: Observation | None
@@ -73,6 +76,7 @@ class LivePose(Brief):
             pose=tracked.registered.pose,
             segments=recorded.placement.transforms,
             markers=recorded.markers,
+            supports=recorded.supports,
             verdict=recorded.verdict,
             inlier_share=recorded.fit.inlier_share,
             observation=tracked.observation,

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from regkit.api.tracking import Tracking
+    from regkit.viewer.embedded import SceneView
 
 
 @dataclass(frozen=True, repr=False)
@@ -103,6 +104,14 @@ class Registration(Summary):
     def plot(self) -> Figure:
         """Returns a figure of the frame from the front and from the side."""
         return self.tracking.plot()
+
+    def view(self, *, height: int = 560) -> SceneView:
+        """Returns a view of points and body: a notebook shows it inline.
+
+        Args:
+            height: Height in a notebook [px].
+        """
+        return self.tracking.view(height=height)
 
     def save(self, path: str | Path) -> None:
         """Writes the pose in the format of ``Tracking.save``, with T = 1."""

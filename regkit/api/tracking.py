@@ -24,6 +24,8 @@ from regkit.tracking import Snapshot, Track, TrackRecorder, TrackVerdict, Verdic
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from regkit.viewer.embedded import SceneView
+
 
 class TrackingError(RegkitError):
     """A recording could not be tracked to its end.
@@ -181,6 +183,23 @@ class Tracking(Summary):
         errors = self._errors(truth)
         record = Record.of(self.track, self.snapshot, self.registrar, errors, known, self.fps)
         return overlay(f"{self.method} on {self.name}", record, PALETTE[0])
+
+    def view(self, truth: Reference | None = None, *, height: int = 560) -> SceneView:
+        """Returns a view of points, body and verdicts over time: a notebook shows it inline.
+
+        Its ``save`` writes it as a page that opens without a network, its ``open`` opens it in a
+        browser. Of a long track some 60 frames are shown.
+
+        Args:
+            truth: Reference joints, shown beside the markers.
+            height: Height in a notebook [px].
+
+        Raises:
+            RegkitError: If the reference does not match, or a frame can no longer be read.
+        """
+        from regkit.api.viewing import view_of
+
+        return view_of(self, truth, height)
 
     def save(self, path: str | Path) -> None:
         """Writes the motion as an ``.npz`` file, with the arrays of a run's ``poses.npz``.

@@ -101,6 +101,11 @@ class Body(Brief):
         return self.capsules.selected(~self.is_optional(self.capsules.segments))
 
     @cached_property
+    def axes(self) -> AxisPoints:
+        """Points on the axes of the surface, in the segments' frames."""
+        return self.capsules.axis_points(SPACING * self.size)
+
+    @cached_property
     def required_axes(self) -> AxisPoints:
         """Points on the axes of the required surface, in the segments' frames."""
         return self.required.axis_points(SPACING * self.size)

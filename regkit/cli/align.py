@@ -122,7 +122,8 @@ def align(
         )
     verdict, reason = _verdict(found, min_fitness)
     if as_json:
-        typer.echo(json.dumps(_figures(found, name, verdict), indent=2, allow_nan=False))
+        places = {"source": str(source), "target": str(target)}
+        typer.echo(json.dumps(_figures(found, name, verdict) | places, indent=2, allow_nan=False))
     else:
         rows = matrix_rows(found.transform, points)
         fits = max(map(len, rows)) <= output.width - FRAME

@@ -30,7 +30,8 @@ P = ParamSpec("P")
 COMMANDS = {
     "run": "Run an experiment: register the template to every recording with every method.",
     "report": "Write the report of a results folder again, also after an interrupted run.",
-    "export": "Export a tracked motion to other programs: BVH, CSV or glTF.",
+    "view": "Show tracks, clouds or a recording in a browser, until Ctrl-C.",
+    "export": "Export a tracked motion: BVH, CSV or glTF, or an animated picture.",
     "register": "Register a template to one frame: body size, pose, and quality of the fit.",
     "track": "Track a template through a recording; the first frame's pose is found automatically.",
     "record": "Record the depth images of a camera, or of a file, as a folder that regkit reads.",

@@ -11,9 +11,12 @@ import typer
 from regkit.cli.console import output
 from regkit.cli.options import PluginFiles, options, run_plugin_files
 from regkit.experiment.tracked_motion import read_tracked_motion
+from regkit.experiment.viewing import read_track
 from regkit.interchange.motions import FORMATS, write_motion
 from regkit.system.errors import ConfigError
 from regkit.tracking.track_folder import TrackDescription, is_track_folder
+from regkit.viewer.animation.film import FORMATS as FILMS
+from regkit.viewer.animation.film import write_film
 
 
 class Unit(StrEnum):
@@ -37,7 +40,8 @@ def export(
         Path,
         typer.Option(
             metavar="FILE",
-            help="File to write: .bvh, .csv or .glb; an existing one is replaced.",
+            help="File to write: .bvh, .csv or .glb, or the animated picture .gif or .webp; an "
+            "existing one is replaced.",
             show_default=False,
         ),
     ],
@@ -48,14 +52,18 @@ def export(
     ] = None,
     plugin: PluginFiles = None,
 ) -> None:
-    """Export a tracked motion to other programs: BVH, CSV or glTF."""
+    """Export a tracked motion: BVH, CSV or glTF, or an animated picture."""
     run_plugin_files(plugin)
-    if to.suffix.lower() not in FORMATS:
+    known = (*FORMATS, *FILMS)
+    if to.suffix.lower() not in known:
         raise ConfigError(
-            f"'{to.suffix}' is not an export format ({', '.join(FORMATS)})", place="--to"
+            f"'{to.suffix}' is not an export format ({', '.join(known)})", place="--to"
         )
     if fps is not None and not 0.0 < fps < float("inf"):
         raise ConfigError(f"{fps:g} frames per second; it must be positive", place="--fps")
+    if to.suffix.lower() in FILMS:
+        _export_film(results, to, fps)
+        return
     with options(fps="--fps"):
         if is_track_folder(results):
             motion = TrackDescription.read(results).motion(results, fps)
@@ -65,4 +73,14 @@ def export(
     output.print(
         f"written: {to} (frames: {len(motion.transforms)}, {motion.fps:g} per second; "
         f"segments: {len(motion.body.skeleton.names)})",
+    )
+
+
+def _export_film(folder: Path, to: Path, fps: float | None) -> None:
+    """Writes the animated picture of a track, of a run or of ``regkit track``."""
+    film = write_film(read_track(folder).track, to, fps)
+    left_out = "" if film.frames == film.length else f" of {film.length}"
+    output.print(
+        f"written: {to} (frames: {film.frames}{left_out}, {film.seconds:.2g} s, "
+        f"{film.size / 1e6:.1f} MB)"
     )

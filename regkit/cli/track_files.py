@@ -8,12 +8,14 @@ from pathlib import Path
 from typing import Any
 
 from regkit.api import Tracking
+from regkit.api.viewing import scene_of
 from regkit.interfaces import Template
 from regkit.report.png import png
 from regkit.system.csv_table import CsvTable, write_csv
 from regkit.system.files import replacing
 from regkit.system.json_files import write_json
 from regkit.tracking.track_folder import POSES, TrackDescription, finish_rows
+from regkit.viewer.track_file import write_scene
 
 DPI = 110
 
@@ -39,6 +41,7 @@ def write_track(
     write_csv(out / "hinges.csv", *_hinges(tracking))
     write_csv(out / "frames.csv", *_frames(tracking))
     tracking.save(out / POSES)
+    write_scene(scene_of(tracking), out)
     finish_rows(out)
     picture = png(tracking.plot(), DPI)
     with replacing(out / "picture.png") as temporary:

@@ -10,6 +10,7 @@ from regkit.experiment.provenance import manifest
 from regkit.experiment.provenance.contents import Contents
 from regkit.experiment.results import Results
 from regkit.experiment.results_format import check_format
+from regkit.experiment.scenes import write_replay
 from regkit.experiment.stated import read_config, read_environment
 from regkit.experiment.summary_file import SummaryFile
 from regkit.metrics import Measure
@@ -27,7 +28,7 @@ Failures = Mapping[str, Mapping[str, str]]
 
 def summarise(folder: Path, measures: Measures, failures: Failures) -> None:
     """Writes ``metrics.json`` and ``report.md`` of an unfinished run, without figures."""
-    write_summary(_run(folder, measures, failures), folder)
+    write_summary(run_in(folder, measures, failures), folder)
 
 
 def report(
@@ -45,7 +46,7 @@ def report(
         measures: Metrics by method and recording.
         failures: Reasons of failures, by method and recording.
         pairs: Pairs of methods to compare, in addition to the best one with each other.
-        figures: Whether to draw figures.
+        figures: Whether to draw figures, and to write the replay.
 
     Returns:
         The path of the report.
@@ -58,8 +59,9 @@ def report(
         method: {recording: results.record(method, recording) for recording in by_recording}
         for method, by_recording in measures.items()
     }
-    run = replace(_run(folder, measures, failures), records=records, chosen=tuple(pairs))
-    write_report(run, folder, figures=figures)
+    run = replace(run_in(folder, measures, failures), records=records, chosen=tuple(pairs))
+    shown = write_replay(run, results) if figures else None
+    write_report(run, folder, figures=figures, replay=shown)
     return folder / "report.html"
 
 
@@ -110,7 +112,8 @@ def found(folder: Path) -> tuple[dict[str, dict[str, Measure]], dict[str, dict[s
     return measures, failures
 
 
-def _run(folder: Path, measures: Measures, failures: Failures) -> Run:
+def run_in(folder: Path, measures: Measures, failures: Failures) -> Run:
+    """Returns the contents of a results folder, without the records of its tracks."""
     return Run(
         config=read_config(folder),
         text=(folder / "config.yaml").read_text(encoding="utf-8"),

@@ -9,7 +9,7 @@ from typing import Any
 
 from regkit.body import Body
 from regkit.config.document import Document
-from regkit.experiment.provenance.manifest import FILE, OVERLAY, Manifest
+from regkit.experiment.provenance.manifest import FILE, OVERLAY, SCENE, Manifest
 from regkit.experiment.summary_file import SummaryFile
 from regkit.metrics import Measure, checked_measure
 from regkit.report import Record, draw_overlay, method_styles
@@ -19,6 +19,8 @@ from regkit.system.files import write_arrays, write_text
 from regkit.system.guard import reading
 from regkit.system.json_files import read_json, write_json
 from regkit.tracking import Track
+from regkit.viewer.track_file import read_scene, write_scene
+from regkit.viewer.track_scene import TrackScene
 
 
 @dataclass(frozen=True)
@@ -32,9 +34,10 @@ class Results:
     starts/RECORDING.json      initial pose of every method
     metrics.json              metrics by method and recording, and their summary
     report.html, report.md    the same as tables, figures and images
+    replay.html               the tracks and the worst frames, to look at in a browser
     figures/, tables/         the figures, and all numbers as CSV
-    METHOD/RECORDING/          measure.json, poses.npz, record.npz and overlay.png of a finished
-    track, and checksums.json, which marks it as finished
+    METHOD/RECORDING/          measure.json, poses.npz, record.npz, scene.npz and overlay.png of a
+    finished track, and checksums.json, which marks it as finished
 
     Attributes:
         folder: Its path.
@@ -95,6 +98,15 @@ class Results:
         with reading(file, what):
             return Record.from_arrays(read_arrays(file, what=what))
 
+    def scene(self, method: str, recording: str) -> TrackScene | None:
+        """Returns the scene of a finished track; None for a track of an earlier version.
+
+        Raises:
+            DataError: If the file is damaged.
+        """
+        folder = self.recording_folder(method, recording)
+        return read_scene(folder) if (folder / SCENE).exists() else None
+
     def write(
         self,
         method: str,
@@ -104,6 +116,7 @@ class Results:
         body: Body,
         measure: Measure,
         record: Record,
+        scene: TrackScene,
     ) -> None:
         """Writes a finished track; its checksums come last and mark it as finished.
 
@@ -115,6 +128,7 @@ class Results:
         (folder / FILE).unlink(missing_ok=True)
         write_arrays(folder / "poses.npz", track.named_arrays(body))
         write_arrays(folder / "record.npz", record.arrays())
+        write_scene(scene, folder)
         self._draw(method, recording, record)
         (folder / "error.txt").unlink(missing_ok=True)
         write_json(folder / "measure.json", measure.to_dict())

@@ -12,6 +12,7 @@ from regkit.experiment.experiment import Experiment
 from regkit.experiment.provenance.recording import RecordingInputs, kept_inputs, prepared_inputs
 from regkit.experiment.provenance.setup import Setup
 from regkit.experiment.results import Results
+from regkit.experiment.scenes import recorded_scene
 from regkit.experiment.starts import kept_start, start_file
 from regkit.interfaces import Start
 from regkit.metrics import Measure, check_reference_unit, joint_errors, measured, tell_unmatched
@@ -123,7 +124,7 @@ class Task:
         start: Start,
         recorder: TrackRecorder,
     ) -> Measure:
-        """Computes the metrics of a track, draws its overlay and writes its files.
+        """Computes the metrics and the scene of a track, draws its overlay and writes its files.
 
         Raises:
             RegkitError: If the data or the setup have changed while the recording was tracked.
@@ -135,9 +136,10 @@ class Task:
         fps = session.recording.fps
         measure = measured(track, body, errors, fps, start)
         record = Record.of(track, recorder.snapshot, recorder.registrar, errors, truth, fps)
+        scene = recorded_scene(recorder, track, record, truth, errors)
         Setup.of(self.experiment).check(self.folder, part=True)
         inputs.check(session.recording, self.experiment.dataset)
-        results.write(name, self.recording, inputs.digest, track, body, measure, record)
+        results.write(name, self.recording, inputs.digest, track, body, measure, record, scene)
         return measure
 
     def _session(self) -> Session:

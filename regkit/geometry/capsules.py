@@ -70,6 +70,26 @@ class Capsules(Brief):
         """
         return self._nearest(points)[1]
 
+    def supported(self, axes: AxisPoints, points: Array, near: float) -> NDArray[np.bool_]:
+        """Returns whether data lie on the surface beside each sample of the axes, (M,).
+
+        A point belongs to its nearest capsule, and there to the sample nearest to it.
+
+        Args:
+            axes: Evenly spaced samples of each axis.
+            points: Points in the frame of the capsules, (N, 3) [m].
+            near: Distance from the surface at which a point lies on it [m].
+        """
+        nearest, distances, heights = self._nearest(points)
+        lengths = np.linalg.norm(self.ends[:, 1] - self.ends[:, 0], axis=1)
+        counts = np.bincount(axes.capsules, minlength=len(self))
+        spacings = np.maximum(lengths, 1e-9) / np.maximum(counts - 1, 1)
+        on = np.abs(distances) <= near
+        own = nearest[on]
+        steps = np.minimum(np.rint(heights[on] / spacings[own]).astype(np.intp), counts[own] - 1)
+        samples = np.bincount((np.cumsum(counts) - counts)[own] + steps, minlength=len(axes.points))
+        return np.asarray(samples > 0)
+
     def limb_radius(self) -> float:
         """Returns the radius [m] of a typical limb: the median over the capsules' length."""
         radii = self.radii.mean(axis=1)

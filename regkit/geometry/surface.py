@@ -11,6 +11,7 @@ from typing import Self
 import numpy as np
 
 from regkit.config.model import did_you_mean
+from regkit.geometry.rigid import rigid
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.system.arrays import Array, Indices
 from regkit.system.brief import Brief
@@ -29,6 +30,8 @@ class SkinnedSurface(Brief):
         blend: Skinning weights, (V, A); the rows sum to one.
         normals: Unit outward normals in the segment frames, (V, A, 3), or None if unknown.
         faces: Vertex indices of the triangles, (F, 3); F = 0 for a cloud.
+        rest: Poses of the segments in which the mesh was made, where all of a vertex's segments
+            place it alike, (S, 4, 4) [m]; None for a cloud.
     """
 
     segments: Indices
@@ -36,6 +39,7 @@ class SkinnedSurface(Brief):
     blend: Array
     normals: Array | None
     faces: Indices
+    rest: Array | None = None
 
     @classmethod
     def of(cls, mesh: SkinnedMesh) -> Self:
@@ -51,6 +55,7 @@ class SkinnedSurface(Brief):
             blend=mesh.weights / mesh.weights.sum(axis=1, keepdims=True),
             normals=np.einsum("vaij,vj->vai", carried[..., :3], normals),
             faces=mesh.faces,
+            rest=mesh.rest,
         )
 
     def __len__(self) -> int:
@@ -66,7 +71,10 @@ class SkinnedSurface(Brief):
 
     def scaled(self, factor: float) -> Self:
         """Returns the surface with all lengths multiplied by ``factor``."""
-        return replace(self, points=factor * self.points)
+        rest = self.rest
+        if rest is not None:
+            rest = rigid(rest[:, :3, :3], factor * rest[:, :3, 3])
+        return replace(self, points=factor * self.points, rest=rest)
 
 
 def surface_in(path: Path, segments: Sequence[str]) -> SkinnedSurface:
@@ -90,7 +98,8 @@ def surface_in(path: Path, segments: Sequence[str]) -> SkinnedSurface:
 def _read(path: Path, changed: int, segments: tuple[str, ...]) -> SkinnedSurface:
     mesh = SkinnedMesh.read(path)
     order = np.zeros(len(mesh.labels), dtype=np.intp)
-    for bone in np.unique(mesh.indices[mesh.weights > 0.0]):
+    used = np.unique(mesh.indices[mesh.weights > 0.0])
+    for bone in used:
         label = mesh.labels[bone]
         if label not in segments:
             raise DataError(
@@ -100,7 +109,9 @@ def _read(path: Path, changed: int, segments: tuple[str, ...]) -> SkinnedSurface
             )
         order[bone] = segments.index(label)
     surface = SkinnedSurface.of(mesh)
-    return replace(surface, segments=order[surface.segments])
+    rest = np.tile(np.eye(4), (len(segments), 1, 1))
+    rest[order[used]] = mesh.rest[used]
+    return replace(surface, segments=order[surface.segments], rest=rest)
 
 
 def vertex_normals(vertices: Array, faces: Indices) -> Array:

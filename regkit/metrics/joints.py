@@ -30,6 +30,13 @@ class JointErrors:
     raw: Array
     adjusted: Array
 
+    def of_frames(self) -> Array:
+        """Returns the mean raw distance in each frame, (T,) [m]; NaN where no joint is known."""
+        known = np.isfinite(self.raw)
+        sums = np.where(known, self.raw, 0.0).sum(axis=1)
+        counts = known.sum(axis=1)
+        return np.where(counts > 0, sums / np.maximum(counts, 1), np.nan)
+
 
 def joint_errors(track: Track, body: Body, truth: Truth, joints: Mapping[str, str]) -> JointErrors:
     """Computes the joint errors of a track.

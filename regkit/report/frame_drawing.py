@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Self
 
 import numpy as np
 
-from regkit.body import Body
+from regkit.body.bones import bone_ends, bones_of
 from regkit.interfaces import Registrar
 from regkit.primitives import Gaussians, Primitives, TaperedCapsules, Volumes
 from regkit.skeleton import Placement
@@ -119,14 +119,14 @@ class FrameDrawing:
         body = registrar.body
         placement = body.place(snapshot.pose)
         points = snapshot.points
-        bones = list(_bones(body, placement))
+        ends = bone_ends(body, placement.transforms)
         return cls(
             frame=snapshot.frame,
             why=why,
             points=points[:: -(-len(points) // MAX_POINTS)],
             primitives=DrawnPrimitives.of(registrar.primitives, placement),
-            bones=np.array(bones).reshape(-1, 2, 3),
-            markers=body.markers.place(placement.transforms),
+            bones=ends[bones_of(body)],
+            markers=ends[len(placement.transforms) :],
             reference=np.zeros((0, 3)) if reference is None else reference,
         )
 
@@ -175,15 +175,3 @@ class FrameDrawing:
             markers=many("markers", 3),
             reference=many("reference", 3),
         )
-
-
-def _bones(body: Body, placement: Placement) -> Iterator[tuple[Array, Array]]:
-    """Yields the lines from each segment's origin to its parent's and to its markers."""
-    origins = placement.transforms[:, :3, 3]
-    for segment, parent in enumerate(body.skeleton.parents):
-        if parent >= 0:
-            yield origins[parent], origins[segment]
-    for segment, marker in zip(
-        body.markers.segments, body.markers.place(placement.transforms), strict=True
-    ):
-        yield origins[segment], marker

@@ -71,13 +71,16 @@ def write_summary(run: Run, folder: Path) -> None:
     write_text(folder / "report.md", _text("report.md", run, folder, []))
 
 
-def write_report(run: Run, folder: Path, *, figures: bool = True) -> None:
+def write_report(
+    run: Run, folder: Path, *, figures: bool = True, replay: str | None = None
+) -> None:
     """Writes the complete report: HTML page, Markdown, figures, overlays, metrics and tables.
 
     Args:
         run: The results.
         folder: The results folder.
         figures: Whether to draw figures, which takes a few seconds.
+        replay: Name of the replay beside the report, to which the page has a link.
 
     Raises:
         DataError: If a file cannot be written.
@@ -95,11 +98,13 @@ def write_report(run: Run, folder: Path, *, figures: bool = True) -> None:
                 run.records[picture.method][picture.recording],
                 run.style(picture.method).colour,
             )
-    write_text(folder / "report.md", _text("report.md", run, folder, drawn))
-    write_text(folder / "report.html", _text("report.html", run, folder, drawn))
+    write_text(folder / "report.md", _text("report.md", run, folder, drawn, replay))
+    write_text(folder / "report.html", _text("report.html", run, folder, drawn, replay))
 
 
-def _text(template: str, run: Run, folder: Path, drawn: list[Drawn]) -> str:
+def _text(
+    template: str, run: Run, folder: Path, drawn: list[Drawn], replay: str | None = None
+) -> str:
     pictures = list(_pictures(run, folder))
     worst = set(_worst(run))
     shown = [one for one in pictures if (one.method, one.recording) in worst and one.file.exists()]
@@ -137,6 +142,7 @@ def _text(template: str, run: Run, folder: Path, drawn: list[Drawn]) -> str:
         failures=[(m, s, why) for m, by in run.failures.items() for s, why in by.items()],
         tracks=sum(len(by) for all_of in (run.measures, run.failures) for by in all_of.values()),
         figures=drawn,
+        replay=replay,
         pictures=shown,
         others=[one for one in pictures if one not in shown and one.file.exists()],
         counted=counted,

@@ -182,9 +182,7 @@ def _chosen(track: Track, errors: JointErrors | None) -> dict[int, str]:
     chosen = {int(seen[0]): "first", int(seen[-1]): "last"}
     badness = track.surface_distances
     if errors is not None and np.isfinite(errors.raw).any():
-        known = np.isfinite(errors.raw)
-        sums = np.where(known, errors.raw, 0.0).sum(axis=1)
-        badness = np.where(known.any(axis=1), sums / np.maximum(known.sum(axis=1), 1), np.nan)
+        badness = errors.of_frames()
         badness = np.where(track.seen[: len(badness)], badness, np.nan)
     if np.isfinite(badness).any():
         worst = int(np.nanargmax(badness))

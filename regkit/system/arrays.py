@@ -39,6 +39,21 @@ def real_numbers(stored: NDArray[Any], what: str) -> Array:
     return np.array(stored, dtype=np.float64, order="C")
 
 
+def whole_numbers(stored: NDArray[Any], what: str) -> Indices:
+    """Returns a stored array of integers as indices.
+
+    Args:
+        stored: The array, of any type.
+        what: Its name, for messages.
+
+    Raises:
+        DataError: If it holds anything else than integers.
+    """
+    if stored.dtype.kind not in "iu":
+        raise DataError(f"{what} is of the type {stored.dtype}; it needs integers")
+    return np.array(stored, dtype=np.intp)
+
+
 def loop_input(values: NDArray[Any]) -> Array:
     """Returns an array as float64 in row-major order and writeable; a copy only if it is not.
 

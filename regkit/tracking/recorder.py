@@ -9,6 +9,7 @@ from sys import intern
 import numpy as np
 
 from regkit.body import BodyFit
+from regkit.body.support import segment_supports
 from regkit.body.verdict import Verdict, frame_verdict
 from regkit.interfaces import Expected, Registrar
 from regkit.observation import Observation
@@ -18,6 +19,7 @@ from regkit.system.brief import Brief
 from regkit.system.errors import DataError
 from regkit.tracking.loop import TrackedFrame
 from regkit.tracking.rows import Rows, RowsInMemory
+from regkit.tracking.sample import FrameSample
 from regkit.tracking.track import Track
 
 
@@ -45,6 +47,7 @@ class RecordedFrame(Brief):
         time: Its time [s].
         placement: T_camera_segment of all segments.
         markers: The markers in the camera's frame, (M, 3) [m].
+        supports: How well data support each segment, (S,), from 0 to 1.
         fit: Agreement of the body with the data.
         verdict: Whether the body was found.
     """
@@ -53,6 +56,7 @@ class RecordedFrame(Brief):
     time: float
     placement: Placement
     markers: Array
+    supports: Array
     fit: BodyFit
     verdict: Verdict
 
@@ -62,7 +66,7 @@ class TrackRecorder:
 
     It stores the values of a ``Track`` for every frame, and the points of only three frames with
     data: the first, the last, and the one whose points are farthest from the surface. Other frames
-    are read again on request.
+    are read again on request. A ``FrameSample`` has thinned points for a replay.
 
     Args:
         registrar: Method bound to the body.
@@ -80,6 +84,7 @@ class TrackRecorder:
         rows: Rows | None = None,
     ) -> None:
         self.registrar = registrar
+        self.sample = FrameSample()
         self._fps = fps
         self._read = read
         self._rows = RowsInMemory(Track.layout(registrar.body)) if rows is None else rows
@@ -107,12 +112,16 @@ class TrackRecorder:
         body, found = self.registrar.body, frame.registered
         number = len(self) if number is None else number
         time = number / self._fps if time is None else time
+        placement = body.place(found.pose)
+        transforms = placement.transforms
         points, fit = None, BodyFit.unknown()
+        supports = np.zeros(len(transforms))
         if frame.observation is not None:
             points = frame.observation.points
+            supports = segment_supports(body, transforms, points)
+            self.sample.add(len(self), frame.observation)
             fit = BodyFit.of(body, found.pose, points, frame.observation.silhouette)
-        placement = body.place(found.pose)
-        markers = body.markers.place(placement.transforms)
+        markers = body.markers.place(transforms)
         count = 0 if points is None else len(points)
         self._rows.append(
             {
@@ -127,6 +136,7 @@ class TrackRecorder:
                 "coverages": fit.coverage,
                 "misfits": fit.misfit,
                 "reliefs": fit.relief,
+                "supports": supports,
                 "points": count,
                 "energies": found.energy,
                 "evaluations": found.evaluations,
@@ -139,7 +149,7 @@ class TrackRecorder:
             self._keep(Snapshot(len(self), points, found.pose), fit.distance)
         self._messages.append(intern(found.message))
         verdict = frame_verdict(count, fit.inlier_share, fit.coverage, fit.misfit, fit.relief)
-        return RecordedFrame(number, time, placement, markers, fit, verdict)
+        return RecordedFrame(number, time, placement, markers, supports, fit, verdict)
 
     def _keep(self, snapshot: Snapshot, distance: float) -> None:
         self._snapshots.setdefault("first", snapshot)

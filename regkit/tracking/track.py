@@ -36,6 +36,9 @@ class Track(Brief):
             radii of a typical limb, (T,); NaN without data.
         reliefs: Deviation of the points along their thinnest direction, in radii of a typical limb,
             (T,); NaN without data. Data without relief are a wall.
+        supports: Fraction of each segment's axis that has data of its own, (T, S), from 0 to 1; 0
+            without data, NaN for a segment without a surface. A pose with little support is a
+            guess.
         points: Number of points, (T,); 0 for a frame without data, whose pose is the last one.
         energies: Energies in the method's own units, (T,).
         evaluations: Numbers of energy evaluations, (T,).
@@ -55,6 +58,7 @@ class Track(Brief):
     coverages: Array
     misfits: Array
     reliefs: Array
+    supports: Array
     points: Array
     energies: Array
     evaluations: Array
@@ -71,6 +75,7 @@ class Track(Brief):
             "balls": rest.balls.shape,
             "hinges": rest.hinges.shape,
             "markers": (len(body.markers.names), 3),
+            "supports": (len(body.skeleton.names),),
         }
         return {field.name: shapes.get(field.name, ()) for field in fields(Track)}
 

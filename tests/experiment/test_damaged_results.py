@@ -76,7 +76,8 @@ EDITS = {
 
 @pytest.mark.parametrize(
     ("name", "damage"),
-    [*((name, one) for name in ("measure.json", "poses.npz", "record.npz") for one in DAMAGE),
+    [*((name, one) for name in ("measure.json", "poses.npz", "record.npz", "scene.npz")
+       for one in DAMAGE),
      *(("measure.json", one) for one in EDITS)],
 )  # fmt: skip
 def test_damaged_file_of_a_track_is_found(done, track, name, damage):

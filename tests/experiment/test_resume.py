@@ -74,6 +74,7 @@ def test_resumed_run_does_only_what_is_missing(regkit, files):
         "gsog/second/measure.json",
         "gsog/second/poses.npz",
         "gsog/second/record.npz",
+        "gsog/second/scene.npz",
         "gsog/second/overlay.png",
     }
     for method, figures in files.metrics().items():
@@ -127,7 +128,7 @@ def test_interrupted_run_is_completed_later(regkit, files, interrupt):
     begun = len(steps)
     assert regkit(*arguments).code == 0
     assert len(steps) - begun == FRAMES
-    assert len(files.written()) == 10
+    assert len(files.written()) == 12
 
 
 @pytest.mark.filterwarnings("default::regkit.system.notes.RegkitWarning")

@@ -18,6 +18,8 @@ from regkit.experiment import Experiment, run
 from regkit.metrics import METRICS
 from regkit_plugins.datasets.depth import DepthFolders
 
+FILES = ("checksums.json", "measure.json", "poses.npz", "record.npz", "scene.npz", "overlay.png")
+
 
 @pytest.fixture(scope="module")
 def done(tmp_path_factory) -> Files:
@@ -32,13 +34,13 @@ def done(tmp_path_factory) -> Files:
 
 def test_run_writes_what_is_documented(done):
     whole = ("config.yaml", "environment.json", "setup.json", "metrics.json", "report.md")
-    for name in (*whole, "report.html", "inputs/first.json", "inputs/second.json"):
+    for name in (*whole, "report.html", "replay.html", "inputs/first.json", "inputs/second.json"):
         assert (done.out / name).is_file()
     expected = {
         f"{method}/{recording}/{name}"
         for method in ("sog", "gsog")
         for recording in ("first", "second")
-        for name in ("checksums.json", "measure.json", "poses.npz", "record.npz", "overlay.png")
+        for name in FILES
     }
     assert set(done.written()) == expected
     assert not list(done.out.rglob(".*"))

@@ -40,6 +40,7 @@ def track_of(body: Body, poses: list[Pose]) -> Track:
         coverages=np.ones(len(poses)),
         misfits=np.zeros(len(poses)),
         reliefs=np.ones(len(poses)),
+        supports=np.ones((len(poses), len(body.skeleton.names))),
         points=np.full(len(poses), 100.0),
         evaluations=np.arange(1.0, len(poses) + 1.0),
         converged=np.ones(len(poses)),

@@ -34,6 +34,7 @@ def track_with(*verdicts: Verdict) -> Track:
         coverages=np.where(np.isnan(shares), np.nan, 1.0),
         misfits=np.where(np.isnan(shares), np.nan, 0.3),
         reliefs=np.where(np.isnan(shares), np.nan, 1.0),
+        supports=np.ones((count, 0)),
         points=np.array([0.0 if one is N else 50.0 for one in verdicts]),
         energies=nothing,
         evaluations=nothing,

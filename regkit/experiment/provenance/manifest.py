@@ -16,7 +16,9 @@ from regkit.system.json_files import write_json
 FILE = "checksums.json"
 OVERLAY = "overlay.png"
 """The picture, which can be drawn again from the other files."""
-FILES = ("measure.json", "poses.npz", "record.npz", OVERLAY)
+SCENE = "scene.npz"
+"""What a replay shows, which tracks of earlier versions lack."""
+FILES = ("measure.json", "poses.npz", "record.npz", SCENE, OVERLAY)
 """The files of a finished track."""
 
 
@@ -41,6 +43,8 @@ class Manifest:
         """
         sums = {}
         for name in FILES:
+            if name == SCENE and not (folder / name).exists():
+                continue
             with reading(folder / name, "a file of a track"):
                 sums[name] = file_digest(folder / name)
         return cls(inputs, sums)
@@ -57,7 +61,7 @@ class Manifest:
             return None
         with reading(file, "a list of checksums"):
             manifest: Self = TypeAdapter(cls).validate_json(file.read_bytes())
-            if manifest.files.keys() != set(FILES):
+            if {*manifest.files, SCENE} != {*FILES}:
                 raise DataError(f"damaged: it must list {', '.join(FILES)}")
             return manifest
 
@@ -67,7 +71,7 @@ class Manifest:
 
     def damaged(self, folder: Path) -> list[Path]:
         """Returns the files that are missing, or not those that were written."""
-        return [folder / name for name in FILES if not self._intact(folder / name)]
+        return [folder / name for name in self.files if not self._intact(folder / name)]
 
     def check(self, folder: Path) -> None:
         """Checks the files but for the picture.

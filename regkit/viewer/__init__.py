@@ -1,0 +1,1 @@
+"""The viewer: scenes of recordings, models and verdicts, and the page that shows them."""

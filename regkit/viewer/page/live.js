@@ -1,0 +1,81 @@
+/** Frames that a server sends while they are tracked. */
+
+import { listed } from "./arrays.js";
+
+/** So many of the last frames are kept. */
+const KEPT = 600;
+
+/**
+ * Listens to the frames of a live scene.
+ * @param {import("./recording.js").Recording} recording
+ * @param {{arrived: (dropped: number) => void, told: (text: string, broken?: boolean) => void}} page
+ */
+export function listen(recording, { arrived, told }) {
+  const stream = new EventSource("frames");
+  told("Waiting for the first frame …");
+  stream.addEventListener("message", (event) => {
+    const data = JSON.parse(event.data);
+    arrived(append(recording, data));
+    told(data.status ?? "");
+  });
+  stream.addEventListener("end", (event) => {
+    stream.close();
+    told(event.data || "The stream has ended.");
+  });
+  stream.addEventListener("error", () => {
+    const closed = stream.readyState === EventSource.CLOSED;
+    told(closed ? "The connection broke." : "The connection broke; trying again …", true);
+  });
+}
+
+/** Appends a frame; returns how many old ones were dropped. */
+export function append(recording, data) {
+  const { frames, methods } = recording;
+  const number = data.frame;
+  const results = new Map(data.methods.map((result) => [result.name, result]));
+  frames.push({
+    number,
+    time: data.time,
+    points: data.points && { ...data.points, positions: listed(data.points.positions, Int16Array) },
+    href: null,
+    joints: data.joints ? listed(data.joints) : null,
+    poses: methods.map(({ name }) => poseOf(results.get(name))),
+  });
+  const dropped = Math.max(0, frames.length - KEPT);
+  frames.splice(0, dropped);
+  recording.length = number + 1;
+  for (const method of methods) {
+    const { verdict, curves = {} } = results.get(method.name) ?? {};
+    if (verdict) method.verdicts.append(number, verdict, frames[0].number);
+    for (const [name, value] of Object.entries(curves)) note(method, name, number, value, frames[0].number);
+  }
+  return dropped;
+}
+
+function poseOf(result) {
+  return {
+    transforms: result ? listed(result.transforms) : new Float32Array([NaN]),
+    markers: listed(result?.markers ?? []),
+    confidence: result?.confidence ? listed(result.confidence) : null,
+  };
+}
+
+/** Appends a value to a method's curve. */
+function note(method, name, number, value, first) {
+  let curve = method.curves.find((one) => one.name === name);
+  if (!curve) {
+    curve = { name, unit: "", frames: [], values: [] };
+    method.curves.push(curve);
+  }
+  // A live recording's curves grow, which typed arrays do not.
+  if (!Array.isArray(curve.frames)) {
+    curve.frames = Array.from(curve.frames);
+    curve.values = Array.from(curve.values);
+  }
+  curve.frames.push(number);
+  curve.values.push(value ?? NaN);
+  while (curve.frames[0] < first) {
+    curve.frames.shift();
+    curve.values.shift();
+  }
+}

@@ -1,0 +1,59 @@
+/** The material of models: clear in its outline, and fainter where little data support it. */
+
+import { Color, MeshLambertMaterial } from "three";
+
+/**
+ * What all materials of a scene share.
+ * @typedef {{faint: {value: Color}, weighed: {value: number}, opacity: {value: number}}} Look
+ */
+
+/** @returns {Look} */
+export const look = () => ({ faint: { value: new Color() }, weighed: { value: 1 }, opacity: { value: 0.5 } });
+
+// A vertex of a tapered capsule is given by its cap (the sign of y), how far it is from the rim of
+// the cap to the pole (0 to 1, above 1 in y) and its direction around the axis (x and z).
+const CAPSULE_NORMAL = `
+float cap = step(0.0, position.y);
+float angle = mix(taper.w, (2.0 * cap - 1.0) * 1.57079633, abs(position.y) - 1.0);
+vec3 objectNormal = vec3(position.x * cos(angle), sin(angle), position.z * cos(angle));`;
+const CAPSULE_POSITION = `
+vec3 transformed = objectNormal * mix(taper.x, taper.y, cap) + vec3(0.0, taper.z * cap, 0.0);`;
+
+const FADE = `
+float sure = mix(1.0, confident, weighed);
+diffuseColor.rgb = mix(faint, diffuseColor.rgb, mix(0.15, 1.0, sure));
+float rim = 1.0 - abs(dot(normalize(vViewPosition), normal));
+diffuseColor.a = mix(strength, 1.0, 0.75 * rim * rim);
+diffuseColor.a *= mix(0.35, 1.0, sure) * presence;`;
+
+/**
+ * Returns the material of a method's surfaces, and one that draws only their depth: drawn before
+ * it, only the nearest surface is seen through, whatever the order of the parts.
+ * @param {Look} look
+ * @param {{value: number}} presence 1, or less for a body that was not found.
+ * @param {boolean} capsules Whether the vertices are those of tapered capsules.
+ */
+export function surface(look, presence, capsules = false) {
+  const made = (options) => {
+    const material = new MeshLambertMaterial({ transparent: true, ...options });
+    material.onBeforeCompile = (shader) => patch(shader, look, presence, capsules);
+    material.customProgramCacheKey = () => `surface ${capsules}`;
+    return material;
+  };
+  return { depth: made({ colorWrite: false }), shown: made({}) };
+}
+
+function patch(shader, { faint, weighed, opacity }, presence, capsules) {
+  Object.assign(shader.uniforms, { faint, weighed, presence, strength: opacity });
+  let vertex = shader.vertexShader
+    .replace("void main() {", "attribute float confidence;\nvarying float confident;\nvoid main() {\nconfident = confidence;");
+  if (capsules) {
+    vertex = `attribute vec4 taper;\n${vertex}`
+      .replace("#include <beginnormal_vertex>", CAPSULE_NORMAL)
+      .replace("#include <begin_vertex>", CAPSULE_POSITION);
+  }
+  shader.vertexShader = vertex;
+  shader.fragmentShader = shader.fragmentShader
+    .replace("void main() {", "uniform vec3 faint;\nuniform float weighed, presence, strength;\nvarying float confident;\nvoid main() {")
+    .replace("#include <normal_fragment_maps>", `#include <normal_fragment_maps>\n${FADE}`);
+}

@@ -1,0 +1,67 @@
+/** The timeline: a chart of the whole recording in which clicks and drags go to a frame. */
+
+import { across, drawChart, numberAt, scaleOf } from "./chart.js";
+
+export class Timeline {
+  /**
+   * @param {HTMLElement} slider Holds the canvas and the playhead.
+   * @param {(number: number) => void} go Called with a frame number.
+   */
+  constructor(slider, go) {
+    this.slider = slider;
+    this.canvas = slider.querySelector("canvas");
+    this.head = slider.querySelector("div");
+    this.quantity = "";
+    this.scale = null;
+    const move = (event) => {
+      if (this.scale) go(numberAt(this.scale, event.clientX - slider.getBoundingClientRect().left));
+    };
+    slider.addEventListener("pointerdown", (event) => {
+      if (event.button !== 0) return;
+      slider.setPointerCapture(event.pointerId);
+      move(event);
+    });
+    slider.addEventListener("pointermove", (event) => {
+      if (slider.hasPointerCapture(event.pointerId)) move(event);
+    });
+    new ResizeObserver(() => this.recording && this.draw()).observe(slider);
+  }
+
+  /**
+   * Shows the whole of a recording.
+   * @param {import("./recording.js").Recording} recording
+   * @param {any[]} methods The methods that are shown.
+   */
+  open(recording, methods) {
+    Object.assign(this, { recording, methods });
+    this.draw();
+  }
+
+  draw() {
+    const width = this.slider.clientWidth;
+    if (width === 0) return;
+    const scale = scaleOf(this.recording, width, this.methods, this.quantity);
+    const ratio = devicePixelRatio;
+    const size = [Math.round(width * ratio), Math.round(scale.height * ratio)];
+    const pen = this.canvas.getContext("2d");
+    if (this.canvas.width !== size[0] || this.canvas.height !== size[1]) {
+      [this.canvas.width, this.canvas.height] = size;
+      this.canvas.style.height = `${scale.height}px`;
+    }
+    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+    pen.clearRect(0, 0, width, scale.height);
+    drawChart(pen, scale, this.recording, this.methods, this.quantity);
+    this.scale = scale;
+    if (this.number !== undefined) this.show(this.number, this.told);
+  }
+
+  /** Moves the playhead. @param {number} number @param {string} told The frame in words. */
+  show(number, told) {
+    Object.assign(this, { number, told });
+    if (!this.scale) return;
+    this.head.style.transform = `translateX(${across(this.scale, number)}px)`;
+    const { first, last } = this.scale;
+    const values = { valuemin: first, valuemax: last, valuenow: number, valuetext: told };
+    for (const [key, value] of Object.entries(values)) this.slider.setAttribute(`aria-${key}`, value);
+  }
+}
