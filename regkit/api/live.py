@@ -16,6 +16,7 @@ from regkit.body import Body
 from regkit.interfaces import (
     Method,
     Preprocessor,
+    Registrar,
     Segmenter,
     Source,
     Start,
@@ -129,6 +130,11 @@ class LiveTrack:
     def body(self) -> Body:
         """The body at its given or estimated size."""
         return self.start.body
+
+    @property
+    def registrar(self) -> Registrar:
+        """The registrar of the frames."""
+        return self._live.recorder.registrar
 
     @property
     def is_live(self) -> bool:

@@ -2,20 +2,35 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
-from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from regkit.api import track_each
+from regkit.api.live import LiveTrack
 from regkit.api.pipeline import Pipeline
 from regkit.cli.choices import Choices
-from regkit.cli.completion import plugin_names
 from regkit.cli.console import errors, output
 from regkit.cli.exit_codes import INTERRUPTED
-from regkit.cli.live_run import LiveRun
+from regkit.cli.live_options import (
+    Bodies,
+    EveryFrame,
+    Frames,
+    Host,
+    Opening,
+    People,
+    Port,
+    Realtime,
+    Record,
+    RecordingName,
+    TrackerName,
+    TrackOut,
+    View,
+)
+from regkit.cli.live_run import LiveRun, Output
 from regkit.cli.options import (
     MethodName,
     PluginFiles,
@@ -31,17 +46,12 @@ from regkit.cli.outcome import show
 from regkit.cli.pose_stream import PoseOutput, is_pose_stream
 from regkit.cli.track_source import dataset_recording, described, opener
 from regkit.cli.verdicts import conclude
+from regkit.cli.view_output import ViewOutput
 from regkit.interfaces import Recording
 from regkit.system.errors import ConfigError
 from regkit.tracking import Verdict
 from regkit.tracking.live import OPENING
-
-
-class People(StrEnum):
-    """How many bodies of a recording are tracked."""
-
-    ONE = "one"
-    ALL = "all"
+from regkit.viewer.server import HOST
 
 
 def track(
@@ -57,61 +67,19 @@ def track(
     method: MethodName = None,
     segmentation: Segmentation = None,
     preprocessor: PreprocessorName = None,
-    tracker: Annotated[
-        str | None,
-        typer.Option(
-            metavar="TRACKER",
-            autocompletion=plugin_names("tracker"),
-            help="Tracker from frame to frame, if the method has none of its own.",
-            show_default=False,
-        ),
-    ] = None,
-    recording: Annotated[
-        str | None,
-        typer.Option(metavar="NAME", help="Name of the recording, if the folder has several."),
-    ] = None,
-    frames: Annotated[
-        int | None, typer.Option(min=1, metavar="N", help="Track only the first N frames.")
-    ] = None,
-    opening: Annotated[
-        float,
-        typer.Option(
-            metavar="SECONDS",
-            help="Duration in which the body, its size and its surroundings are sought.",
-        ),
-    ] = OPENING,
-    every_frame: Annotated[
-        bool,
-        typer.Option(
-            "--every-frame", help="Track every frame of a camera, however late, and drop none."
-        ),
-    ] = False,
-    realtime: Annotated[
-        bool, typer.Option("--realtime", help="Play a recording at its own pace, as a camera.")
-    ] = False,
-    record: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="DIR",
-            help="Record all frames, also those that are dropped, into this new folder.",
-            show_default=False,
-        ),
-    ] = None,
-    people: Annotated[
-        People,
-        typer.Option(help="Track one body, or all that fit in the first frame, each by itself."),
-    ] = People.ONE,
+    tracker: TrackerName = None,
+    recording: RecordingName = None,
+    frames: Frames = None,
+    opening: Opening = OPENING,
+    every_frame: EveryFrame = False,
+    realtime: Realtime = False,
+    view: View = False,
+    host: Host = HOST,
+    port: Port = 0,
+    record: Record = None,
+    people: Bodies = People.ONE,
     settings: Settings = None,
-    out: Annotated[
-        str | None,
-        typer.Option(
-            metavar="FOLDER|FILE|-",
-            help="Folder for the results: result.json, markers.csv, hinges.csv, frames.csv, "
-            "poses.npz and picture.png; or a file .csv or .jsonl, or - for standard output, that "
-            "takes each pose as it comes. (default: tracks/RECORDING)",
-            show_default=False,
-        ),
-    ] = None,
+    out: TrackOut = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
     strict: Strict = False,
     plugin: PluginFiles = None,
@@ -130,11 +98,19 @@ def track(
     if stream == "-" and as_json:
         raise ConfigError("standard output takes the poses; leave one of both out", place="--json")
     if people is People.ALL:
+        alone = {"--view": view, "--record": record, "--realtime": realtime, "--out": stream}
+        for option in (one for one, given in alone.items() if given):
+            raise ConfigError("all people are tracked one by one, not live", place=option)
         chosen = dataset_recording(source, recording, frames)
         folder = folder or Path("tracks") / chosen.name
         check_out(folder, whole=False)
         _track_all(chosen, choices, name, folder, as_json=as_json, strict=strict)
         return
+    outputs: list[Callable[[LiveTrack], Output]] = []
+    if stream is not None:
+        outputs.append(lambda track: PoseOutput(stream, track.body))
+    if view:
+        outputs.append(lambda track: ViewOutput(track, name, host, port))
     run = LiveRun(
         opener(source, choices.source, recording, frames),
         _pipeline(choices),
@@ -144,7 +120,7 @@ def track(
         every_frame=every_frame,
         realtime=realtime,
         record=record,
-        outputs=[] if stream is None else [lambda track: PoseOutput(stream, track.body)],
+        outputs=outputs,
     )
     ended = run.followed()
     tracking = replace(ended.track.tracking(), method=name)

@@ -62,8 +62,8 @@ def view(
         Thread(target=server.serve_forever, daemon=True).start()
         output.print(server.url)
         errors.print("Ctrl-C ends the viewer")
-        if browser and _has_display():
-            webbrowser.open(server.url)
+        if browser:
+            open_browser(server.url)
         interrupt.wait()
         server.shutdown()
 
@@ -80,6 +80,12 @@ def _interrupted() -> Iterator[Event]:
     finally:
         if former is not None:
             signal.signal(signal.SIGINT, former)
+
+
+def open_browser(url: str) -> None:
+    """Opens a page in a browser, where there is a display."""
+    if _has_display():
+        webbrowser.open(url)
 
 
 def _has_display() -> bool:
