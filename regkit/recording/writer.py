@@ -121,18 +121,20 @@ class FolderWriter:
         self.close()
 
     def _write(self, image: Array, camera: Camera, time: float) -> None:
-        from PIL import Image
-
+        """Writes the next frame, whole or not at all."""
         if self._times is None:
             self._times = self._begin(camera)
         # An image without a time would not be readable; a time without an image is not read.
+        before = self._times.tell()
         self._times.write(f"{self.count},{time!r}\n")
         self._times.flush()
-        images = self.folder / DepthFolder.content
-        with replacing(images / f"{self.count:06d}.png") as temporary:
-            Image.fromarray(image).save(
-                temporary, "PNG", compress_level=LEVEL, compress_type=RUN_LENGTHS
-            )
+        try:
+            _write_png(self.folder / DepthFolder.content / f"{self.count:06d}.png", image)
+        except BaseException:
+            # The next frame takes this number, at another time.
+            self._times.seek(before)
+            self._times.truncate()
+            raise
 
     def _begin(self, camera: Camera) -> TextIO:
         """Writes what all frames share, and returns the file of their times."""
@@ -156,6 +158,15 @@ class FolderWriter:
                 place=place,
             )
         return np.where(far, 0.0, values).astype(np.uint16)
+
+
+def _write_png(path: Path, image: Array) -> None:
+    from PIL import Image
+
+    with replacing(path) as temporary:
+        Image.fromarray(image).save(
+            temporary, "PNG", compress_level=LEVEL, compress_type=RUN_LENGTHS
+        )
 
 
 def check_new(folder: Path) -> None:
