@@ -17,6 +17,7 @@ from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError, DataError
 from regkit.system.files import replacing, write_text
 from regkit.system.notes import note
+from regkit.system.printable import one_line
 
 LARGEST = 65535
 """Largest value of a pixel of 16 bits."""
@@ -56,7 +57,7 @@ class FolderWriter:
             "name": re.sub(r"[^\w. -]|^[. -]", "_", name) or "recording",
             "fps": fps,
             "depth_scale": depth_scale,
-            "source": source,
+            "source": one_line(source),
         }
         self._scale = depth_scale
         self._camera: Camera | None = None
@@ -138,8 +139,11 @@ class FolderWriter:
 
     def _begin(self, camera: Camera) -> TextIO:
         """Writes what all frames share, and returns the file of their times."""
-        # JSON is YAML, and keeps every number.
-        header = "".join(f"{name}: {json.dumps(value)}\n" for name, value in self._header.items())
+        # JSON is YAML, and keeps every number; its escapes of rare characters are not.
+        header = "".join(
+            f"{name}: {json.dumps(value, ensure_ascii=False)}\n"
+            for name, value in self._header.items()
+        )
         write_text(self.folder / description.FILE, header)
         write_text(self.folder / "camera.json", camera.to_json())
         file = (self.folder / times.FILE).open("w", encoding="utf-8", newline="\n")

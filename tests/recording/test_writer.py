@@ -106,7 +106,9 @@ def test_folder_with_content_is_left_alone(tmp_path):
     check(tmp_path / "new", 1)
 
 
-@pytest.mark.parametrize("name", ["Intel (R) D435: 1/2", "-a", ".hidden", "", "Läufer", "a\nb"])
+@pytest.mark.parametrize(
+    "name", ["Intel (R) D435: 1/2", "-a", ".hidden", "", "Läufer", "a\nb", "😀", "a\udcffb"]
+)
 def test_every_name_makes_a_recording(tmp_path, name):
     with writing(tmp_path / "walk", name, source=name) as writer:
         writer.add(timed(0))
