@@ -14,6 +14,8 @@ from regkit.system.optional import load_library
 EXTRAS = {
     "distributed": ("cluster", "regkit run --cluster"),
     "h5py": ("hdf5", "datasets in HDF5 files"),
+    "pyrealsense2": ("realsense", "RealSense cameras and recordings"),
+    "rosbags": ("ros", "bags of ROS, MCAP files"),
     "pytest": ("testing", "conformance tests of your own plug-ins"),
 }
 """Modules of regkit's own extras, with the extra and what it is for."""

@@ -10,7 +10,8 @@ from typing import Any
 from regkit.config.model import did_you_mean, path_in
 from regkit.config.preset import YAML
 from regkit.interfaces.source import Source
-from regkit.system.errors import ConfigError, DataError, PluginError
+from regkit.system.errors import ConfigError, DataError, PluginError, RegkitError
+from regkit.system.guard import reading
 
 SCHEME = re.compile("([a-z][a-z0-9_+-]+):", re.IGNORECASE)
 """Begin of an address that is no path; a single letter is a drive of Windows."""
@@ -88,7 +89,11 @@ def _accepting(path: Path, address: str) -> type[Source]:
     """Returns the only plug-in that accepts a file or folder."""
     sources = list(_loaded())
     suffix = path.suffix.lower()
-    near = [source for source in sources if path.is_dir() or suffix in source.suffixes]
+    near = [
+        source
+        for source in sources
+        if (path.is_dir() and not source.scheme) or suffix in source.suffixes
+    ]
     if not near:
         ends = f"ends with '{suffix}'" if suffix else "has no suffix"
         known = sorted({suffix for source in sources for suffix in source.suffixes})
@@ -97,7 +102,15 @@ def _accepting(path: Path, address: str) -> type[Source]:
             f"{' '.join(known)}",
             place=address,
         )
-    found = [source for source in near if source.accepts(path)]
+    found, refusals = [], []
+    for source in near:
+        try:
+            with reading(path, "a recording"):
+                found += [source] if source.accepts(path) else []
+        except RegkitError as error:
+            refusals.append(error)
+    if refusals and not found:
+        raise refusals[0]
     if not found:
         what = "folder" if path.is_dir() else "file"
         raise DataError(f"no source reads this {what}: it is none of {_kinds(near)}", place=address)

@@ -17,6 +17,7 @@ from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError, DataError
 from regkit.system.files import replacing, write_text
 from regkit.system.notes import note
+from regkit.system.printable import one_line
 
 LARGEST = 65535
 """Largest value of a pixel of 16 bits."""
@@ -56,7 +57,7 @@ class FolderWriter:
             "name": re.sub(r"[^\w. -]|^[. -]", "_", name) or "recording",
             "fps": fps,
             "depth_scale": depth_scale,
-            "source": source,
+            "source": one_line(source),
         }
         self._scale = depth_scale
         self._camera: Camera | None = None
@@ -121,23 +122,28 @@ class FolderWriter:
         self.close()
 
     def _write(self, image: Array, camera: Camera, time: float) -> None:
-        from PIL import Image
-
+        """Writes the next frame, whole or not at all."""
         if self._times is None:
             self._times = self._begin(camera)
         # An image without a time would not be readable; a time without an image is not read.
+        before = self._times.tell()
         self._times.write(f"{self.count},{time!r}\n")
         self._times.flush()
-        images = self.folder / DepthFolder.content
-        with replacing(images / f"{self.count:06d}.png") as temporary:
-            Image.fromarray(image).save(
-                temporary, "PNG", compress_level=LEVEL, compress_type=RUN_LENGTHS
-            )
+        try:
+            _write_png(self.folder / DepthFolder.content / f"{self.count:06d}.png", image)
+        except BaseException:
+            # The next frame takes this number, at another time.
+            self._times.seek(before)
+            self._times.truncate()
+            raise
 
     def _begin(self, camera: Camera) -> TextIO:
         """Writes what all frames share, and returns the file of their times."""
-        # JSON is YAML, and keeps every number.
-        header = "".join(f"{name}: {json.dumps(value)}\n" for name, value in self._header.items())
+        # JSON is YAML, and keeps every number; its escapes of rare characters are not.
+        header = "".join(
+            f"{name}: {json.dumps(value, ensure_ascii=False)}\n"
+            for name, value in self._header.items()
+        )
         write_text(self.folder / description.FILE, header)
         write_text(self.folder / "camera.json", camera.to_json())
         file = (self.folder / times.FILE).open("w", encoding="utf-8", newline="\n")
@@ -156,6 +162,15 @@ class FolderWriter:
                 place=place,
             )
         return np.where(far, 0.0, values).astype(np.uint16)
+
+
+def _write_png(path: Path, image: Array) -> None:
+    from PIL import Image
+
+    with replacing(path) as temporary:
+        Image.fromarray(image).save(
+            temporary, "PNG", compress_level=LEVEL, compress_type=RUN_LENGTHS
+        )
 
 
 def check_new(folder: Path) -> None:

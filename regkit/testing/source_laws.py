@@ -26,7 +26,7 @@ class SourceLaws(Laws):
     @pytest.fixture
     def first_frames(self, source: Source) -> list[TimedFrame]:
         """Returns the first frames."""
-        return _first(source)
+        return frames_at_start(source)
 
     def test_source_frames_are_in_metres_and_fit_their_camera(
         self, source: Source, first_frames: list[TimedFrame]
@@ -78,7 +78,7 @@ class SourceLaws(Laws):
             if stream.live:
                 pytest.skip("a camera shows something else each time")
         require(
-            same(_first(source), first_frames), source,
+            same(frames_at_start(source), first_frames), source,
             "yields other frames when it is opened again", look_at=type(source).open,
         )  # fmt: skip
 
@@ -113,7 +113,7 @@ class SourceLaws(Laws):
             stream.close()
 
 
-def _first(source: Source) -> list[TimedFrame]:
+def frames_at_start(source: Source) -> list[TimedFrame]:
     """Returns the first frames, at most ``FRAMES``."""
     found: list[TimedFrame] = []
     with _opened(source) as stream:

@@ -1,4 +1,4 @@
-"""The laws of solvers, datasets and templates catch faults, here in new packages made wrong."""
+"""The laws of solvers, datasets, sources and templates catch faults in packages made wrong."""
 
 import importlib
 import re
@@ -13,6 +13,7 @@ from regkit.scaffold import Scaffold
 from regkit.testing.dataset_laws import FRAMES, DatasetLaws
 from regkit.testing.problems import bowl
 from regkit.testing.solver_laws import SolverLaws
+from regkit.testing.source_laws import SourceLaws, frames_at_start
 from regkit.testing.template_laws import TemplateLaws
 
 
@@ -100,6 +101,41 @@ def test_faulty_dataset_breaks_its_law(faulty, tmp_path, old, new, law, expected
     made = made.model_copy(update={"root": package / "data"})
     found = made.model_copy(update={"frames": FRAMES}).chosen()
     refusal(lambda: law(DatasetLaws(), made, found), expected)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "law", "expected"),
+    [
+        ("DEPTH_SCALE = 1000.0", "DEPTH_SCALE = 0.5",
+         lambda laws, made, found:
+            laws.test_source_frames_are_in_metres_and_fit_their_camera(made, found),
+         "points must be in metres"),
+        ("index / self.fps)", "-index / self.fps)",
+         lambda laws, made, found:
+            laws.test_source_times_are_finite_and_do_not_decrease(made, found),
+         "yields frames at the times"),
+        ("np.array(content[", "np.random.default_rng().uniform() * np.array(content[",
+         lambda laws, made, found:
+            laws.test_source_reads_the_same_when_it_is_opened_twice(made, found),
+         "yields other frames when it is opened again"),
+        ("            return None\n", "            self._next = 0\n            return None\n",
+         lambda laws, made, found: laws.test_source_has_ended_once_it_ends(made),
+         "yields frames after its end"),
+        ("self.length = len(images)", "self.length = 7",
+         lambda laws, made, found: laws.test_source_has_ended_once_it_ends(made),
+         "states 7 frames but yields 3"),
+        ("        self.fps = fps", "        self.fps = 1e400",
+         lambda laws, made, found: laws.test_source_can_be_closed_twice(made),
+         "opens a stream of inf frames per second"),
+    ],
+    ids=["metres", "times", "twice", "end", "length", "rate"],
+)  # fmt: skip
+def test_faulty_source_breaks_its_law(faulty, tmp_path, old, new, law, expected):
+    made = faulty("source", "source.py", old, new, path=tmp_path)
+    (package,) = tmp_path.iterdir()
+    made = made.model_copy(update={"path": package / "data" / "ball.json"})
+    found = frames_at_start(made)
+    refusal(lambda: law(SourceLaws(), made, found), expected)
 
 
 def test_faulty_template_breaks_its_law(faulty):

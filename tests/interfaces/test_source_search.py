@@ -76,6 +76,18 @@ def test_source_that_several_read_is_chosen_by_its_kind(tmp_path):
     assert "did you mean 'second'" in str(refusal(file, kind="secnd"))
 
 
+def test_file_that_cannot_be_looked_into_matters_only_if_no_source_accepts_it(tmp_path):
+    reader("first", "a")
+    file = tmp_path / "some.odd"
+    file.write_bytes(b"\xff\xfe\xff")
+    error = refusal(file)
+    assert isinstance(error, DataError)
+    assert str(error).startswith(f"{file}: not a recording: ")
+    second = reader("second", "a")
+    second.accepts = classmethod(lambda cls, path: True)
+    assert type(Source.at(file)) is second
+
+
 def test_file_that_no_source_reads_is_told_with_those_that_are(tmp_path):
     reader("first", "a")
     (tmp_path / "some.png").write_text("a")

@@ -77,6 +77,20 @@ def test_recording_is_whole_while_it_is_written(tmp_path):
         check(folder, 3)
 
 
+def test_frame_after_one_that_could_not_be_written_takes_its_number(tmp_path, monkeypatch):
+    def full(*_, **options):
+        raise OSError(28, "No space left on device")
+
+    with writing(tmp_path / "walk") as writer:
+        writer.add(timed(0))
+        with monkeypatch.context() as patch:
+            patch.setattr(Image.Image, "save", full)
+            with pytest.raises(DataError, match="No space left"):
+                writer.add(timed(5))
+        writer.add(timed(1))
+    check(tmp_path / "walk", 2)
+
+
 def test_nothing_is_written_before_the_first_frame(tmp_path):
     writing(tmp_path / "walk").close()
     assert not (tmp_path / "walk").exists()
@@ -92,7 +106,9 @@ def test_folder_with_content_is_left_alone(tmp_path):
     check(tmp_path / "new", 1)
 
 
-@pytest.mark.parametrize("name", ["Intel (R) D435: 1/2", "-a", ".hidden", "", "Läufer", "a\nb"])
+@pytest.mark.parametrize(
+    "name", ["Intel (R) D435: 1/2", "-a", ".hidden", "", "Läufer", "a\nb", "😀", "a\udcffb"]
+)
 def test_every_name_makes_a_recording(tmp_path, name):
     with writing(tmp_path / "walk", name, source=name) as writer:
         writer.add(timed(0))

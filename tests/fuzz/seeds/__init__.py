@@ -13,9 +13,19 @@ from tests.fuzz.seeds.others import OTHERS
 from tests.fuzz.seeds.recordings import RECORDINGS
 from tests.fuzz.seeds.results import RESULTS
 from tests.fuzz.seeds.skeletons import SKELETONS
+from tests.fuzz.seeds.streams import STREAMS
 
 GROUPS: dict[str, tuple[Kind, ...]] = {
-    "inputs": (*CLOUDS, *RECORDINGS, *OTHERS, *MESHES, *SKELETONS, *MOTIONS, *RESULTS),
+    "inputs": (
+        *CLOUDS,
+        *RECORDINGS,
+        *OTHERS,
+        *MESHES,
+        *SKELETONS,
+        *MOTIONS,
+        *RESULTS,
+        *STREAMS,
+    ),
     "yaml": CONFIGS,
 }
 """The kinds of the two groups of cases."""

@@ -54,7 +54,7 @@ class DeviceStream(Stream):
             sensor.start(self._queue)
         except DataError as error:
             raise error.at(place) from None
-        except RuntimeError as error:
+        except RuntimeError as error:  # What the library raises for everything.
             raise DataError(
                 f"the camera cannot be started: {foreign(error)}", place=place
             ) from None
