@@ -32,7 +32,7 @@ from regkit.system.brief import Brief
 from regkit.system.errors import ConfigError
 from regkit.system.optional import one_thread
 from regkit.tracking import Verdict
-from regkit.tracking.live import OPENING, LiveFrame, LiveSetup, LiveTracking
+from regkit.tracking.live import LiveFrame, LiveSetup, LiveTracking
 from regkit.tracking.rows import Rows
 
 
@@ -197,7 +197,7 @@ def track_live(
     preprocessor: Choice[Preprocessor] | None = None,
     tracker: Choice[Tracker] | None = None,
     start: Beginning | None = None,
-    opening: float = OPENING,
+    opening: float | None = None,
     every_frame: bool = False,
     realtime: bool = False,
 ) -> LiveTrack:
@@ -214,7 +214,8 @@ def track_live(
         preprocessor: As in ``track``.
         tracker: As in ``track``.
         start: As in ``track``.
-        opening: Duration in which the body is sought, and sought again until it is found [s].
+        opening: Duration in which the body, its size and its surroundings are sought [s]; by
+            default that of a camera is short, and that of a recording longer.
         every_frame: Whether to track every frame of a camera, however late.
         realtime: Whether to play a recording at its own pace, as a camera.
 
@@ -238,7 +239,7 @@ def live_track(
     source: Callable[[], Stream],
     pipeline: Pipeline,
     *,
-    opening: float = OPENING,
+    opening: float | None = None,
     every_frame: bool = False,
     realtime: bool = False,
     rows: Callable[[Start], Rows] | None = None,
@@ -260,7 +261,7 @@ def live_track(
     Raises:
         RegkitError: If the source cannot be opened.
     """
-    if not 0.0 < opening <= 3600.0:
+    if opening is not None and not 0.0 < opening <= 3600.0:
         raise ConfigError(f"{opening:g} s; it must be positive, and at most an hour",
                           place="opening")  # fmt: skip
     setup = LiveSetup(

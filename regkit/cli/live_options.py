@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from regkit.cli.completion import plugin_names
+from regkit.tracking.live import OPENING, RECORDED_OPENING
 
 
 class People(StrEnum):
@@ -38,10 +39,12 @@ Frames = Annotated[
 ]
 
 Opening = Annotated[
-    float,
+    float | None,
     typer.Option(
         metavar="SECONDS",
-        help="Duration in which the body, its size and its surroundings are sought.",
+        help="Duration in which the body, its size and its surroundings are sought. (default: "
+        f"{OPENING:g} for a camera, {RECORDED_OPENING:g} for a recording)",
+        show_default=False,
     ),
 ]
 

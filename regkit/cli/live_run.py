@@ -16,7 +16,6 @@ from regkit.cli.recording_tap import RecordingTap
 from regkit.cli.status_line import StatusLine
 from regkit.interfaces import Start, Stream
 from regkit.system.errors import RegkitError
-from regkit.tracking.live import OPENING
 from regkit.tracking.rows import RowsInFile
 from regkit.tracking.track_folder import TrackDescription
 
@@ -42,7 +41,7 @@ class LiveRun:
         pipeline: What tracks the body.
         method: Name of the method.
         out: Folder of the results; ``tracks/NAME`` of the stream's name for None.
-        opening: Duration in which the body is sought [s].
+        opening: Duration in which the body is sought [s]; None for the default.
         every_frame: Whether every frame of a camera is tracked.
         realtime: Whether a recording is played at its own pace.
         record: New folder that takes the frames as a recording.
@@ -53,7 +52,7 @@ class LiveRun:
     pipeline: Pipeline
     method: str
     out: Path | None = None
-    opening: float = OPENING
+    opening: float | None = None
     every_frame: bool = False
     realtime: bool = False
     record: Path | None = None

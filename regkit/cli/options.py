@@ -67,8 +67,8 @@ Segmentation = Annotated[
         metavar="SEGMENTERS",
         autocompletion=plugin_names("segmentation"),
         help="Segmenters that take the body out of the scene, in order: names such as "
-        "background,pieces, a YAML list such as '[ planes, {kind: pieces, choose: moving} ]', or [] "
-        f"for none. (default: {default_of('segmenters')})",
+        "background,pieces, a YAML list such as '[ planes, {kind: pieces, choose: moving} ]', or "
+        f"[] for none. (default: {default_of('segmenters')})",
         show_default=False,
     ),
 ]

@@ -50,7 +50,6 @@ from regkit.cli.view_output import ViewOutput
 from regkit.interfaces import Recording
 from regkit.system.errors import ConfigError
 from regkit.tracking import Verdict
-from regkit.tracking.live import OPENING
 from regkit.viewer.server import HOST
 
 
@@ -70,7 +69,7 @@ def track(
     tracker: TrackerName = None,
     recording: RecordingName = None,
     frames: Frames = None,
-    opening: Opening = OPENING,
+    opening: Opening = None,
     every_frame: EveryFrame = False,
     realtime: Realtime = False,
     view: View = False,

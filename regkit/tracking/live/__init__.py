@@ -11,12 +11,19 @@
 
 from regkit.tracking.live.latency import Quantiles
 from regkit.tracking.live.limited import LimitedStream
-from regkit.tracking.live.live_tracking import OPENING, LiveFrame, LiveSetup, LiveTracking
+from regkit.tracking.live.live_tracking import (
+    OPENING,
+    RECORDED_OPENING,
+    LiveFrame,
+    LiveSetup,
+    LiveTracking,
+)
 from regkit.tracking.live.paced import PacedStream
 from regkit.tracking.live.recording_stream import RecordingStream
 
 __all__ = [
     "OPENING",
+    "RECORDED_OPENING",
     "LimitedStream",
     "LiveFrame",
     "LiveSetup",

@@ -35,7 +35,10 @@ from regkit.tracking.rows import Rows
 from regkit.tracking.session import Session
 
 OPENING = 2.0
-"""Duration of the opening [s]."""
+"""Duration of a camera's opening [s], for which a person waits."""
+
+RECORDED_OPENING = 10.0
+"""Duration of a recording's opening [s], which shows more of the body and of what moves."""
 
 PATIENCE = 0.2
 """Time between two looks at whether to stop while no frame comes [s]."""
@@ -72,7 +75,7 @@ class LiveSetup:
         bind: Binds the method to the body that was found.
         tracker: Tracker from frame to frame.
         rows: Returns where the values of a track are kept; in memory by default.
-        opening: Duration of the opening [s].
+        opening: Duration of the opening [s]; for None that of a camera or of a recording.
         every_frame: Whether every frame of a camera is tracked, however late.
         realtime: Whether a recording is played at its own pace after its opening was seen.
         tap: Called with every frame of the track when it is read, in another thread.
@@ -83,7 +86,7 @@ class LiveSetup:
     bind: Callable[[Body], Registrar]
     tracker: Tracker
     rows: Callable[[Start], Rows] | None = None
-    opening: float = OPENING
+    opening: float | None = None
     every_frame: bool = False
     realtime: bool = False
     tap: Callable[[TimedFrame], None] | None = None
@@ -113,7 +116,8 @@ class LiveTracking:
         self.watch = StreamWatch(self.stream.name, self.stream.fps)
         self.latencies = Quantiles()
         # Those that an opening may begin with; it lasts a little longer than it should.
-        span = 2.0 * setup.opening * self.stream.fps
+        self._opening = setup.opening or (OPENING if self.stream.live else RECORDED_OPENING)
+        span = 2.0 * self._opening * self.stream.fps
         self._dropped_before = 0
         self._early: deque[Arrived] = deque(maxlen=ceil(span) + 1)
         self._found: tuple[Session, Start, Opening] | None = None
@@ -225,7 +229,7 @@ class LiveTracking:
         """
         first: tuple[Session, Start, Opening] | None = None
         reason: NoDataError = NoDataError("it has no frame with a measurement")
-        stream, seconds = self.stream, self._setup.opening
+        stream, seconds = self.stream, self._opening
         for opening in openings(self._seen(), stream.name, stream.fps, seconds):
             session = self._setup.session(opening.recording)
             # What is told of an attempt matters only if the tracking begins with it.

@@ -13,8 +13,8 @@ from regkit.tracking.live.reader import Arrived
 KEPT = 15
 """Number of frames of an opening that are kept, spread over it."""
 
-SOONEST = 0.5
-"""Without a body in sight, the next opening ends after this part of an opening ..."""
+SOONEST = 1.0
+"""Without a body in sight, the next opening ends this time [s] later ..."""
 
 RARER = 0.1
 """... or this part of the time that has passed, if it is longer, since each costs a search."""
@@ -65,7 +65,7 @@ def openings(frames: Iterable[Arrived], name: str, fps: float, seconds: float) -
             kept.popleft()
         if time >= due:
             yield from _opening(kept, name, fps)
-            due = time + max(SOONEST * seconds, RARER * (time - first))
+            due = time + max(SOONEST, RARER * (time - first))
     yield from _opening(kept, name, fps)
 
 
