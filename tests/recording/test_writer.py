@@ -69,7 +69,7 @@ def test_what_is_written_is_read_to_the_last_bit(tmp_path, scale):
     with Source.at(tmp_path / "walk").open() as stream:
         assert (stream.name, stream.fps, stream.depth_scale) == ("a walk", 30.0, scale)
     (recording,) = Dataset.parse(
-        Dataset.in_folder(tmp_path / "walk"), place="here", field="dataset"
+        Dataset.at(tmp_path / "walk"), place="here", field="dataset"
     ).chosen()
     for one, other in zip(recording.frames(), read(tmp_path / "walk"), strict=True):
         np.testing.assert_array_equal(one.depth, other.frame.depth)
@@ -203,7 +203,7 @@ def test_distortion_of_the_camera_file_is_taken_out_of_dataset_and_source(tmp_pa
     file.write_text(json.dumps({**json.loads(file.read_text()), "distortion": distortion}))
     lens = Lens.read(file)
     expected = [lens.rectified(one.frame.depth) for one in before]
-    data = Dataset.parse(Dataset.in_folder(folder), place="here", field="dataset")
+    data = Dataset.parse(Dataset.at(folder), place="here", field="dataset")
     frames = [one.frame for one in read(folder)]
     for found in (frames, list(data.only().frames())):
         for one, depth in zip(found, expected, strict=True):
