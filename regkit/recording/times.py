@@ -26,12 +26,13 @@ MAX_TIME = 1e12
 def read_times(path: Path, length: int) -> Array | None:
     """Returns the times (length,) [s] of the first frames; None if the file is missing.
 
+    They may go back, as the clock that measured them did.
+
     Further rows are not read: whoever records writes a frame's time before its image, so that the
     last row may be incomplete, and belong to an image that was not written.
 
     Raises:
-        DataError: If a row cannot be read, is missing, or has a time before that of the frame
-            before it.
+        DataError: If a row cannot be read or is missing.
     """
     if not path.exists():
         return None
@@ -44,12 +45,6 @@ def read_times(path: Path, length: int) -> Array | None:
         times: list[float] = []
         for number, line in enumerate(lines[:length], 2):
             times.append(_time(line, len(times), f"{path}:{number}"))
-            if len(times) > 1 and times[-1] < times[-2]:
-                raise DataError(
-                    f"the time {times[-1]:g} s of frame {len(times) - 1} is before that of the "
-                    f"frame before it, {times[-2]:g} s",
-                    place=f"{path}:{number}",
-                )
         if len(times) < length:
             raise DataError(f"there are {length} frames, but {len(times)} times")
         return np.array(times)

@@ -64,7 +64,6 @@ class FolderWriter:
         self._scale = depth_scale
         self._camera: Camera | None = None
         self._times: TextIO | None = None
-        self._last = -np.inf
         self._told = False
 
     def add(self, timed: TimedFrame) -> None:
@@ -74,7 +73,7 @@ class FolderWriter:
             timed: A frame with a depth image.
 
         Raises:
-            DataError: If it has no depth image, another camera or an earlier time than the frames
+            DataError: If it has no depth image, another camera than the frames
                 before it; or if the folder cannot be written.
         """
         frame = timed.frame
@@ -89,11 +88,6 @@ class FolderWriter:
                 f"{_described(frame.camera)}; a recording has one camera",
                 place=frame.place,
             )
-        if timed.time < self._last:
-            raise DataError(
-                f"the time {timed.time:g} s is before that of the frame before it",
-                place=frame.place,
-            )
         image = self._image(frame.depth, frame.place)
         try:
             self._write(image, frame.camera, timed.time)
@@ -101,7 +95,7 @@ class FolderWriter:
             raise DataError(
                 f"cannot be written: {error.strerror or error}", place=str(self.folder)
             ) from None
-        self._camera, self._last = frame.camera, timed.time
+        self._camera = frame.camera
         self.count += 1
 
     def close(self) -> None:

@@ -11,7 +11,7 @@ from regkit_plugins.sources.folder import Folder
 
 @pytest.mark.parametrize("name", ["human_walk", "hand_gestures", "mannequin"])
 def test_frames_of_a_folder_are_those_of_its_dataset(name):
-    data = Dataset.in_folder(DATA / name)
+    data = Dataset.at(DATA / name)
     recording = Dataset.parse(data, place="here", field="dataset").only()
     with Source.at(DATA / name).open() as stream:
         found = list(stream)

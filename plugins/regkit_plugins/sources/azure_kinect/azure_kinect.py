@@ -13,7 +13,7 @@ from regkit.system.errors import DataError, SourceLostError
 from regkit.system.guard import foreign, reading
 from regkit_plugins.sources.azure_kinect.calibration import lens_of
 from regkit_plugins.sources.azure_kinect.track import DepthTrack
-from regkit_plugins.sources.formats.clock import Clock
+from regkit_plugins.sources.formats.clock import checked_time
 
 MARKS = (b"K4A_", b"Azure Kinect")
 """Texts near the begin of a recording; other Matroska files are films."""
@@ -71,7 +71,6 @@ class AzureKinectStream(Stream):
         self.fps = round(1e9 / track.period, 3)
         self._path, self._file, self._track, self._lens = path, file, track, lens
         self._blocks = track.blocks(file)
-        self._clock = Clock()
         self._count = 0
 
     def read(self) -> TimedFrame | None:
@@ -95,7 +94,7 @@ class AzureKinectStream(Stream):
         self._count += 1
         time, block = found
         with reading(place, "a depth image"):
-            at = self._clock.at(time, place=place)
+            at = checked_time(time, place=place)
             depth = self._track.image(self._file, block) / self.depth_scale
             return TimedFrame(Frame.of_image(depth, self._lens, place=place), at)
 

@@ -1,4 +1,4 @@
-"""Times of frames that do not go back."""
+"""Times of frames."""
 
 from __future__ import annotations
 
@@ -7,27 +7,12 @@ import math
 from regkit.system.errors import DataError
 
 
-class Clock:
-    """The time of the last frame, with which that of the next one is compared."""
+def checked_time(time: float, *, place: str) -> float:
+    """Returns the time [s] that a frame gives; it may be before that of the last frame.
 
-    def __init__(self) -> None:
-        self._last = -math.inf
-
-    def at(self, time: float, *, place: str) -> float:
-        """Returns the time [s] of the next frame.
-
-        Args:
-            time: The time that the frame gives.
-            place: The frame, for messages.
-
-        Raises:
-            DataError: If it is before that of the last frame, or not finite.
-        """
-        if not math.isfinite(time) or time < self._last:
-            raise DataError(
-                f"the frame's time {time:.6f} s is before that of the frame before it, "
-                f"{self._last:.6f} s",
-                place=place,
-            )
-        self._last = time
-        return time
+    Raises:
+        DataError: If it is not finite.
+    """
+    if not math.isfinite(time):
+        raise DataError(f"the frame's time is {time}, no finite number", place=place)
+    return time

@@ -11,7 +11,7 @@ from regkit.interfaces import Stream, TimedFrame
 from regkit.observation import Frame
 from regkit.system.errors import DataError, SourceLostError
 from regkit.system.guard import foreign
-from regkit_plugins.sources.formats.clock import Clock
+from regkit_plugins.sources.formats.clock import checked_time
 from regkit_plugins.sources.realsense.devices import name_of
 from regkit_plugins.sources.realsense.library import realsense
 from regkit_plugins.sources.realsense.profiles import depth_profiles, lens_of, scale_of
@@ -45,7 +45,6 @@ class DeviceStream(Stream):
         self.fps = float(profile.fps())
         self._device, self._sensor, self._place = device, sensor, place
         self._queue = realsense().frame_queue(behind, keep_frames=True)
-        self._clock = Clock()
         self._number: int | None = None
         try:
             self._lens = lens_of(profile)
@@ -83,7 +82,7 @@ class DeviceStream(Stream):
         if self._number is not None and number > self._number + 1:
             self.dropped += number - self._number - 1
         self._number = number
-        at = self._clock.at(1e-3 * float(frame.get_timestamp()), place=place)
+        at = checked_time(1e-3 * float(frame.get_timestamp()), place=place)
         depth = np.asanyarray(frame.get_data()).astype(np.float64) / self.depth_scale
         return TimedFrame(Frame.of_image(depth, self._lens, place=place), at)
 

@@ -13,7 +13,7 @@ from regkit.interfaces import Stream, TimedFrame
 from regkit.observation import Frame
 from regkit.system.errors import SourceLostError
 from regkit.system.guard import foreign, reading
-from regkit_plugins.sources.formats.clock import Clock
+from regkit_plugins.sources.formats.clock import checked_time
 from regkit_plugins.sources.rosbag.cameras import lens_of
 from regkit_plugins.sources.rosbag.images import depth_of
 from regkit_plugins.sources.rosbag.topics import DepthTopics
@@ -57,7 +57,6 @@ class RosbagStream(Stream):
         self._images = list(topics.images)
         self.fps = self._rate()
         self._messages = bag.messages(connections=self._images)
-        self._clock = Clock()
         self._count = 0
 
     def read(self) -> TimedFrame | None:
@@ -82,7 +81,7 @@ class RosbagStream(Stream):
         self._count += 1
         with reading(place, "an image"):
             message = self._bag.deserialize(data, connection.msgtype)
-            time = self._clock.at(_seconds(message, logged), place=place)
+            time = checked_time(_seconds(message, logged), place=place)
             depth = depth_of(message, self.depth_scale)
             return TimedFrame(Frame.of_image(depth, self._lens, place=place), time)
 
