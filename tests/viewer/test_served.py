@@ -24,7 +24,7 @@ STREAM = """
 
 
 def lazy_points(route: Any) -> None:
-    """Answers with one point at the origin, or with a step of its own."""
+    """Answers with points at the origin."""
     head = np.array([0.0, 0.0, 2.5, 0.001], "<f4").tobytes()
     route.fulfill(body=head + np.zeros((50, 3), "<i2").tobytes())
 
@@ -34,7 +34,9 @@ def test_points_are_fetched_frame_by_frame(browser):
     document["recordings"][0]["points"] = {"href": "points/0/{index}"}
 
     def served(watched: Watched) -> None:
-        watched.page.route(SERVER, lambda route: route.fulfill(body=page("walk"), content_type="text/html"))
+        watched.page.route(
+            SERVER, lambda route: route.fulfill(body=page("walk"), content_type="text/html")
+        )
         watched.page.route(SERVER + "scene.json", lambda route: route.fulfill(json=document))
         watched.page.route(SERVER + "points/**", lazy_points)
 
@@ -53,7 +55,11 @@ def live_frame(number: int) -> dict[str, Any]:
     return {
         "frame": number,
         "time": number / 30.0,
-        "points": {"origin": [0.0, 0.0, 2.5], "step": 0.001, "positions": [[number % 50, 0, 0]] * 40},
+        "points": {
+            "origin": [0.0, 0.0, 2.5],
+            "step": 0.001,
+            "positions": [[number % 50, 0, 0]] * 40,
+        },
         "status": f"28 frames/s, frame {number}",
         "methods": [
             {

@@ -68,8 +68,10 @@ export class View {
     }[name]();
     const tangent = Math.tan((this.camera.fov * Math.PI) / 360);
     const free = Math.max(1 - (BANNER + BUTTONS) / this.height, 0.4);
-    const narrow = Math.atan(tangent * Math.min(free, this.camera.aspect));
-    this.distance = extent.radius / Math.sin(narrow);
+    const { wide, high } = extent;
+    const [up, deep] = name === "top" ? [wide, high] : [high, wide];
+    // What is nearest is drawn largest; it is nearer than the centre by the depth of the extent.
+    this.distance = Math.max(up / (tangent * free), wide / (tangent * this.camera.aspect)) + deep;
     const middle = ((BANNER - BUTTONS) / this.height) * tangent * this.distance;
     const target = extent.centre.clone();
     if (name !== "top") target.addScaledVector(UP, middle);

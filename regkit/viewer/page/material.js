@@ -2,6 +2,9 @@
 
 import { Color, MeshLambertMaterial } from "three";
 
+/** Layer of what a slow renderer draws only into pictures that stay. */
+export const FINE = 1;
+
 /**
  * What all materials of a scene share.
  * @typedef {{faint: {value: Color}, weighed: {value: number}, opacity: {value: number}}} Look
@@ -11,11 +14,13 @@ import { Color, MeshLambertMaterial } from "three";
 export const look = () => ({ faint: { value: new Color() }, weighed: { value: 1 }, opacity: { value: 0.5 } });
 
 // A vertex of a tapered capsule is given by its cap (the sign of y), how far it is from the rim of
-// the cap to the pole (0 to 1, above 1 in y) and its direction around the axis (x and z).
+// the cap to the pole (0 to 1, above 1 in y) and its direction around the axis (x and z); the
+// instance by the radii, the distance of their centres and the sine of the rim's latitude.
 const CAPSULE_NORMAL = `
 float cap = step(0.0, position.y);
-float angle = mix(taper.w, (2.0 * cap - 1.0) * 1.57079633, abs(position.y) - 1.0);
-vec3 objectNormal = vec3(position.x * cos(angle), sin(angle), position.z * cos(angle));`;
+vec2 rim_direction = vec2(sqrt(1.0 - taper.w * taper.w), taper.w);
+vec2 direction = normalize(mix(rim_direction, vec2(0.0, 2.0 * cap - 1.0), abs(position.y) - 1.0));
+vec3 objectNormal = vec3(position.x * direction.x, direction.y, position.z * direction.x);`;
 const CAPSULE_POSITION = `
 vec3 transformed = objectNormal * mix(taper.x, taper.y, cap) + vec3(0.0, taper.z * cap, 0.0);`;
 

@@ -22,7 +22,7 @@ export class Picture {
     stage.orient(recording.up);
     const size = this.extent(recording.frames[0])?.radius ?? 1;
     this.ground = new Ground();
-    this.points = new Cloud({ size: 0.013 * size });
+    this.points = new Cloud({ size: 0.012 * size });
     this.joints = new Cloud({ size: 0.035 * size, least: 9, most: 15, cross: true, above: true });
     this.clouds = recording.clouds.map((source) => {
       const cloud = new Cloud({ size: 0.011 * size });

@@ -16,7 +16,7 @@ void main() {
 
 const FRAGMENT = `
 uniform vec3 near, far;
-uniform float opacity;
+uniform float opacity, least_inside;
 varying float shade;
 void main() {
   float clear = opacity;
@@ -27,7 +27,7 @@ void main() {
   #else
     float edge = length(place);
     float inside = clamp((1.0 - edge) / fwidth(edge) + 0.5, 0.0, 1.0);
-    if (inside == 0.0) discard;
+    if (inside < least_inside) discard;
     clear *= inside;
   #endif
   gl_FragColor = vec4(mix(near, far, shade), clear);
@@ -52,6 +52,7 @@ export class Cloud {
       near: { value: new Color() },
       far: { value: new Color() },
       opacity: { value: 1 },
+      least_inside: { value: 0 },
     };
     const material = new ShaderMaterial({
       uniforms: this.uniforms,
@@ -70,6 +71,8 @@ export class Cloud {
     this.object.onBeforeRender = (renderer) => {
       this.uniforms.height.value = renderer.domElement.height;
       this.uniforms.ratio.value = renderer.getPixelRatio();
+      // Without samples a pixel is in the point or not.
+      this.uniforms.least_inside.value = above || renderer.capabilities.samples > 0 ? 0.02 : 0.5;
     };
     this.reserve(64);
   }
