@@ -109,6 +109,25 @@ def test_views_are_marked(shown):
         assert shown.page.is_visible("#border") == (view == "sensor")
 
 
+def test_drags_and_the_wheel_turn_and_move_the_view(shown):
+    shown.page.click("[data-view=front]")
+    fit = shown.page.locator("[data-view=front]")
+    box = shown.page.locator("#view").bounding_box()
+    for move in ("drag", "wheel"):
+        fit.click()
+        assert fit.get_attribute("aria-pressed") == "true"
+        before = int(shown.data("draws"))
+        shown.page.mouse.move(box["x"] + 100, box["y"] + 100)
+        if move == "wheel":
+            shown.page.mouse.wheel(0, 200)
+        else:
+            shown.page.mouse.down()
+            shown.page.mouse.move(box["x"] + 160, box["y"] + 120)
+            shown.page.mouse.up()
+        shown.wait(f"Number(data.draws) > {before}")
+        assert fit.get_attribute("aria-pressed") == "false"
+
+
 def test_phone_scrolls_in_no_direction(shown):
     size = "[document.documentElement.scrollWidth, document.documentElement.scrollHeight]"
     shown.page.set_viewport_size({"width": 390, "height": 844})

@@ -91,6 +91,7 @@ function drawRibbon(pen, scale, method, top) {
     // A frame is as wide as the distance to the next, but what is bad is always seen.
     const from = Math.max(scale.left, across(scale, starts[run]) - width / 2);
     const to = Math.min(scale.right, across(scale, starts[run + 1] ?? end) - width / 2);
+    if (from > scale.right || to < scale.left) return undefined;
     const wide = Math.max(to - from, word === "found" ? 0 : 1.5);
     const high = ROW * (HEIGHTS[word] ?? 1);
     pen.fillStyle = colour(word.replace(" ", "-"));

@@ -10,6 +10,7 @@ export async function load() {
   if (scene.format !== FORMAT) {
     throw new Error(`This page shows scenes of format ${FORMAT}, and this one has ${scene.format}.`);
   }
+  if (scene.recordings.length === 0) throw new Error("There are no recordings in this scene.");
   return scene;
 }
 

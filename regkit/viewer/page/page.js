@@ -133,7 +133,7 @@ export class Page {
   show() {
     const { frame } = this.player;
     showControls(this.player, this.stage?.view);
-    if (!frame) return showBanner("Waiting for the first frame");
+    if (!frame) return showBanner(this.scene.live ? "Waiting for the first frame" : "There are no frames");
     this.panel.show(frame);
     const told = readout(this.recording, frame, this.methods);
     this.timeline.show(frame.number, told);

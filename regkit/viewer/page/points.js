@@ -40,7 +40,7 @@ export class Cloud {
    *   Diameter [m], its bounds in the page's pixels, whether the points are crosses, and whether
    *   they are drawn above everything.
    */
-  constructor({ size = 0, least = 1.6, most = 9, cross = false, above = false }) {
+  constructor({ size = 0, least = 1.3, most = 9, cross = false, above = false }) {
     this.uniforms = {
       size: { value: size },
       least: { value: least },

@@ -97,8 +97,12 @@ export class Stage {
 function withoutGraphicsCard() {
   const context = document.createElement("canvas").getContext("webgl2");
   if (!context) return false;
-  const names = context.getExtension("WEBGL_debug_renderer_info");
-  const name = context.getParameter(names ? names.UNMASKED_RENDERER_WEBGL : context.RENDERER);
+  let name = context.getParameter(context.RENDERER);
+  // Most browsers give a name of their own there; Firefox warns of those who ask for another.
+  if (name === "WebKit WebGL") {
+    const names = context.getExtension("WEBGL_debug_renderer_info");
+    if (names) name = context.getParameter(names.UNMASKED_RENDERER_WEBGL);
+  }
   context.getExtension("WEBGL_lose_context")?.loseContext();
   return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
 }

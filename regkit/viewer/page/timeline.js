@@ -54,7 +54,9 @@ export class Timeline {
   draw() {
     const width = this.slider.clientWidth;
     if (width === 0) return;
-    const scale = scaleOf(this.recording, width, this.methods, this.choice.value);
+    // The style hides the choice where there is no room for a curve.
+    const quantity = this.choice.offsetParent ? this.choice.value : "";
+    const scale = scaleOf(this.recording, width, this.methods, quantity);
     const ratio = devicePixelRatio;
     const size = [Math.round(width * ratio), Math.round(scale.height * ratio)];
     const pen = this.canvas.getContext("2d");
@@ -64,7 +66,7 @@ export class Timeline {
     }
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     pen.clearRect(0, 0, width, scale.height);
-    drawChart(pen, scale, this.recording, this.methods, this.choice.value);
+    drawChart(pen, scale, this.recording, this.methods, quantity);
     this.scale = scale;
     if (this.number !== undefined) this.show(this.number, this.told);
   }
