@@ -1,5 +1,5 @@
 import pytest
-from browser import opened
+from browser import WITHOUT_WEBGL, opened
 
 
 def test_page_opens_from_a_file(shown, walk_page):
@@ -163,13 +163,7 @@ def test_page_says_nothing_to_the_console(shown):
 
 
 def test_browser_without_webgl_is_told(browser, walk_page):
-    script = """
-        const get = HTMLCanvasElement.prototype.getContext;
-        HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
-            return kind === "2d" ? get.call(this, kind, ...more) : null;
-        };
-    """
-    with opened(browser, walk_page, script=script) as shown:
+    with opened(browser, walk_page, script=WITHOUT_WEBGL) as shown:
         shown.page.wait_for_selector("#message:has-text('WebGL')")
         shown.page.keyboard.press("m")
         assert "Frame 30" in shown.page.inner_text("#readout")
