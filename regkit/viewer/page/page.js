@@ -3,6 +3,7 @@
 import { Address, read } from "./address.js";
 import { controls, showControls } from "./controls.js";
 import { displayChoices, offer } from "./display.js";
+import { showHeading } from "./heading.js";
 import { explain } from "./legend.js";
 import { listen } from "./live.js";
 import { Panel } from "./panel.js";
@@ -37,13 +38,12 @@ export class Page {
     this.controls = controls(this.player, (name) => this.look(name), () => this.moved());
     displayChoices(this.display, () => this.chosen());
     themeSwitch($("theme"), () => this.paint());
-    $("recordings").addEventListener("change", () => this.go({ recording: $("recordings").value }));
     if (stage) {
       stage.drawn = () => this.drawn();
       stage.view.renamed = () => showControls(this.player, stage.view);
     }
     $("panel").open = !matchMedia("(max-width: 760px)").matches;
-    this.title();
+    showHeading(scene, (recording) => this.go({ recording }));
     this.go(read(location.hash));
     if (scene.live) listen(this.recording, $("status"), (dropped) => this.grow(dropped));
   }
@@ -51,16 +51,6 @@ export class Page {
   /** The methods that are shown. */
   get methods() {
     return this.recording.methods.filter((method) => this.display.methods.has(method.name));
-  }
-
-  title() {
-    const { title, note, recordings, live } = this.scene;
-    document.title = title;
-    $("title").textContent = title;
-    $("note").textContent = note;
-    $("live").hidden = !live;
-    $("recordings").replaceChildren(...recordings.map(({ name }) => new Option(name, name)));
-    $("recordings").hidden = recordings.length < 2;
   }
 
   /** Goes where an address says. @param {import("./address.js").Place} place */
@@ -80,8 +70,7 @@ export class Page {
 
   open(source, methods, frame = 0) {
     this.source = source;
-    this.recording = new Recording(source);
-    this.recording.live = this.scene.live;
+    this.recording = new Recording(source, this.scene.live);
     $("recordings").value = source.name;
     document.querySelector('[data-view="sensor"]').hidden = !source.camera;
     this.choose(methods);

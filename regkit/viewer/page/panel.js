@@ -41,7 +41,9 @@ export class Panel {
    * @param {() => void} changed
    */
   constructor(list, display, changed) {
-    Object.assign(this, { list, display, changed });
+    this.list = list;
+    this.display = display;
+    this.changed = changed;
   }
 
   /** Lists a recording's methods. @param {import("./recording.js").Recording} recording */

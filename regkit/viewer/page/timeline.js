@@ -35,7 +35,8 @@ export class Timeline {
    * @param {any[]} methods The methods that are shown.
    */
   open(recording, methods) {
-    Object.assign(this, { recording, methods });
+    this.recording = recording;
+    this.methods = methods;
     this.offer();
     this.draw();
   }
@@ -73,7 +74,8 @@ export class Timeline {
 
   /** Moves the playhead. @param {number} number @param {string} told The frame in words. */
   show(number, told) {
-    Object.assign(this, { number, told });
+    this.number = number;
+    this.told = told;
     if (!this.scale) return;
     this.head.style.transform = `translateX(${across(this.scale, number)}px)`;
     const { first, last } = this.scale;
