@@ -63,7 +63,10 @@ export class View {
       side: () => right.clone(),
       top: () => UP.clone().addScaledVector(ahead, -0.002),
       free: () =>
-        ahead.clone().multiplyScalar(-Math.cos(ABOVE)).applyAxisAngle(UP, BESIDE)
+        ahead
+          .clone()
+          .multiplyScalar(-Math.cos(ABOVE))
+          .applyAxisAngle(UP, BESIDE)
           .addScaledVector(UP, Math.sin(ABOVE)),
     }[name]();
     const tangent = Math.tan((this.camera.fov * Math.PI) / 360);
@@ -111,15 +114,22 @@ export class View {
   /** Sets the opening angles so that the depth camera's picture fits into the canvas. */
   project() {
     const { width, height, fx, fy, cx, cy } = this.sensor;
-    const wide = Math.max(1, (this.width / this.height) * (height / fy) / (width / fx));
-    const high = Math.max(1, (this.height / this.width) * (width / fx) / (height / fy));
+    const wide = Math.max(1, ((this.width / this.height) * (height / fy)) / (width / fx));
+    const high = Math.max(1, ((this.height / this.width) * (width / fx)) / (height / fy));
     /** Size of the depth camera's picture in the canvas, as a style. */
     this.border = { width: `${100 / wide}%`, height: `${100 / high}%` };
     const near = this.distance / 100;
     const across = (column) => ((width / 2 - cx + (column * wide * width) / 2) / fx) * near;
     const down = (row) => ((height / 2 - cy + (row * high * height) / 2) / fy) * near;
     const far = this.distance * 60;
-    this.camera.projectionMatrix.makePerspective(across(-1), across(1), -down(-1), -down(1), near, far);
+    this.camera.projectionMatrix.makePerspective(
+      across(-1),
+      across(1),
+      -down(-1),
+      -down(1),
+      near,
+      far,
+    );
     this.camera.projectionMatrixInverse.copy(this.camera.projectionMatrix).invert();
     this.changed();
   }

@@ -50,7 +50,9 @@ export function extentOf(recording, frames, world) {
 
 /** Returns the positions of points [m]. */
 function pointsOf({ origin, step, positions }) {
-  return positions.length === 0 ? [] : Float32Array.from(positions, (whole, i) => origin[i % 3] + step * whole);
+  return positions.length === 0
+    ? []
+    : Float32Array.from(positions, (whole, i) => origin[i % 3] + step * whole);
 }
 
 /** Returns some positions of lists of coordinates, as vectors. */

@@ -28,7 +28,12 @@ void main() {
 
 export class Ground {
   constructor() {
-    this.uniforms = { ink: { value: new Color() }, cell: { value: 1 }, radius: { value: 1 }, ratio: { value: 1 } };
+    this.uniforms = {
+      ink: { value: new Color() },
+      cell: { value: 1 },
+      radius: { value: 1 },
+      ratio: { value: 1 },
+    };
     const material = new ShaderMaterial({
       uniforms: this.uniforms,
       vertexShader: VERTEX,
@@ -40,7 +45,8 @@ export class Ground {
     this.object = new Mesh(new PlaneGeometry(2, 2).rotateX(-Math.PI / 2), material);
     this.object.renderOrder = -1;
     this.object.frustumCulled = false;
-    this.object.onBeforeRender = (renderer) => (this.uniforms.ratio.value = renderer.getPixelRatio());
+    this.object.onBeforeRender = (renderer) =>
+      (this.uniforms.ratio.value = renderer.getPixelRatio());
   }
 
   /** Lays the grid below an extent. @param {import("./extent.js").Extent} extent */

@@ -1,8 +1,15 @@
 /** Many parts of one geometry, each carried by a segment: ellipsoids, tapered capsules. */
 
 import {
-  BufferGeometry, DynamicDrawUsage, Float32BufferAttribute, InstancedBufferAttribute, InstancedMesh,
-  Matrix4, Quaternion, SphereGeometry, Vector3,
+  BufferGeometry,
+  DynamicDrawUsage,
+  Float32BufferAttribute,
+  InstancedBufferAttribute,
+  InstancedMesh,
+  Matrix4,
+  Quaternion,
+  SphereGeometry,
+  Vector3,
 } from "three";
 import { numbers } from "./arrays.js";
 import { FINE, surface } from "./material.js";
@@ -40,7 +47,9 @@ export class Instances {
   place(transforms) {
     const { segments, places } = this;
     for (let k = 0; k < places.length; k++) {
-      matrix.multiplyMatrices(transforms[segments[k]], places[k]).toArray(this.matrices.array, 16 * k);
+      matrix
+        .multiplyMatrices(transforms[segments[k]], places[k])
+        .toArray(this.matrices.array, 16 * k);
     }
     this.matrices.needsUpdate = true;
   }
@@ -68,7 +77,9 @@ export class Instances {
 
 /** Returns ellipsoids of a scene. */
 export function ellipsoids(shape, look, presence) {
-  const [centres, rotations, radii] = ["centres", "rotations", "radii"].map((key) => numbers(shape[key]));
+  const [centres, rotations, radii] = ["centres", "rotations", "radii"].map((key) =>
+    numbers(shape[key]),
+  );
   const segments = numbers(shape.segments);
   const places = Array.from(segments, (_, k) =>
     new Matrix4().compose(
@@ -94,7 +105,8 @@ export function capsules(shape, look, presence) {
     // contains the other has no such cone, and nearly all of the surface.
     const sine = length > 0 ? Math.max(-0.98, Math.min(0.98, (first - second) / length)) : 0;
     tapers.set([first, second, length, sine], 4 * k);
-    const turned = length > 0 ? new Quaternion().setFromUnitVectors(AXIS, axis.normalize()) : new Quaternion();
+    const turned =
+      length > 0 ? new Quaternion().setFromUnitVectors(AXIS, axis.normalize()) : new Quaternion();
     return new Matrix4().compose(start, turned, new Vector3(1, 1, 1));
   });
   const geometry = capsuleGeometry();

@@ -61,7 +61,8 @@ export function append(recording, data) {
   for (const method of methods) {
     const { verdict, curves = {} } = results.get(method.name) ?? {};
     if (verdict) method.verdicts.append(number, verdict, frames[0].number);
-    for (const [name, value] of Object.entries(curves)) note(method, name, number, value, frames[0].number);
+    for (const [name, value] of Object.entries(curves))
+      note(method, name, number, value, frames[0].number);
   }
   return dropped;
 }

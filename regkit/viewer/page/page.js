@@ -2,7 +2,7 @@
 
 import { Address, read } from "./address.js";
 import { controls, showControls } from "./controls.js";
-import { displayChoices, offer } from "./display.js";
+import { displayChoices, everything, offer } from "./display.js";
 import { showHeading } from "./heading.js";
 import { explain } from "./legend.js";
 import { listen } from "./live.js";
@@ -24,10 +24,7 @@ export class Page {
    */
   constructor(scene, stage) {
     this.scene = scene;
-    this.display = {
-      model: "", points: true, depth: true, bones: true, joints: true, confidence: true, solid: false,
-      methods: new Set(),
-    };
+    this.display = everything();
     this.stage = stage;
     this.player = new Player(() => this.show());
     this.panel = new Panel($("methods"), this.display, () => this.switched());
@@ -35,7 +32,11 @@ export class Page {
       this.player.seek(this.recording.nearest(number));
     });
     this.address = new Address((place) => this.go(place));
-    this.controls = controls(this.player, (name) => this.look(name), () => this.moved());
+    this.controls = controls(
+      this.player,
+      (name) => this.look(name),
+      () => this.moved(),
+    );
     displayChoices(this.display, () => this.chosen());
     themeSwitch($("theme"), () => this.paint());
     if (stage) {
@@ -122,7 +123,8 @@ export class Page {
   show() {
     const { frame } = this.player;
     showControls(this.player, this.stage?.view);
-    if (!frame) return showBanner(this.scene.live ? "Waiting for the first frame" : "There are no frames");
+    if (!frame)
+      return showBanner(this.scene.live ? "Waiting for the first frame" : "There are no frames");
     this.panel.show(frame);
     const told = readout(this.recording, frame, this.methods);
     this.timeline.show(frame.number, told);
@@ -171,7 +173,10 @@ export class Page {
       frame: this.player.frame?.number ?? 0,
       play: this.player.playing,
       speed: this.player.speed,
-      methods: this.methods.length < this.recording.methods.length ? this.methods.map(({ name }) => name) : undefined,
+      methods:
+        this.methods.length < this.recording.methods.length
+          ? this.methods.map(({ name }) => name)
+          : undefined,
     }));
   }
 

@@ -30,7 +30,9 @@ export class Picture {
       cloud.uniforms.near.value.set(source.colour);
       return cloud;
     });
-    this.models = recording.methods.map((method, order) => new Model(method, order, this.look, size));
+    this.models = recording.methods.map(
+      (method, order) => new Model(method, order, this.look, size),
+    );
     const parts = [this.points, this.joints, ...this.clouds, ...this.models];
     stage.world.add(...parts.map((part) => part.object));
     stage.scene.add(this.ground.object);

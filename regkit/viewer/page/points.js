@@ -1,6 +1,14 @@
 /** Points of the scene: round ones of a size in metres, or marks of a size in pixels. */
 
-import { BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, Points, ShaderMaterial, Vector2 } from "three";
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  DynamicDrawUsage,
+  Points,
+  ShaderMaterial,
+  Vector2,
+} from "three";
 
 const VERTEX = `
 uniform float size, least, most, height, ratio, shaded;

@@ -17,7 +17,10 @@ export class Skin {
     this.unposed = matricesOf(rest, rest.length / 7).map((one) => one.invert());
     this.posed = this.unposed.map(() => new Matrix4());
     const geometry = new BufferGeometry();
-    geometry.setAttribute("position", new BufferAttribute(this.vertices.slice(), 3).setUsage(DynamicDrawUsage));
+    geometry.setAttribute(
+      "position",
+      new BufferAttribute(this.vertices.slice(), 3).setUsage(DynamicDrawUsage),
+    );
     geometry.setIndex(new BufferAttribute(numbers(shape.triangles), 1));
     geometry.computeVertexNormals();
     this.normals = geometry.attributes.normal.array.slice();

@@ -1,6 +1,15 @@
 /** The canvas with its lights and its renderer, which draws only when something changed. */
 
-import { AmbientLight, Color, DirectionalLight, Group, HemisphereLight, Scene, Vector3, WebGLRenderer } from "three";
+import {
+  AmbientLight,
+  Color,
+  DirectionalLight,
+  Group,
+  HemisphereLight,
+  Scene,
+  Vector3,
+  WebGLRenderer,
+} from "three";
 import { View } from "./camera.js";
 import { FINE } from "./material.js";
 import { colour } from "./theme.js";

@@ -44,7 +44,9 @@ export class Timeline {
   /** Offers the curves that the methods have. */
   offer() {
     const { choice, recording } = this;
-    const names = new Set(recording.methods.flatMap(({ curves }) => curves.map(({ name }) => name)));
+    const names = new Set(
+      recording.methods.flatMap(({ curves }) => curves.map(({ name }) => name)),
+    );
     const before = choice.value;
     if (names.size > 0 && choice.options.length === names.size && names.has(before)) return;
     choice.replaceChildren(...[...names].map((name) => new Option(name, name)));
@@ -80,6 +82,7 @@ export class Timeline {
     this.head.style.transform = `translateX(${across(this.scale, number)}px)`;
     const { first, last } = this.scale;
     const values = { valuemin: first, valuemax: last, valuenow: number, valuetext: told };
-    for (const [key, value] of Object.entries(values)) this.slider.setAttribute(`aria-${key}`, value);
+    for (const [key, value] of Object.entries(values))
+      this.slider.setAttribute(`aria-${key}`, value);
   }
 }
