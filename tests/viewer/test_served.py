@@ -102,4 +102,8 @@ def test_live_frames_are_followed_until_the_reader_goes_back(browser, tmp_path):
         assert "broke" in shown.page.inner_text("#status")
         shown.page.evaluate("stream.dispatchEvent(new MessageEvent('end', { data: '' }))")
         assert "ended" in shown.page.inner_text("#status")
+        # A server that was started anew counts from the beginning.
+        shown.page.evaluate(send, json.dumps([live_frame(5)]))
+        shown.wait_frame(5)
+        assert shown.page.get_attribute("#timeline", "aria-valuemax") == "5"
         assert shown.messages == []
