@@ -63,13 +63,7 @@ class Watched:
     def wait(self, condition: str) -> None:
         """Waits until an expression is true in the page, in which ``data`` is what it tells."""
         # Playwright's own waiting evaluates text in the page, which the page's policy forbids.
-<<<<<<< HEAD
-        source = (
-            f"(() => {{ const data = document.documentElement.dataset; return {condition} }})()"
-        )
-=======
         source = f"(data => {condition})(document.documentElement.dataset)"
->>>>>>> 4c6e7512b969d03df11c31c2e302bbe12daf45e0
         end = time.monotonic() + TIMEOUT / 1000
         while not self.page.evaluate(source):
             assert time.monotonic() < end, f"not true in time: {condition}; {self.messages}"
@@ -78,14 +72,8 @@ class Watched:
     def go(self, hash: str) -> None:
         """Sets what follows the page's address."""
         # An address that is there already would change nothing, although the page has moved on.
-<<<<<<< HEAD
-        self.page.evaluate(
-            "hash => { history.replaceState(null, '', '#'); location.hash = hash }", hash
-        )
-=======
         self.page.evaluate("history.replaceState(null, '', '#')")
         self.page.evaluate("hash => { location.hash = hash }", hash)
->>>>>>> 4c6e7512b969d03df11c31c2e302bbe12daf45e0
 
     def wait_frame(self, number: int) -> None:
         """Waits until a frame is drawn."""

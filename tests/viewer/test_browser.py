@@ -1,9 +1,5 @@
 import pytest
-<<<<<<< HEAD
-from browser import opened
-=======
 from browser import WITHOUT_WEBGL, opened
->>>>>>> 4c6e7512b969d03df11c31c2e302bbe12daf45e0
 
 
 def test_page_opens_from_a_file(shown, walk_page):
