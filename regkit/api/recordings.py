@@ -19,18 +19,19 @@ Frames = Recording | Dataset | str | Path | Many[Measured] | ArrayLike
 
 
 def load_recording(folder: str | Path, *, frames: int | None = None) -> Recording:
-    """Returns the recording of a folder: ``depth/`` or ``clouds/`` beside a ``sequence.yaml``.
+    """Returns a recording: that of a folder, or of a file that a source reads.
 
     ``frames()`` yields its frames, ``truth()`` returns its reference joints or None.
 
     Args:
-        folder: The recording's folder.
+        folder: The recording's folder, ``depth/`` or ``clouds/`` beside a ``sequence.yaml``; or a
+            bag of ROS, or the file of a camera.
         frames: Maximum number of frames, from the first; all by default.
 
     Raises:
-        RegkitError: If the folder holds no recording, or several, or is damaged.
+        RegkitError: If it holds no recording, or several, or is damaged.
     """
-    data = Dataset.in_folder(folder, frames=frames)
+    data = Dataset.at(folder, frames=frames)
     return Dataset.parse(data, place="load_recording", field="dataset").only()
 
 

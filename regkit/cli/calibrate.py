@@ -39,7 +39,7 @@ def calibrate(
         Path,
         typer.Argument(
             metavar="RECORDING",
-            help="Folder of a recording, or an experiment's YAML file.",
+            help="Folder or file of a recording, or an experiment's YAML file.",
             show_default=False,
         ),
     ],

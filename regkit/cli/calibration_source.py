@@ -10,6 +10,7 @@ from regkit.cli.choices import template_named
 from regkit.cli.options import options
 from regkit.config.model import Model
 from regkit.config.plugin import slot_default, slot_defaults
+from regkit.config.preset import YAML
 from regkit.experiment import Experiment
 from regkit.interfaces import Dataset, Preprocessor, Recording, Segmenter, StartSearch, Template
 from regkit.system.errors import ConfigError, DataError
@@ -31,7 +32,7 @@ class Source(Model):
 
     @classmethod
     def read(cls, path: Path, template: str | None, settings: Iterable[str]) -> Source:
-        """Reads the source from a recording's folder or an experiment's YAML file.
+        """Reads the source from a recording or an experiment's YAML file.
 
         Args:
             path: The folder or the file.
@@ -44,11 +45,11 @@ class Source(Model):
         """
         if not path.exists():
             raise DataError(
-                "there is no such file or folder; name a recording's folder or an experiment's "
-                "YAML file",
+                "there is no such file or folder; name a recording's folder or file, or an "
+                "experiment's YAML file",
                 place=str(path),
             )
-        if not path.is_dir():
+        if path.suffix.lower() in YAML:
             experiment = Experiment.read(path, settings, called="--set")
             # A given start belongs to the experiment's template.
             kept = template is None or experiment.start.searches
@@ -61,11 +62,11 @@ class Source(Model):
             )
         for setting in settings:
             raise ConfigError(
-                f"--set changes the values of an experiment; {path} is a folder",
+                f"--set changes the values of an experiment; {path} is a recording",
                 place=f"--set {setting}",
             )
         return cls(
-            dataset=Dataset.parse(Dataset.in_folder(path), place=str(path), field="dataset"),
+            dataset=Dataset.parse(Dataset.at(path), place=str(path), field="dataset"),
             template=template_named(template),
         )
 

@@ -24,7 +24,7 @@ def preview(
         Path,
         typer.Argument(
             metavar="RECORDING",
-            help="Folder of a recording, or an experiment's YAML file.",
+            help="Folder or file of a recording, or an experiment's YAML file.",
             show_default=False,
         ),
     ],

@@ -73,6 +73,6 @@ def dataset_recording(address: str, name: str | None, frames: int | None) -> Rec
     Raises:
         RegkitError: If the folder holds no recording, or several and none is named.
     """
-    data = Dataset.in_folder(address, frames=frames)
+    data = Dataset.at(address, frames=frames)
     with options(**{"dataset.recordings": "--recording"}):
         return Dataset.parse(data, place="SOURCE", field="dataset").only(name)

@@ -180,7 +180,7 @@ def _dataset(folder: Path) -> Dataset:
         ConfigError: If there is none.
     """
     try:
-        dataset = Dataset.parse(Dataset.in_folder(folder), place="WHAT", field="dataset")
+        dataset = Dataset.parse(Dataset.at(folder), place="WHAT", field="dataset")
         dataset.chosen()
     except RegkitError as error:
         others = sorted({path.parent for path in folder.glob(f"**/{FILE}")})[:5]

@@ -15,6 +15,7 @@ from regkit.config.input_files import paths_in
 from regkit.config.model import did_you_mean
 from regkit.config.plugin import Plugin
 from regkit.config.quantities import FrameCount
+from regkit.interfaces.source import Source
 from regkit.observation import Frame, Truth
 from regkit.system.brief import Brief
 from regkit.system.errors import ConfigError, DataError
@@ -123,10 +124,23 @@ class Dataset(Plugin, ABC):
     """Map from the reference joints to the template's markers, where the names differ."""
 
     @classmethod
-    def in_folder(cls, folder: str | Path, **fields: Any) -> dict[str, Any]:
-        """Returns data for a dataset in a folder: clouds if it has ``clouds/``, else depth."""
-        kind = "clouds" if (Path(folder) / "clouds").is_dir() else "depth"
-        return cls.default(kind, root=str(folder), **fields)
+    def at(cls, path: str | Path, **fields: Any) -> dict[str, Any]:
+        """Returns data for the dataset of a path.
+
+        Args:
+            path: A folder, of clouds if it has ``clouds/``, else of depth images; or a file or
+                folder that a source reads.
+            fields: Fields of the dataset.
+
+        Raises:
+            RegkitError: If no source reads the file.
+        """
+        folder = Path(path)
+        if (folder / "clouds").is_dir():
+            return cls.default("clouds", root=str(path), **fields)
+        if folder.is_file() or (folder / "metadata.yaml").is_file():
+            return cls.default("source", source=Source.described(path), **fields)
+        return cls.default("depth", root=str(path), **fields)
 
     @abstractmethod
     def found(self) -> list[Recording]:

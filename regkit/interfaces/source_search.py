@@ -17,19 +17,19 @@ SCHEME = re.compile("([a-z][a-z0-9_+-]+):", re.IGNORECASE)
 """Begin of an address that is no path; a single letter is a drive of Windows."""
 
 
-def described(address: str, kind: str | None) -> dict[str, Any]:
+def described(address: str, kind: Any) -> dict[str, Any]:
     """Returns the kind of the source of an address, and the fields in the address.
 
     Args:
         address: A camera, or the path of a file or folder.
-        kind: Name of the plug-in, if it is known.
+        kind: Name of the plug-in, as a user gives it; None if it is not known.
 
     Raises:
         ConfigError: If no plug-in has the scheme, or several accept the file.
         DataError: If there is no such file, or no plug-in reads it.
         PluginError: If there is no plug-in ``kind``.
     """
-    found = None if kind is None else Source.load(kind)
+    found = None if kind is None else Source.load(str(kind))
     scheme = SCHEME.match(address)
     path = _path(address)
     if scheme is not None and not path.exists():

@@ -11,7 +11,7 @@ truth.csv          optional: frame,joint,x,y,z [m] in the camera's frame
 - ``folder``: the folder of one recording; ``search`` finds those below a root.
 - ``depth_folder``, ``cloud_folder``: its frames.
 - ``times``: ``times.csv``.
-- ``writer``: writes it, frame by frame.
+- ``writer``, ``png``: writes it, frame by frame.
 """
 
 from regkit.recording.cloud_folder import CloudFolder

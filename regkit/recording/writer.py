@@ -9,21 +9,23 @@ from types import TracebackType
 from typing import Self, TextIO
 
 import numpy as np
+from numpy.typing import NDArray
 
 from regkit.observation import Camera, TimedFrame
 from regkit.recording import description, times
 from regkit.recording.depth_folder import DepthFolder
+from regkit.recording.png import png_of
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError, DataError
 from regkit.system.files import replacing, write_text
 from regkit.system.notes import note
 from regkit.system.printable import one_line
 
+Image = NDArray[np.uint16]
+"""Pixels (H, W) in units of the recording."""
+
 LARGEST = 65535
 """Largest value of a pixel of 16 bits."""
-
-LEVEL, RUN_LENGTHS = 1, 3
-"""Compression of images: fast enough for a camera, and small where most pixels are zero."""
 
 
 class FolderWriter:
@@ -121,7 +123,7 @@ class FolderWriter:
         """Ends the recording."""
         self.close()
 
-    def _write(self, image: Array, camera: Camera, time: float) -> None:
+    def _write(self, image: Image, camera: Camera, time: float) -> None:
         """Writes the next frame, whole or not at all."""
         if self._times is None:
             self._times = self._begin(camera)
@@ -130,7 +132,9 @@ class FolderWriter:
         self._times.write(f"{self.count},{time!r}\n")
         self._times.flush()
         try:
-            _write_png(self.folder / DepthFolder.content / f"{self.count:06d}.png", image)
+            path = self.folder / DepthFolder.content / f"{self.count:06d}.png"
+            with replacing(path) as temporary:
+                temporary.write_bytes(png_of(image))
         except BaseException:
             # The next frame takes this number, at another time.
             self._times.seek(before)
@@ -150,7 +154,7 @@ class FolderWriter:
         file.write(f"{times.HEADER}\n")
         return file
 
-    def _image(self, depth: Array, place: str | None) -> Array:
+    def _image(self, depth: Array, place: str | None) -> Image:
         """Returns the pixels (H, W) of 16 bits of a depth image [m]."""
         values = np.rint(np.where(depth > 0.0, depth, 0.0) * self._scale)
         far = values > LARGEST
@@ -162,15 +166,6 @@ class FolderWriter:
                 place=place,
             )
         return np.where(far, 0.0, values).astype(np.uint16)
-
-
-def _write_png(path: Path, image: Array) -> None:
-    from PIL import Image
-
-    with replacing(path) as temporary:
-        Image.fromarray(image).save(
-            temporary, "PNG", compress_level=LEVEL, compress_type=RUN_LENGTHS
-        )
 
 
 def check_new(folder: Path) -> None:

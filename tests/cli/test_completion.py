@@ -52,7 +52,7 @@ def test_completion_sees_the_options_of_every_command_without_its_libraries():
 @pytest.mark.parametrize(
     ("words", "expected"),
     [
-        (("re",), {"report", "register"}),
+        (("re",), {"record", "register", "report"}),
         (("run", "--j"), {"--jobs"}),
         (("register", "--me"), {"--method"}),
         (("example", "dem"), {"demo"}),

@@ -55,7 +55,7 @@ def test_recording_has_a_clean_name_everywhere_and_links_out_of_results_are_refu
 def test_recording_is_chosen_by_both_names(tmp_path):
     copy_recording(tmp_path / "a.")
     (tmp_path / "a." / "sequence.yaml").write_text("fps: 30\n")
-    dataset = Dataset.parse(Dataset.in_folder(tmp_path), place="here", field="dataset")
+    dataset = Dataset.parse(Dataset.at(tmp_path), place="here", field="dataset")
     for name in ("a.", "a._"):
         with pytest.warns(RegkitWarning):
             assert dataset.only(name).name == "a._"

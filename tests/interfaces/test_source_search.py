@@ -76,6 +76,11 @@ def test_source_that_several_read_is_chosen_by_its_kind(tmp_path):
     assert "did you mean 'second'" in str(refusal(file, kind="secnd"))
 
 
+@pytest.mark.parametrize("kind", [3, ["folder"], {"a": 1}, ""])
+def test_kind_that_is_no_name_is_refused(kind):
+    assert isinstance(refusal(WALK, kind=kind), RegkitError)
+
+
 def test_file_that_cannot_be_looked_into_matters_only_if_no_source_accepts_it(tmp_path):
     reader("first", "a")
     file = tmp_path / "some.odd"

@@ -1,7 +1,9 @@
 """Writing of recordings: what is in the folder is a recording at any time."""
 
+import io
 import json
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,6 +13,7 @@ from regkit.geometry import Camera, Lens
 from regkit.interfaces import Dataset, Source
 from regkit.observation import Frame, TimedFrame
 from regkit.recording import FolderWriter
+from regkit.recording.png import png_of
 from regkit.system.errors import ConfigError, DataError
 from regkit.system.notes import RegkitWarning
 
@@ -50,6 +53,15 @@ def check(folder, count, scale=1000.0):
         assert one.time == expected.time
 
 
+@pytest.mark.parametrize("shape", [(1, 1), (1, 7), (5, 1), (18, 24), (480, 848)])
+def test_image_is_what_another_program_reads(random, shape):
+    image = random.integers(0, 65536, size=shape).astype(np.uint16)
+    image[random.uniform(size=shape) < 0.3] = 0
+    with Image.open(io.BytesIO(png_of(image)), formats=("PNG",)) as read_back:
+        assert read_back.mode == "I;16"
+        np.testing.assert_array_equal(np.asarray(read_back), image)
+
+
 @pytest.mark.parametrize("scale", [1000.0, 5000.0, 10000.0, 4000.123])
 def test_what_is_written_is_read_to_the_last_bit(tmp_path, scale):
     write(tmp_path / "walk", 4, scale)
@@ -57,7 +69,7 @@ def test_what_is_written_is_read_to_the_last_bit(tmp_path, scale):
     with Source.at(tmp_path / "walk").open() as stream:
         assert (stream.name, stream.fps, stream.depth_scale) == ("a walk", 30.0, scale)
     (recording,) = Dataset.parse(
-        Dataset.in_folder(tmp_path / "walk"), place="here", field="dataset"
+        Dataset.at(tmp_path / "walk"), place="here", field="dataset"
     ).chosen()
     for one, other in zip(recording.frames(), read(tmp_path / "walk"), strict=True):
         np.testing.assert_array_equal(one.depth, other.frame.depth)
@@ -84,7 +96,7 @@ def test_frame_after_one_that_could_not_be_written_takes_its_number(tmp_path, mo
     with writing(tmp_path / "walk") as writer:
         writer.add(timed(0))
         with monkeypatch.context() as patch:
-            patch.setattr(Image.Image, "save", full)
+            patch.setattr(Path, "write_bytes", full)
             with pytest.raises(DataError, match="No space left"):
                 writer.add(timed(5))
         writer.add(timed(1))
@@ -191,7 +203,7 @@ def test_distortion_of_the_camera_file_is_taken_out_of_dataset_and_source(tmp_pa
     file.write_text(json.dumps({**json.loads(file.read_text()), "distortion": distortion}))
     lens = Lens.read(file)
     expected = [lens.rectified(one.frame.depth) for one in before]
-    data = Dataset.parse(Dataset.in_folder(folder), place="here", field="dataset")
+    data = Dataset.parse(Dataset.at(folder), place="here", field="dataset")
     frames = [one.frame for one in read(folder)]
     for found in (frames, list(data.only().frames())):
         for one, depth in zip(found, expected, strict=True):

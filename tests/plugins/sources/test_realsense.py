@@ -1,5 +1,6 @@
 """RealSense cameras and recordings, by the software device of RealSense's own library."""
 
+import sys
 from itertools import count
 from pathlib import Path
 
@@ -10,7 +11,13 @@ from places import ASSETS
 
 from regkit.geometry import Camera
 from regkit.interfaces import Source
-from regkit.system.errors import ConfigError, DataError, RegkitError, SourceLostError
+from regkit.system.errors import (
+    ConfigError,
+    DataError,
+    DependencyError,
+    RegkitError,
+    SourceLostError,
+)
 from regkit_plugins.sources.realsense import RealSense, RealSenseRecording
 from regkit_plugins.sources.realsense.devices import connected
 from regkit_plugins.sources.realsense.stream import CameraStream
@@ -163,3 +170,10 @@ def test_recording_that_is_cut_short_is_told(recording, tmp_path, share):
     path.write_bytes(content[: int(share * len(content))])
     with pytest.raises(RegkitError, match=r"cut\.db3"), RealSenseRecording(path=path).open() as one:
         list(one)
+
+
+def test_missing_library_is_told_with_the_command_that_installs_it(recording, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pyrealsense2", None)
+    for source in (RealSense(), RealSenseRecording(path=recording)):
+        with pytest.raises(DependencyError, match=r"regkit\[realsense\]"):
+            source.open()

@@ -1,5 +1,7 @@
 """Bags: the shipped walk in each of their formats, and what is wrong with others."""
 
+import sys
+
 import numpy as np
 import pytest
 from bags import (
@@ -20,7 +22,13 @@ from bags import (
 from regkit.geometry import Camera, Lens
 from regkit.geometry.distortion import BrownConrady, KannalaBrandt
 from regkit.interfaces import Source
-from regkit.system.errors import ConfigError, DataError, RegkitError, SourceLostError
+from regkit.system.errors import (
+    ConfigError,
+    DataError,
+    DependencyError,
+    RegkitError,
+    SourceLostError,
+)
 from regkit_plugins.sources.rosbag import Rosbag
 
 COUNT = 4
@@ -222,3 +230,10 @@ def test_folder_without_its_files_is_told(tmp_path):
     path = write_bag(tmp_path / "walk", "mcap", walk_rows(1))
     next(path.glob("*.mcap")).unlink()
     assert "walk.mcap" in str(refusal(path))
+
+
+def test_missing_library_is_told_with_the_command_that_installs_it(tmp_path, monkeypatch):
+    path = write_bag(tmp_path / "walk", "mcap", walk_rows(1))
+    monkeypatch.setitem(sys.modules, "rosbags.highlevel", None)
+    with pytest.raises(DependencyError, match=r"regkit\[ros\]"):
+        Source.at(path).open()

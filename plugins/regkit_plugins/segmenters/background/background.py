@@ -60,7 +60,7 @@ class Background(Segmenter):
         """
         learned_from, visible, least = recording, self.visible, FEWEST
         if self.empty is not None:
-            data = Dataset.in_folder(self.empty)
+            data = Dataset.at(self.empty)
             learned_from = Dataset.parse(data, place="background", field="empty").only()
             visible, least = 0.5, 1
         images = list(_images(learned_from, self.frames))
