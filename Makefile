@@ -4,7 +4,7 @@ PYTHON ?= python3
 ready := .venv/.ready
 bin := .venv/bin
 
-.PHONY: help demo test test-long fuzz lint loops docs pictures samples templates schemas lock benchmarks clean
+.PHONY: help demo test test-long fuzz lint loops docs notebook pictures samples templates schemas lock benchmarks clean
 
 help: ## Show this help
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -45,6 +45,9 @@ docs: $(ready) ## Build the documentation in docs/_build
 
 pictures: $(ready) ## Regenerate the images of the documentation
 	@$(bin)/python docs/pictures.py
+
+notebook: $(ready) loops ## Make the tutorial's notebook again from its page, and run it
+	@$(bin)/python docs/notebook.py
 
 samples: $(ready) ## Regenerate the sample recordings
 	@$(bin)/python -m regkit_synthesis docs/examples/data

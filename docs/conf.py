@@ -19,6 +19,7 @@ extensions = [
     "docstrings",
     "generated",
     "mathml",
+    "notebook_cells",
 ]
 exclude_patterns = ["_build", "examples"]
 html_theme = "furo"
@@ -54,7 +55,7 @@ autodoc_type_aliases = {
         "OneFrame",
         "Reference",
     )
-}
+} | {"SceneView": "regkit.viewer.embedded.SceneView"}
 napoleon_use_ivar = True
 napoleon_use_rtype = False
 python_use_unqualified_type_names = True
@@ -75,13 +76,15 @@ nitpick_ignore_regex = [
         r"|OneFrame"
         r"|Reference|Vector|Position|Rotation|FrameCount|Length|Count|regkit\.body\.verdict\.Annotated",
     ),
-    (r"py:class", r"Figure|Field|FieldInfo|NoneType|Ge|Gt|Le|\d+\.\d|array|(dict|tuple)\[.*"),
+    (r"py:class", r"Figure|Path|Field|FieldInfo|NoneType|Ge|Gt|Le|\d+\.\d|array|(dict|tuple)\[.*"),
     (
         r"py:class",
         r"(Integer|Single)?(Vector|Matrix)|float32|float64|int64|regkit\.system\.compiled\.R",
     ),
     # What starts and trackers share inside regkit is no part of its API.
     (r"py:class", r"regkit\.(body\.distance|search)\..*"),
+    # So is what tracks a stream, and keeps what was tracked.
+    (r"py:class", r"regkit\.tracking\.(live|recorder|rows)\..*"),
     # Tables of fields describe the content of YAML files.
     (r"py:class", r"(regkit\.(body|skeleton)\..*\.)?\w+Description"),
     # Not part of the public interface.

@@ -5,11 +5,14 @@ The pictures of real recordings are not among them, for the recordings are not s
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 from matplotlib.figure import Figure
 from PIL import Image
+from playwright.sync_api import sync_playwright
 
 import regkit
 from regkit.api.viewing import scene_of
@@ -24,6 +27,9 @@ DATA = DOCS / "examples" / "data"
 
 MILLISECONDS = 66
 """How long each picture of the walk is shown: its two seconds take four."""
+
+CHROMIUM = ("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+"""Options of the browser, for machines without a graphics card."""
 
 SOLE = 0.01
 """How far the sole is below the lowest marker, at the toes [m]."""
@@ -52,6 +58,26 @@ def notebook() -> None:
     person = regkit.load_template("human", height=1.63)
     tracked = regkit.track(walk, person)
     _save("notebook", tracked.plot(walk.truth()))
+
+
+def view() -> None:
+    """The scene of the sample walk, as a browser draws it."""
+    walk = regkit.load_recording(DATA / "human_walk", frames=12)
+    tracked = regkit.track(walk, regkit.load_template("human", height=1.63))
+    path = DOCS / "images" / "view.png"
+    with TemporaryDirectory() as folder, sync_playwright() as started:
+        file = Path(folder) / "walk.html"
+        tracked.view(walk.truth()).save(file)
+        browser = started.chromium.launch(
+            executable_path=shutil.which("chromium"), args=list(CHROMIUM)
+        )
+        page = browser.new_page(viewport={"width": 960, "height": 560}, color_scheme="light")
+        page.goto(f"{file.as_uri()}#frame=3")
+        page.wait_for_selector("html[data-ready='3']")
+        page.screenshot(path=path)
+        browser.close()
+    Image.open(path).convert("RGB").quantize(128).save(path, optimize=True)
+    print("docs/images/view.png")
 
 
 def hand() -> None:
@@ -108,6 +134,7 @@ def _save(name: str, figure: Figure) -> None:
 if __name__ == "__main__":
     track()
     notebook()
+    view()
     hand()
     clouds()
     room()

@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from regkit.api import (
         Camera,
         CloudAlignment,
+        LivePose,
+        LiveTrack,
         Preview,
         Registration,
         RegkitError,
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
         Truth,
         Verdict,
         align,
+        examples_folder,
         load_frame,
         load_recording,
         load_template,
@@ -30,6 +33,7 @@ if TYPE_CHECKING:
         register,
         track,
         track_each,
+        track_live,
     )
 
 __version__ = "0.2.0"
@@ -37,6 +41,8 @@ __version__ = "0.2.0"
 __all__ = [
     "Camera",
     "CloudAlignment",
+    "LivePose",
+    "LiveTrack",
     "Preview",
     "Registration",
     "RegkitError",
@@ -47,6 +53,7 @@ __all__ = [
     "Verdict",
     "__version__",
     "align",
+    "examples_folder",
     "load_frame",
     "load_recording",
     "load_template",
@@ -55,6 +62,7 @@ __all__ = [
     "register",
     "track",
     "track_each",
+    "track_live",
 ]
 
 

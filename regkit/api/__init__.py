@@ -3,6 +3,7 @@
 from regkit.api.aligning import CloudAlignment, align
 from regkit.api.choices import load_template
 from regkit.api.frame_files import load_frame
+from regkit.api.live import LivePose, LiveTrack, track_live
 from regkit.api.previewing import Preview, preview
 from regkit.api.recordings import load_recording
 from regkit.api.registering import register, track
@@ -14,11 +15,14 @@ from regkit.geometry.camera import Camera
 from regkit.observation import Truth
 from regkit.system.errors import RegkitError
 from regkit.system.notes import RegkitWarning
+from regkit.system.shipped import examples_folder
 from regkit.tracking import Verdict
 
 __all__ = [
     "Camera",
     "CloudAlignment",
+    "LivePose",
+    "LiveTrack",
     "Preview",
     "Registration",
     "RegkitError",
@@ -28,6 +32,7 @@ __all__ = [
     "Truth",
     "Verdict",
     "align",
+    "examples_folder",
     "load_frame",
     "load_recording",
     "load_template",
@@ -36,4 +41,5 @@ __all__ = [
     "register",
     "track",
     "track_each",
+    "track_live",
 ]

@@ -68,7 +68,7 @@ def _first(recording: Recording) -> Frame:
 
 
 def _shown(steps: Iterator[TrackedFrame], length: int) -> Iterator[TrackedFrame]:
-    """Yields the frames, with a progress bar on a terminal if there are many."""
+    """Yields the frames, with a progress bar on a terminal or in a notebook if there are many."""
     if is_shown():
         yield from steps if length < 2 else progress_steps(steps, "tracking", length)
         return

@@ -21,12 +21,9 @@ def alignment_figure(source: Array, aligned: Array, target: Array) -> Figure:
         aligned: Source points after alignment, (N, 3) [m].
         target: Target points, (M, 3) [m].
     """
-    # The object interface of Matplotlib needs no display and has no global state.
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
+    from regkit.report.shown_figure import ShownFigure
 
-    figure = Figure(figsize=(7.2, 7.2), layout="constrained", facecolor="white")
-    FigureCanvasAgg(figure)
+    figure = ShownFigure(7.2, 7.2, "white")
     grid = figure.subplots(2, 2)
     for row, (points, when) in enumerate(((source, "before"), (aligned, "after"))):
         for column, (view, across) in enumerate(_VIEWS.items()):

@@ -109,16 +109,10 @@ def _cell(value: Value) -> str:
 
 
 def canvas(ink: Ink, height: float, width: float = WIDTH) -> Figure:
-    """Returns an empty figure of a height and width [in].
+    """Returns an empty figure of a height and width [in]."""
+    from regkit.report.shown_figure import ShownFigure
 
-    The object interface of Matplotlib needs no display and has no global state.
-    """
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(width, height), layout="constrained", facecolor=ink.paper)
-    FigureCanvasAgg(figure)
-    return figure
+    return ShownFigure(width, height, ink.paper)
 
 
 def styled(axes: Axes, ink: Ink, grid: str | None = None) -> Axes:

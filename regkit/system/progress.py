@@ -1,10 +1,12 @@
-"""Progress of long work, for whoever shows it; nobody does unless ``show_on`` is called."""
+"""Progress of long work, for whoever shows it: a notebook, or what ``show_on`` was given."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from typing import Protocol, TypeVar
+
+from regkit.system.notebook import NotebookDisplay, notebook_shell
 
 T = TypeVar("T")
 
@@ -33,7 +35,14 @@ def show_on(display: Display) -> None:
 
 def is_shown() -> bool:
     """Whether a display shows the progress of this process."""
-    return bool(_DISPLAYS)
+    return _display() is not None
+
+
+def _display() -> Display | None:
+    """Returns the display of this process, which a notebook has without being asked."""
+    if not _DISPLAYS and (shell := notebook_shell()) is not None:
+        show_on(NotebookDisplay(shell))
+    return _DISPLAYS[0] if _DISPLAYS else None
 
 
 @contextmanager
@@ -43,14 +52,15 @@ def working(what: str) -> Iterator[None]:
     Args:
         what: What is done, such as "aligning".
     """
-    for display in _DISPLAYS:
-        task = display.begin(what, None)
-        try:
-            yield
-        finally:
-            display.end(task)
+    display = _display()
+    if display is None:
+        yield
         return
-    yield
+    task = display.begin(what, None)
+    try:
+        yield
+    finally:
+        display.end(task)
 
 
 def steps(items: Iterable[T], what: str, total: int | None) -> Iterator[T]:
@@ -61,10 +71,10 @@ def steps(items: Iterable[T], what: str, total: int | None) -> Iterator[T]:
         what: What is done, such as "tracking".
         total: Their number, if it is known.
     """
-    if not _DISPLAYS:
+    display = _display()
+    if display is None:
         yield from items
         return
-    display = _DISPLAYS[0]
     task = display.begin(what, total)
     try:
         for item in items:

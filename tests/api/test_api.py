@@ -1,10 +1,11 @@
+import io
 import subprocess
 import sys
-from io import StringIO
 from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 from places import DATA
 from rich.console import Console
 
@@ -174,7 +175,7 @@ def test_results_show_themselves(tracking):
     assert repr(tracking).startswith("<Tracking recording: human_walk, 4 frames; method: best;")
     assert "<td" in tracking._repr_html_()
     assert "human_walk" in tracking._repr_html_()
-    console = Console(width=100, record=True, file=StringIO())
+    console = Console(width=100, record=True, file=io.StringIO())
     console.print(tracking)
     console.print(tracking[0])
     told = console.export_text()
@@ -190,6 +191,12 @@ def test_plot_is_a_figure_and_leaves_pyplot_alone(tracking, walk):
     assert len(figure.axes) >= 4
     assert isinstance(tracking[0].plot(), Figure)
     assert "matplotlib.pyplot" not in sys.modules
+
+
+def test_notebook_shows_a_figure_although_pyplot_is_not_imported(tracking):
+    figure = tracking.plot()
+    with Image.open(io.BytesIO(figure._repr_png_())) as picture:
+        assert picture.size == tuple((figure.get_size_inches() * figure.dpi).astype(int))
 
 
 def test_clouds_are_aligned_and_written(tmp_path):
