@@ -25,6 +25,12 @@ from regkit.viewer.track_file import write_scene
 
 DPI = 110
 
+OFTEN = 0.1
+"""A segment is told if it has little data in such a fraction of the frames."""
+
+SHOWN = 4
+"""Maximum number of segments in the table."""
+
 
 def finish(tracking: Tracking, out: Path | None, *, as_json: bool, strict: bool) -> None:
     """Prints the result, writes it to a folder, and tells whether the body was found.
@@ -73,6 +79,7 @@ def _figures(tracking: Tracking) -> dict[str, Any]:
         "surface_distance_mm": measure.surface_distance_mm,
         "inlier_share": _share(measure.inlier_percent),
         "coverage": _share(measure.coverage_percent),
+        "segments_with_little_data": _weak_segments(tracking),
         "frames_per_second": measure.fps,
         "marker_names": list(tracking.joint_names),
     }
@@ -99,6 +106,7 @@ def _table(tracking: Tracking, figures: dict[str, Any]) -> Table:
         ("surface distance", "-" if distance is None else f"{distance:.1f} mm (median)"),
         ("inliers", _percent(figures["inlier_share"], "the points")),
         ("covered", _percent(figures["coverage"], "the visible body has data")),
+        ("little data", _told(figures["segments_with_little_data"])),
         ("converged", f"{figures['converged_frames']} of {len(tracking)}"),
         ("verdict", verdict),
         # The first frame includes the loading of data, so its speed says little.
@@ -107,6 +115,19 @@ def _table(tracking: Tracking, figures: dict[str, Any]) -> Table:
         if value and (name != "speed" or len(tracking) > 1):
             table.add_row(name, escape(value))
     return table
+
+
+def _weak_segments(tracking: Tracking) -> dict[str, float]:
+    """Returns the segments that often have little data, and in which fraction of the frames."""
+    shares = zip(tracking.body.skeleton.names, tracking.track.weakly_seen.tolist(), strict=True)
+    return {name: round(share, 3) for name, share in shares if share >= OFTEN}
+
+
+def _told(weak: dict[str, float]) -> str:
+    """Returns segments with little data in words, the worst first."""
+    worst = sorted(weak, key=lambda name: -weak[name])
+    told = [f"{name} in {100.0 * weak[name]:.0f} % of the frames" for name in worst[:SHOWN]]
+    return ", ".join(told) + (f", and {len(worst) - SHOWN} more" if len(worst) > SHOWN else "")
 
 
 def _write(tracking: Tracking, figures: dict[str, Any], out: Path) -> None:

@@ -55,7 +55,9 @@ class Watched:
     def wait(self, condition: str) -> None:
         """Waits until an expression is true in the page, in which ``data`` is what it tells."""
         # Playwright's own waiting evaluates text in the page, which the page's policy forbids.
-        source = f"(() => {{ const data = document.documentElement.dataset; return {condition} }})()"
+        source = (
+            f"(() => {{ const data = document.documentElement.dataset; return {condition} }})()"
+        )
         end = time.monotonic() + TIMEOUT / 1000
         while not self.page.evaluate(source):
             assert time.monotonic() < end, f"not true in time: {condition}; {self.messages}"
@@ -64,7 +66,9 @@ class Watched:
     def go(self, hash: str) -> None:
         """Sets what follows the page's address."""
         # An address that is there already would change nothing, although the page has moved on.
-        self.page.evaluate("hash => { history.replaceState(null, '', '#'); location.hash = hash }", hash)
+        self.page.evaluate(
+            "hash => { history.replaceState(null, '', '#'); location.hash = hash }", hash
+        )
 
     def wait_frame(self, number: int) -> None:
         """Waits until a frame is drawn."""

@@ -1,5 +1,4 @@
 import pytest
-
 from browser import opened
 
 

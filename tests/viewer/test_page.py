@@ -33,9 +33,7 @@ class Parts(HTMLParser):
 
 def modules(text: str) -> dict[str, str]:
     """The modules of a page by their names in its import map."""
-    (imports,) = [
-        text for one, text in Parts(text).all("script") if one.get("type") == "importmap"
-    ]
+    (imports,) = [text for one, text in Parts(text).all("script") if one.get("type") == "importmap"]
     return {
         name: base64.b64decode(address.partition(",")[2]).decode("utf-8")
         for name, address in json.loads(imports)["imports"].items()
@@ -68,7 +66,9 @@ def test_every_import_is_in_the_page():
     wanted = {
         name
         for text in found.values()
-        for name in re.findall(r"""^[^*]*?(?:from|import)\s*["']([^"'\s]+)["']""", text, re.MULTILINE)
+        for name in re.findall(
+            r"""^[^*]*?(?:from|import)\s*["']([^"'\s]+)["']""", text, re.MULTILINE
+        )
     }
     assert {"three", "page/camera.js"} <= wanted
     assert wanted <= set(found)

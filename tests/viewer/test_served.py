@@ -34,7 +34,9 @@ def test_points_are_fetched_frame_by_frame(browser):
     document["recordings"][0]["points"] = {"href": "points/0/{index}"}
 
     def served(watched: Watched) -> None:
-        watched.page.route(SERVER, lambda route: route.fulfill(body=page("walk"), content_type="text/html"))
+        watched.page.route(
+            SERVER, lambda route: route.fulfill(body=page("walk"), content_type="text/html")
+        )
         watched.page.route(SERVER + "scene.json", lambda route: route.fulfill(json=document))
         watched.page.route(SERVER + "points/**", lazy_points)
 
@@ -53,7 +55,11 @@ def live_frame(number: int) -> dict[str, Any]:
     return {
         "frame": number,
         "time": number / 30.0,
-        "points": {"origin": [0.0, 0.0, 2.5], "step": 0.001, "positions": [[number % 50, 0, 0]] * 40},
+        "points": {
+            "origin": [0.0, 0.0, 2.5],
+            "step": 0.001,
+            "positions": [[number % 50, 0, 0]] * 40,
+        },
         "status": f"28 frames/s, frame {number}",
         "methods": [
             {
