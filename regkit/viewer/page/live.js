@@ -8,14 +8,28 @@ const KEPT = 600;
 /**
  * Listens to the frames of a live scene.
  * @param {import("./recording.js").Recording} recording
- * @param {{arrived: (dropped: number) => void, told: (text: string, broken?: boolean) => void}} page
+ * @param {HTMLElement} status Where the server's words about the stream are shown.
+ * @param {(dropped: number) => void} arrived Called after frames were appended.
  */
-export function listen(recording, { arrived, told }) {
+export function listen(recording, status, arrived) {
   const stream = new EventSource("frames");
+  const told = (text, broken = false) => {
+    status.textContent = text;
+    status.toggleAttribute("data-broken", broken);
+  };
+  let dropped = 0;
+  let refresh;
+  const show = () => {
+    refresh = undefined;
+    arrived(dropped);
+    dropped = 0;
+  };
   told("Waiting for the first frame …");
   stream.addEventListener("message", (event) => {
     const data = JSON.parse(event.data);
-    arrived(append(recording, data));
+    dropped += append(recording, data);
+    // Frames that come faster than the screen shows pictures are shown together.
+    refresh ??= requestAnimationFrame(show);
     told(data.status ?? "");
   });
   stream.addEventListener("end", (event) => {

@@ -7,6 +7,9 @@ import { Model } from "./model.js";
 import { Cloud } from "./points.js";
 import { colour, dark } from "./theme.js";
 
+/** The ground is laid below about so many frames. */
+const SAMPLES = 12;
+
 /** How much a model covers of what is behind it, on a light and on a dark page. */
 const COVER = { light: 0.42, dark: 0.6 };
 
@@ -17,16 +20,9 @@ export class Picture {
     this.recording = recording;
     this.look = look();
     stage.orient(recording.up);
-    const { frames } = recording;
-    const some = Array.from({ length: Math.min(frames.length, 12) }, (_, i) =>
-      frames[Math.floor((i * (frames.length - 1)) / Math.max(1, Math.min(frames.length, 12) - 1))]);
-    this.whole = extentOf(recording, some, stage.world);
-    const size = this.extent(frames[0])?.radius ?? 1;
+    const size = this.extent(recording.frames[0])?.radius ?? 1;
     this.ground = new Ground();
-    this.ground.object.visible = this.whole !== null;
-    if (this.whole) this.ground.lay({ ...this.whole, radius: Math.max(size, this.whole.radius) });
     this.points = new Cloud({ size: 0.013 * size });
-    this.points.uniforms.depths.value.set(...(this.whole?.depths ?? [0, 1]));
     this.joints = new Cloud({ size: 0.035 * size, least: 9, most: 15, cross: true, above: true });
     this.clouds = recording.clouds.map((source) => {
       const cloud = new Cloud({ size: 0.011 * size });
@@ -39,7 +35,21 @@ export class Picture {
     stage.world.add(...parts.map((part) => part.object));
     stage.scene.add(this.ground.object);
     this.parts = [...parts];
+    this.measure();
     this.paint();
+  }
+
+  /** Lays the ground below some frames; the points of others may not be here yet. */
+  measure(...frames) {
+    const all = this.recording.frames;
+    const stride = Math.max(1, Math.floor(all.length / SAMPLES));
+    const some = all.filter((_, index) => index % stride === 0);
+    /** Where these frames are, or null if nothing is in them. */
+    this.whole = extentOf(this.recording, [...some, ...frames], this.stage.world);
+    this.ground.object.visible = this.whole !== null;
+    if (!this.whole) return;
+    this.ground.lay(this.whole);
+    this.points.uniforms.depths.value.set(...this.whole.depths);
   }
 
   /** Returns where a frame is, or null if nothing is in it. */

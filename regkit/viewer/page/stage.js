@@ -10,14 +10,12 @@ const UP = new Vector3(0, 1, 0);
 export class NoWebGL extends Error {}
 
 export class Stage {
-  /**
-   * @param {HTMLCanvasElement} canvas
-   * @param {() => void} drawn Called whenever a picture was drawn.
-   */
-  constructor(canvas, drawn) {
+  /** @param {HTMLCanvasElement} canvas */
+  constructor(canvas) {
     const context = canvas.getContext("webgl2", { antialias: true, powerPreference: "high-performance" });
     if (!context) throw new NoWebGL();
-    this.drawn = drawn;
+    /** Called whenever a picture was drawn. @type {() => void} */
+    this.drawn = () => {};
     this.renderer = new WebGLRenderer({ canvas, context });
     this.scene = new Scene();
     this.scene.background = new Color();
@@ -32,6 +30,8 @@ export class Stage {
     this.view.camera.add(lamp, lamp.target);
     lamp.target.position.set(0, 0, -1);
     this.scene.add(this.view.camera);
+    // A phone takes the canvas away from pages in the background.
+    canvas.addEventListener("webglcontextrestored", () => this.invalidate());
     new ResizeObserver(() => this.resize(canvas)).observe(canvas);
     this.resize(canvas);
   }
@@ -57,12 +57,6 @@ export class Stage {
     this.sky.color.set(colour("sky"));
     this.sky.groundColor.set(colour("earth"));
     this.invalidate();
-  }
-
-  /** Height of the picture in the renderer's pixels, and how many of them are one of the page's. */
-  get pixels() {
-    const ratio = this.renderer.getPixelRatio();
-    return { height: this.renderer.domElement.height, ratio };
   }
 
   /** Has a picture drawn soon; many calls before it make one picture. */

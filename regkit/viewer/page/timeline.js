@@ -5,13 +5,15 @@ import { across, drawChart, numberAt, scaleOf } from "./chart.js";
 export class Timeline {
   /**
    * @param {HTMLElement} slider Holds the canvas and the playhead.
+   * @param {HTMLSelectElement} choice Offers the curves.
    * @param {(number: number) => void} go Called with a frame number.
    */
-  constructor(slider, go) {
+  constructor(slider, choice, go) {
     this.slider = slider;
     this.canvas = slider.querySelector("canvas");
     this.head = slider.querySelector("div");
-    this.quantity = "";
+    this.choice = choice;
+    choice.addEventListener("change", () => this.draw());
     this.scale = null;
     const move = (event) => {
       if (this.scale) go(numberAt(this.scale, event.clientX - slider.getBoundingClientRect().left));
@@ -34,13 +36,25 @@ export class Timeline {
    */
   open(recording, methods) {
     Object.assign(this, { recording, methods });
+    this.offer();
     this.draw();
+  }
+
+  /** Offers the curves that the methods have. */
+  offer() {
+    const { choice, recording } = this;
+    const names = new Set(recording.methods.flatMap(({ curves }) => curves.map(({ name }) => name)));
+    const before = choice.value;
+    if (names.size > 0 && choice.options.length === names.size && names.has(before)) return;
+    choice.replaceChildren(...[...names].map((name) => new Option(name, name)));
+    if (names.has(before)) choice.value = before;
+    choice.closest("label").hidden = names.size === 0;
   }
 
   draw() {
     const width = this.slider.clientWidth;
     if (width === 0) return;
-    const scale = scaleOf(this.recording, width, this.methods, this.quantity);
+    const scale = scaleOf(this.recording, width, this.methods, this.choice.value);
     const ratio = devicePixelRatio;
     const size = [Math.round(width * ratio), Math.round(scale.height * ratio)];
     const pen = this.canvas.getContext("2d");
@@ -50,7 +64,7 @@ export class Timeline {
     }
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     pen.clearRect(0, 0, width, scale.height);
-    drawChart(pen, scale, this.recording, this.methods, this.quantity);
+    drawChart(pen, scale, this.recording, this.methods, this.choice.value);
     this.scale = scale;
     if (this.number !== undefined) this.show(this.number, this.told);
   }
