@@ -34,7 +34,7 @@ def opened_walk(browser, walk_page) -> Iterator[Watched]:
 @pytest.fixture
 def shown(opened_walk) -> Watched:
     """The page of the walk, at its first frame, as if it had just been opened."""
-    opened_walk.page.set_viewport_size({"width": 1000, "height": 700})
+    opened_walk.page.set_viewport_size({"width": 800, "height": 560})
     opened_walk.page.emulate_media(color_scheme="light")
     opened_walk.go("#recording=walk&frame=0&play=0&speed=1&methods=best,icp")
     opened_walk.wait_frame(0)

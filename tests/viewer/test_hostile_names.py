@@ -1,6 +1,6 @@
 import json
 
-from browser import opened
+from browser import WITHOUT_WEBGL, opened
 from viewer_scenes import walk
 
 from regkit.viewer.page import page
@@ -16,8 +16,8 @@ def test_hostile_names_are_text(browser, tmp_path):
     made["methods"][0]["segments"][2] = HOSTILE
     file = tmp_path / "hostile.html"
     file.write_text(page(HOSTILE, json.dumps(document).encode()), "utf-8")
-    with opened(browser, file, hash="#frame=30") as shown:
-        shown.wait_frame(30)
+    with opened(browser, file, hash="#frame=30", script=WITHOUT_WEBGL) as shown:
+        shown.page.wait_for_selector("#readout:has-text('Frame 30')")
         assert shown.page.locator("img, b").count() == 0
         for place in ("#title", "#note", "#banner", "#readout", "#methods"):
             assert HOSTILE in shown.page.inner_text(place)

@@ -24,7 +24,7 @@ STREAM = """
 
 
 def lazy_points(route: Any) -> None:
-    """Answers with one point at the origin, or with a step of its own."""
+    """Answers with points at the origin."""
     head = np.array([0.0, 0.0, 2.5, 0.001], "<f4").tobytes()
     route.fulfill(body=head + np.zeros((50, 3), "<i2").tobytes())
 
@@ -79,18 +79,18 @@ def test_live_frames_are_followed_until_the_reader_goes_back(browser, tmp_path):
     file = tmp_path / "live.html"
     file.write_text(page("live", scene(made, live=True)), "utf-8")
     send = """frames => {
-        for (const frame of frames) {
+        for (const frame of JSON.parse(frames)) {
             stream.dispatchEvent(new MessageEvent("message", { data: JSON.stringify(frame) }));
         }
     }"""
     with opened(browser, file, script=STREAM) as shown:
         shown.page.wait_for_selector("#banner:has-text('Waiting')")
         assert shown.page.evaluate("stream.address") == "frames"
-        shown.page.evaluate(send, [live_frame(number) for number in range(3)])
+        shown.page.evaluate(send, json.dumps([live_frame(number) for number in range(3)]))
         shown.wait_frame(2)
         shown.page.keyboard.press("Home")
         shown.wait_frame(0)
-        shown.page.evaluate(send, [live_frame(number) for number in range(3, 701)])
+        shown.page.evaluate(send, json.dumps([live_frame(number) for number in range(3, 701)]))
         # Frames before the last 600 are gone, and so is the one that was shown.
         shown.wait_frame(101)
         assert shown.page.get_attribute("#follow", "aria-pressed") == "false"
@@ -102,4 +102,8 @@ def test_live_frames_are_followed_until_the_reader_goes_back(browser, tmp_path):
         assert "broke" in shown.page.inner_text("#status")
         shown.page.evaluate("stream.dispatchEvent(new MessageEvent('end', { data: '' }))")
         assert "ended" in shown.page.inner_text("#status")
+        # A server that was started anew counts from the beginning.
+        shown.page.evaluate(send, json.dumps([live_frame(5)]))
+        shown.wait_frame(5)
+        assert shown.page.get_attribute("#timeline", "aria-valuemax") == "5"
         assert shown.messages == []

@@ -63,13 +63,18 @@ export class View {
       side: () => right.clone(),
       top: () => UP.clone().addScaledVector(ahead, -0.002),
       free: () =>
-        ahead.clone().multiplyScalar(-Math.cos(ABOVE)).applyAxisAngle(UP, BESIDE)
+        ahead
+          .clone()
+          .multiplyScalar(-Math.cos(ABOVE))
+          .applyAxisAngle(UP, BESIDE)
           .addScaledVector(UP, Math.sin(ABOVE)),
     }[name]();
     const tangent = Math.tan((this.camera.fov * Math.PI) / 360);
     const free = Math.max(1 - (BANNER + BUTTONS) / this.height, 0.4);
-    const narrow = Math.atan(tangent * Math.min(free, this.camera.aspect));
-    this.distance = extent.radius / Math.sin(narrow);
+    const { wide, high } = extent;
+    const [up, deep] = name === "top" ? [wide, high] : [high, wide];
+    // What is nearest is drawn largest; it is nearer than the centre by the depth of the extent.
+    this.distance = Math.max(up / (tangent * free), wide / (tangent * this.camera.aspect)) + deep;
     const middle = ((BANNER - BUTTONS) / this.height) * tangent * this.distance;
     const target = extent.centre.clone();
     if (name !== "top") target.addScaledVector(UP, middle);
@@ -109,15 +114,22 @@ export class View {
   /** Sets the opening angles so that the depth camera's picture fits into the canvas. */
   project() {
     const { width, height, fx, fy, cx, cy } = this.sensor;
-    const wide = Math.max(1, (this.width / this.height) * (height / fy) / (width / fx));
-    const high = Math.max(1, (this.height / this.width) * (width / fx) / (height / fy));
+    const wide = Math.max(1, ((this.width / this.height) * (height / fy)) / (width / fx));
+    const high = Math.max(1, ((this.height / this.width) * (width / fx)) / (height / fy));
     /** Size of the depth camera's picture in the canvas, as a style. */
     this.border = { width: `${100 / wide}%`, height: `${100 / high}%` };
     const near = this.distance / 100;
     const across = (column) => ((width / 2 - cx + (column * wide * width) / 2) / fx) * near;
     const down = (row) => ((height / 2 - cy + (row * high * height) / 2) / fy) * near;
     const far = this.distance * 60;
-    this.camera.projectionMatrix.makePerspective(across(-1), across(1), -down(-1), -down(1), near, far);
+    this.camera.projectionMatrix.makePerspective(
+      across(-1),
+      across(1),
+      -down(-1),
+      -down(1),
+      near,
+      far,
+    );
     this.camera.projectionMatrixInverse.copy(this.camera.projectionMatrix).invert();
     this.changed();
   }

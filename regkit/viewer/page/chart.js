@@ -54,8 +54,11 @@ export function drawChart(pen, scale, recording, methods, quantity) {
 
 function drawAxis(pen, scale, recording) {
   const [room, span] = [scale.right - scale.left, scale.last - scale.first];
-  const step = [1, 2, 5].flatMap((one) => [0, 1, 2, 3, 4, 5, 6].map((power) => one * 10 ** power))
-    .sort((a, b) => a - b).find((one) => (one / Math.max(span, 1)) * room > 64) ?? span;
+  const step =
+    [1, 2, 5]
+      .flatMap((one) => [0, 1, 2, 3, 4, 5, 6].map((power) => one * 10 ** power))
+      .sort((a, b) => a - b)
+      .find((one) => (one / Math.max(span, 1)) * room > 64) ?? span;
   pen.textAlign = "center";
   pen.strokeStyle = colour("rule");
   pen.lineWidth = 1;
@@ -84,13 +87,15 @@ function drawRibbon(pen, scale, method, top) {
   pen.fillRect(0, top, 9, ROW);
   pen.fillStyle = colour("soft");
   pen.textAlign = "left";
-  if (scale.left > 100) pen.fillText(clipped(pen, method.name, scale.left - 24), 14, top + ROW / 2 + 0.5);
+  if (scale.left > 100)
+    pen.fillText(clipped(pen, method.name, scale.left - 24), 14, top + ROW / 2 + 0.5);
   const { starts, words, end } = method.verdicts;
   const width = (scale.right - scale.left) / Math.max(scale.last - scale.first, 1);
   words.forEach((word, run) => {
     // A frame is as wide as the distance to the next, but what is bad is always seen.
     const from = Math.max(scale.left, across(scale, starts[run]) - width / 2);
     const to = Math.min(scale.right, across(scale, starts[run + 1] ?? end) - width / 2);
+    if (from > scale.right || to < scale.left) return undefined;
     const wide = Math.max(to - from, word === "found" ? 0 : 1.5);
     const high = ROW * (HEIGHTS[word] ?? 1);
     pen.fillStyle = colour(word.replace(" ", "-"));
@@ -103,7 +108,8 @@ function drawRibbon(pen, scale, method, top) {
 
 function drawCurves(pen, scale, methods, quantity, top) {
   const curves = methods.flatMap((method) =>
-    method.curves.filter((curve) => curve.name === quantity).map((curve) => [method, curve]));
+    method.curves.filter((curve) => curve.name === quantity).map((curve) => [method, curve]),
+  );
   let [low, high] = [Infinity, -Infinity];
   for (const [, { values }] of curves) {
     for (let i = 0; i < values.length; i++) {
@@ -121,7 +127,11 @@ function drawCurves(pen, scale, methods, quantity, top) {
   pen.fillStyle = colour("soft");
   const digits = high - low >= 20 ? 0 : high - low >= 2 ? 1 : high - low >= 0.02 ? 2 : 4;
   for (const value of [low, high]) {
-    pen.fillText(`${value.toFixed(digits)}${scale.left > 100 && unit ? ` ${unit}` : ""}`, scale.left - 6, y(value));
+    pen.fillText(
+      `${value.toFixed(digits)}${scale.left > 100 && unit ? ` ${unit}` : ""}`,
+      scale.left - 6,
+      y(value),
+    );
     pen.fillStyle = colour("soft");
   }
   for (const [method, curve] of curves) drawCurve(pen, scale, readable(method.colour), curve, y);

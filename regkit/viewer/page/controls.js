@@ -26,10 +26,17 @@ export function controls(player, look, changed) {
   }
   const pace = (speed) => {
     player.speed = speed;
-    $("speed").value = String(SPEEDS.reduce((a, b) => (Math.abs(b - speed) < Math.abs(a - speed) ? b : a)));
+    $("speed").value = String(
+      SPEEDS.reduce((a, b) => (Math.abs(b - speed) < Math.abs(a - speed) ? b : a)),
+    );
     changed();
   };
-  const faster = (by) => pace(SPEEDS[Math.max(0, Math.min(SPEEDS.indexOf(Number($("speed").value)) + by, SPEEDS.length - 1))]);
+  const faster = (by) =>
+    pace(
+      SPEEDS[
+        Math.max(0, Math.min(SPEEDS.indexOf(Number($("speed").value)) + by, SPEEDS.length - 1))
+      ],
+    );
   $("play").addEventListener("click", () => player.play());
   $("speed").addEventListener("change", () => pace(Number($("speed").value)));
   $("follow").addEventListener("click", () => player.seek(last()));
@@ -52,7 +59,9 @@ export function controls(player, look, changed) {
   addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || $("keys").open) return;
     // A choice or a button that has the focus keeps the keys that it needs itself.
-    const own = event.target.closest?.("select") || (event.key === " " && event.target.closest?.("button, input, summary"));
+    const own =
+      event.target.closest?.("select") ||
+      (event.key === " " && event.target.closest?.("button, input, summary"));
     if (own || !(event.key in keys)) return;
     event.preventDefault();
     keys[event.key](event);

@@ -3,12 +3,31 @@
 import { KINDS } from "./model.js";
 
 const $ = (id) => document.getElementById(id);
-const BOXES = { points: "show-points", depth: "show-depth", bones: "show-bones", joints: "show-joints", confidence: "show-confidence", solid: "show-solid" };
+const BOXES = {
+  points: "show-points",
+  depth: "show-depth",
+  bones: "show-bones",
+  joints: "show-joints",
+  confidence: "show-confidence",
+  solid: "show-solid",
+};
 
 /**
  * @typedef {{model: string, points: boolean, depth: boolean, bones: boolean, joints: boolean,
  *   confidence: boolean, solid: boolean, methods: Set<string>}} Display
  */
+
+/** Returns the display of a page that was just opened. @returns {Display} */
+export const everything = () => ({
+  model: "",
+  points: true,
+  depth: true,
+  bones: true,
+  joints: true,
+  confidence: true,
+  solid: false,
+  methods: new Set(),
+});
 
 /**
  * Lets the panel's choices change a display.
@@ -44,12 +63,22 @@ export function offer(recording, display) {
   if (!options.some(([value]) => value === display.model)) display.model = options[0][0];
   $("model").value = display.model;
   const shown = (id, there) => (($(id).closest("label") ?? $(id)).hidden = !there);
-  const points = recording.live || frames.some((frame) => frame.href !== null || frame.points?.positions.length);
+  const points =
+    recording.live || frames.some((frame) => frame.href !== null || frame.points?.positions.length);
   shown("model", kinds.length > 0);
   shown("show-points", points || clouds.length > 0);
   shown("show-depth", points);
-  shown("show-bones", methods.some((method) => method.bones.length || method.markerNames.length));
+  shown(
+    "show-bones",
+    methods.some((method) => method.bones.length || method.markerNames.length),
+  );
   shown("show-joints", jointNames.length > 0);
-  shown("show-confidence", frames.some((frame) => frame.poses.some((pose) => pose.confidence)));
-  shown("show-solid", kinds.some((kind) => kind !== "points"));
+  shown(
+    "show-confidence",
+    frames.some((frame) => frame.poses.some((pose) => pose.confidence)),
+  );
+  shown(
+    "show-solid",
+    kinds.some((kind) => kind !== "points"),
+  );
 }

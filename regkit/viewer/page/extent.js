@@ -7,10 +7,11 @@ const STRAYS = 0.01;
 const SAMPLES = 4000;
 
 /**
- * @typedef {{centre: Vector3, radius: number, lowest: number, depths: [number, number],
- *   ahead: Vector3}} Extent
- * Centre, radius [m] and lowest height in the drawn coordinates, least and greatest depth in the
- * recording's, and the direction in which its depth camera looks.
+ * @typedef {{centre: Vector3, radius: number, wide: number, high: number, lowest: number,
+ *   depths: [number, number], ahead: Vector3}} Extent
+ * Centre, radius [m], greatest distance from the upright axis, half the height and lowest height in
+ * the drawn coordinates, least and greatest depth in the recording's, and the direction in which
+ * its depth camera looks.
  */
 
 /**
@@ -35,9 +36,12 @@ export function extentOf(recording, frames, world) {
   const high = drawn.reduce((most, point) => most.max(point), drawn[0].clone());
   const centre = low.clone().add(high).multiplyScalar(0.5);
   const radius = Math.max(...drawn.map((point) => point.distanceTo(centre)), 1e-3);
+  const wide = Math.max(...drawn.map(({ x, z }) => Math.hypot(x - centre.x, z - centre.z)));
   return {
     centre,
-    radius: 1.06 * radius,
+    radius,
+    wide: Math.max(1.05 * wide, 0.1 * radius),
+    high: Math.max(0.525 * (high.y - low.y), 0.1 * radius),
     lowest: low.y,
     depths: [Math.min(...depths), Math.max(...depths)],
     ahead,
@@ -46,7 +50,9 @@ export function extentOf(recording, frames, world) {
 
 /** Returns the positions of points [m]. */
 function pointsOf({ origin, step, positions }) {
-  return positions.length === 0 ? [] : Float32Array.from(positions, (whole, i) => origin[i % 3] + step * whole);
+  return positions.length === 0
+    ? []
+    : Float32Array.from(positions, (whole, i) => origin[i % 3] + step * whole);
 }
 
 /** Returns some positions of lists of coordinates, as vectors. */

@@ -1,6 +1,6 @@
 /** A grid below the scene that fades with the distance, and tells sizes. */
 
-import { Color, DoubleSide, Mesh, PlaneGeometry, ShaderMaterial, Vector2 } from "three";
+import { Color, DoubleSide, Mesh, PlaneGeometry, ShaderMaterial } from "three";
 import { colour } from "./theme.js";
 
 const VERTEX = `
@@ -13,13 +13,13 @@ void main() {
 const FRAGMENT = `
 uniform vec3 ink;
 uniform float cell;
-uniform float radius;
+uniform float radius, ratio;
 varying vec2 place;
 void main() {
   vec2 cells = place / cell;
   vec2 width = fwidth(cells);
-  vec2 line = abs(fract(cells - 0.5) - 0.5) / width;
-  float share = 1.0 - min(min(line.x, line.y), 1.0);
+  vec2 line = abs(fract(cells - 0.5) - 0.5) / (0.7 * width * ratio);
+  float share = 1.0 - smoothstep(0.3, 1.0, min(line.x, line.y));
   float fade = 1.0 - smoothstep(0.25, 1.0, length(place) / radius);
   float dense = 1.0 - smoothstep(0.2, 0.6, max(width.x, width.y));
   gl_FragColor = vec4(ink, share * fade * dense);
@@ -28,7 +28,12 @@ void main() {
 
 export class Ground {
   constructor() {
-    this.uniforms = { ink: { value: new Color() }, cell: { value: 1 }, radius: { value: 1 } };
+    this.uniforms = {
+      ink: { value: new Color() },
+      cell: { value: 1 },
+      radius: { value: 1 },
+      ratio: { value: 1 },
+    };
     const material = new ShaderMaterial({
       uniforms: this.uniforms,
       vertexShader: VERTEX,
@@ -38,9 +43,10 @@ export class Ground {
       side: DoubleSide,
     });
     this.object = new Mesh(new PlaneGeometry(2, 2).rotateX(-Math.PI / 2), material);
-    this.object.geometry = this.object.geometry.clone();
     this.object.renderOrder = -1;
     this.object.frustumCulled = false;
+    this.object.onBeforeRender = (renderer) =>
+      (this.uniforms.ratio.value = renderer.getPixelRatio());
   }
 
   /** Lays the grid below an extent. @param {import("./extent.js").Extent} extent */

@@ -1,15 +1,22 @@
 /** Many parts of one geometry, each carried by a segment: ellipsoids, tapered capsules. */
 
 import {
-  BufferGeometry, DynamicDrawUsage, Float32BufferAttribute, InstancedBufferAttribute, InstancedMesh,
-  Matrix4, Quaternion, SphereGeometry, Vector3,
+  BufferGeometry,
+  DynamicDrawUsage,
+  Float32BufferAttribute,
+  InstancedBufferAttribute,
+  InstancedMesh,
+  Matrix4,
+  Quaternion,
+  SphereGeometry,
+  Vector3,
 } from "three";
 import { numbers } from "./arrays.js";
-import { surface } from "./material.js";
+import { FINE, surface } from "./material.js";
 
 const AXIS = new Vector3(0, 1, 0);
-const AROUND = 20;
-const ALONG = 5;
+const AROUND = 16;
+const ALONG = 3;
 
 const matrix = new Matrix4();
 
@@ -33,13 +40,16 @@ export class Instances {
     this.matrices = this.objects[0].instanceMatrix.setUsage(DynamicDrawUsage);
     this.objects[1].instanceMatrix = this.matrices;
     for (const object of this.objects) object.frustumCulled = false;
+    this.objects[0].layers.set(FINE);
   }
 
   /** Moves the parts with their segments. @param {Matrix4[]} transforms T_camera_segment (S). */
   place(transforms) {
     const { segments, places } = this;
     for (let k = 0; k < places.length; k++) {
-      matrix.multiplyMatrices(transforms[segments[k]], places[k]).toArray(this.matrices.array, 16 * k);
+      matrix
+        .multiplyMatrices(transforms[segments[k]], places[k])
+        .toArray(this.matrices.array, 16 * k);
     }
     this.matrices.needsUpdate = true;
   }
@@ -67,7 +77,9 @@ export class Instances {
 
 /** Returns ellipsoids of a scene. */
 export function ellipsoids(shape, look, presence) {
-  const [centres, rotations, radii] = ["centres", "rotations", "radii"].map((key) => numbers(shape[key]));
+  const [centres, rotations, radii] = ["centres", "rotations", "radii"].map((key) =>
+    numbers(shape[key]),
+  );
   const segments = numbers(shape.segments);
   const places = Array.from(segments, (_, k) =>
     new Matrix4().compose(
@@ -77,7 +89,7 @@ export function ellipsoids(shape, look, presence) {
     ),
   );
   const materials = surface(look, presence);
-  return new Instances(new SphereGeometry(1, 24, 16), segments, places, materials);
+  return new Instances(new SphereGeometry(1, 16, 10), segments, places, materials);
 }
 
 /** Returns tapered capsules of a scene: the hulls of two spheres. */
@@ -89,10 +101,12 @@ export function capsules(shape, look, presence) {
     const axis = new Vector3().fromArray(ends, 6 * k + 3).sub(start);
     const length = axis.length();
     const [first, second] = [radii[2 * k], radii[2 * k + 1]];
-    // The cone between the spheres touches both at this angle above their equators.
-    const sine = length > 0 ? Math.max(-1, Math.min(1, (first - second) / length)) : 0;
-    tapers.set([first, second, length, Math.asin(sine)], 4 * k);
-    const turned = length > 0 ? new Quaternion().setFromUnitVectors(AXIS, axis.normalize()) : new Quaternion();
+    // The cone between the spheres touches both at the latitude of this sine. A sphere that
+    // contains the other has no such cone, and nearly all of the surface.
+    const sine = length > 0 ? Math.max(-0.98, Math.min(0.98, (first - second) / length)) : 0;
+    tapers.set([first, second, length, sine], 4 * k);
+    const turned =
+      length > 0 ? new Quaternion().setFromUnitVectors(AXIS, axis.normalize()) : new Quaternion();
     return new Matrix4().compose(start, turned, new Vector3(1, 1, 1));
   });
   const geometry = capsuleGeometry();

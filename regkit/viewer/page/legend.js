@@ -11,18 +11,28 @@ import { readable } from "./theme.js";
  */
 function* meanings(recording, display, cell) {
   const { frames, clouds, methods, jointNames } = recording;
-  if (recording.live || frames.some((frame) => frame.href !== null || frame.points?.positions.length)) {
-    yield display.depth ? ["ramp", "", "points, near to far from the camera"] : ["plain", "", "points"];
+  if (
+    recording.live ||
+    frames.some((frame) => frame.href !== null || frame.points?.positions.length)
+  ) {
+    yield display.depth
+      ? ["ramp", "", "points, near to far from the camera"]
+      : ["plain", "", "points"];
   }
   for (const cloud of clouds) yield ["plain", cloud.colour, cloud.name];
   const [first] = methods;
-  if (first?.bones.length) yield ["line knot", readable(first.colour), "bones and markers of a method"];
+  if (first?.bones.length)
+    yield ["line knot", readable(first.colour), "bones and markers of a method"];
   if (jointNames.length > 0) yield ["cross", "", "reference joints"];
   if (frames.some((frame) => frame.poses.some((pose) => pose.confidence))) {
     yield ["sure", readable(first.colour), "model, from little to good support by data"];
   }
   if (cell !== undefined) {
-    yield ["line", "", `ground grid, ${cell >= 1 ? `${cell} m` : `${Math.round(1e6 * cell) / 1e4} cm`}`];
+    yield [
+      "line",
+      "",
+      `ground grid, ${cell >= 1 ? `${cell} m` : `${Math.round(1e6 * cell) / 1e4} cm`}`,
+    ];
   }
   if (recording.live || recording.length > 1) {
     yield ["ribbon found", "", "found"];

@@ -1,6 +1,7 @@
 /** Frames that a server sends while they are tracked. */
 
 import { listed } from "./arrays.js";
+import { Verdicts } from "./verdicts.js";
 
 /** So many of the last frames are kept. */
 const KEPT = 600;
@@ -46,6 +47,9 @@ export function listen(recording, status, arrived) {
 export function append(recording, data) {
   const { frames, methods } = recording;
   const number = data.frame;
+  let dropped = 0;
+  // A server that was started anew counts from the beginning.
+  if (frames.length > 0 && number <= frames.at(-1).number) dropped = clear(recording);
   const results = new Map(data.methods.map((result) => [result.name, result]));
   frames.push({
     number,
@@ -55,15 +59,24 @@ export function append(recording, data) {
     joints: data.joints ? listed(data.joints) : null,
     poses: methods.map(({ name }) => poseOf(results.get(name))),
   });
-  const dropped = Math.max(0, frames.length - KEPT);
-  frames.splice(0, dropped);
+  dropped += frames.splice(0, Math.max(0, frames.length - KEPT)).length;
   recording.length = number + 1;
   for (const method of methods) {
     const { verdict, curves = {} } = results.get(method.name) ?? {};
     if (verdict) method.verdicts.append(number, verdict, frames[0].number);
-    for (const [name, value] of Object.entries(curves)) note(method, name, number, value, frames[0].number);
+    for (const [name, value] of Object.entries(curves))
+      note(method, name, number, value, frames[0].number);
   }
   return dropped;
+}
+
+/** Removes all frames; returns how many there were. */
+function clear({ frames, methods }) {
+  for (const method of methods) {
+    method.verdicts = new Verdicts();
+    for (const curve of method.curves) Object.assign(curve, { frames: [], values: [] });
+  }
+  return frames.splice(0).length;
 }
 
 function poseOf(result) {

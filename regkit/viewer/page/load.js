@@ -8,8 +8,11 @@ export async function load() {
   const scene = embedded ? await unpacked(embedded.textContent) : await fetched();
   embedded?.remove();
   if (scene.format !== FORMAT) {
-    throw new Error(`This page shows scenes of format ${FORMAT}, and this one has ${scene.format}.`);
+    throw new Error(
+      `This page shows scenes of format ${FORMAT}, and this one has ${scene.format}.`,
+    );
   }
+  if (scene.recordings.length === 0) throw new Error("There are no recordings in this scene.");
   return scene;
 }
 

@@ -10,7 +10,10 @@ function stageOrMessage() {
     return new Stage(document.getElementById("view"));
   } catch (error) {
     if (!(error instanceof NoWebGL)) throw error;
-    message("This browser offers no WebGL, so the scene cannot be drawn. The verdicts and values of each frame are beside and below.");
+    message(
+      "This browser offers no WebGL, so the scene cannot be drawn. " +
+        "The verdicts and values of each frame are beside and below.",
+    );
     return null;
   }
 }

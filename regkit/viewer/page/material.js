@@ -2,22 +2,43 @@
 
 import { Color, MeshLambertMaterial } from "three";
 
+/** Layer of what a slow renderer draws only into pictures that stay. */
+export const FINE = 1;
+
 /**
  * What all materials of a scene share.
  * @typedef {{faint: {value: Color}, weighed: {value: number}, opacity: {value: number}}} Look
  */
 
 /** @returns {Look} */
-export const look = () => ({ faint: { value: new Color() }, weighed: { value: 1 }, opacity: { value: 0.5 } });
+export const look = () => ({
+  faint: { value: new Color() },
+  weighed: { value: 1 },
+  opacity: { value: 0.5 },
+});
 
 // A vertex of a tapered capsule is given by its cap (the sign of y), how far it is from the rim of
-// the cap to the pole (0 to 1, above 1 in y) and its direction around the axis (x and z).
+// the cap to the pole (0 to 1, above 1 in y) and its direction around the axis (x and z); the
+// instance by the radii, the distance of their centres and the sine of the rim's latitude.
 const CAPSULE_NORMAL = `
 float cap = step(0.0, position.y);
-float angle = mix(taper.w, (2.0 * cap - 1.0) * 1.57079633, abs(position.y) - 1.0);
-vec3 objectNormal = vec3(position.x * cos(angle), sin(angle), position.z * cos(angle));`;
+vec2 rim_direction = vec2(sqrt(1.0 - taper.w * taper.w), taper.w);
+vec2 direction = normalize(mix(rim_direction, vec2(0.0, 2.0 * cap - 1.0), abs(position.y) - 1.0));
+vec3 objectNormal = vec3(position.x * direction.x, direction.y, position.z * direction.x);`;
 const CAPSULE_POSITION = `
 vec3 transformed = objectNormal * mix(taper.x, taper.y, cap) + vec3(0.0, taper.z * cap, 0.0);`;
+
+const CONFIDENT = `
+attribute float confidence;
+varying float confident;
+void main() {
+confident = confidence;`;
+
+const DECLARED = `
+uniform vec3 faint;
+uniform float weighed, presence, strength;
+varying float confident;
+void main() {`;
 
 const FADE = `
 float sure = mix(1.0, confident, weighed);
@@ -45,15 +66,13 @@ export function surface(look, presence, capsules = false) {
 
 function patch(shader, { faint, weighed, opacity }, presence, capsules) {
   Object.assign(shader.uniforms, { faint, weighed, presence, strength: opacity });
-  let vertex = shader.vertexShader
-    .replace("void main() {", "attribute float confidence;\nvarying float confident;\nvoid main() {\nconfident = confidence;");
+  shader.vertexShader = shader.vertexShader.replace("void main() {", CONFIDENT);
   if (capsules) {
-    vertex = `attribute vec4 taper;\n${vertex}`
+    shader.vertexShader = `attribute vec4 taper;\n${shader.vertexShader}`
       .replace("#include <beginnormal_vertex>", CAPSULE_NORMAL)
       .replace("#include <begin_vertex>", CAPSULE_POSITION);
   }
-  shader.vertexShader = vertex;
   shader.fragmentShader = shader.fragmentShader
-    .replace("void main() {", "uniform vec3 faint;\nuniform float weighed, presence, strength;\nvarying float confident;\nvoid main() {")
+    .replace("void main() {", DECLARED)
     .replace("#include <normal_fragment_maps>", `#include <normal_fragment_maps>\n${FADE}`);
 }

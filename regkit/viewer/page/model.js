@@ -10,7 +10,12 @@ import { Skin } from "./skin.js";
 import { readable } from "./theme.js";
 
 /** How the kinds of shapes are called, in the order in which they are offered. */
-export const KINDS = { mesh: "mesh", capsules: "capsules", ellipsoids: "ellipsoids", points: "points" };
+export const KINDS = {
+  mesh: "mesh",
+  capsules: "capsules",
+  ellipsoids: "ellipsoids",
+  points: "points",
+};
 
 const MAKERS = {
   ellipsoids,
@@ -57,7 +62,8 @@ export class Model {
     if (!placed) return;
     this.presence.value = verdict === "lost" || verdict === "no data" ? GHOST : 1;
     setMatrices(this.matrices, pose.transforms);
-    const kind = this.shapes.has(display.model) || display.model === "none" ? display.model : this.first;
+    const kind =
+      this.shapes.has(display.model) || display.model === "none" ? display.model : this.first;
     for (const [name, shapes] of this.shapes) {
       for (const shape of shapes) {
         for (const object of shape.objects) object.visible = name === kind;

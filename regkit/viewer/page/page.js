@@ -2,7 +2,8 @@
 
 import { Address, read } from "./address.js";
 import { controls, showControls } from "./controls.js";
-import { displayChoices, offer } from "./display.js";
+import { displayChoices, everything, offer } from "./display.js";
+import { showHeading } from "./heading.js";
 import { explain } from "./legend.js";
 import { listen } from "./live.js";
 import { Panel } from "./panel.js";
@@ -23,10 +24,7 @@ export class Page {
    */
   constructor(scene, stage) {
     this.scene = scene;
-    this.display = {
-      model: "", points: true, depth: true, bones: true, joints: true, confidence: true, solid: false,
-      methods: new Set(),
-    };
+    this.display = everything();
     this.stage = stage;
     this.player = new Player(() => this.show());
     this.panel = new Panel($("methods"), this.display, () => this.switched());
@@ -34,16 +32,19 @@ export class Page {
       this.player.seek(this.recording.nearest(number));
     });
     this.address = new Address((place) => this.go(place));
-    this.controls = controls(this.player, (name) => this.look(name), () => this.moved());
+    this.controls = controls(
+      this.player,
+      (name) => this.look(name),
+      () => this.moved(),
+    );
     displayChoices(this.display, () => this.chosen());
     themeSwitch($("theme"), () => this.paint());
-    $("recordings").addEventListener("change", () => this.go({ recording: $("recordings").value }));
     if (stage) {
       stage.drawn = () => this.drawn();
       stage.view.renamed = () => showControls(this.player, stage.view);
     }
     $("panel").open = !matchMedia("(max-width: 760px)").matches;
-    this.title();
+    showHeading(scene, (recording) => this.go({ recording }));
     this.go(read(location.hash));
     if (scene.live) listen(this.recording, $("status"), (dropped) => this.grow(dropped));
   }
@@ -51,16 +52,6 @@ export class Page {
   /** The methods that are shown. */
   get methods() {
     return this.recording.methods.filter((method) => this.display.methods.has(method.name));
-  }
-
-  title() {
-    const { title, note, recordings, live } = this.scene;
-    document.title = title;
-    $("title").textContent = title;
-    $("note").textContent = note;
-    $("live").hidden = !live;
-    $("recordings").replaceChildren(...recordings.map(({ name }) => new Option(name, name)));
-    $("recordings").hidden = recordings.length < 2;
   }
 
   /** Goes where an address says. @param {import("./address.js").Place} place */
@@ -80,8 +71,7 @@ export class Page {
 
   open(source, methods, frame = 0) {
     this.source = source;
-    this.recording = new Recording(source);
-    this.recording.live = this.scene.live;
+    this.recording = new Recording(source, this.scene.live);
     $("recordings").value = source.name;
     document.querySelector('[data-view="sensor"]').hidden = !source.camera;
     this.choose(methods);
@@ -133,7 +123,8 @@ export class Page {
   show() {
     const { frame } = this.player;
     showControls(this.player, this.stage?.view);
-    if (!frame) return showBanner("Waiting for the first frame");
+    if (!frame)
+      return showBanner(this.scene.live ? "Waiting for the first frame" : "There are no frames");
     this.panel.show(frame);
     const told = readout(this.recording, frame, this.methods);
     this.timeline.show(frame.number, told);
@@ -182,7 +173,10 @@ export class Page {
       frame: this.player.frame?.number ?? 0,
       play: this.player.playing,
       speed: this.player.speed,
-      methods: this.methods.length < this.recording.methods.length ? this.methods.map(({ name }) => name) : undefined,
+      methods:
+        this.methods.length < this.recording.methods.length
+          ? this.methods.map(({ name }) => name)
+          : undefined,
     }));
   }
 

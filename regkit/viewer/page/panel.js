@@ -22,7 +22,8 @@ export function valueAt({ frames, values }, number) {
     if (frames[middle] < number) low = middle + 1;
     else high = middle;
   }
-  const before = low > 0 && (low === frames.length || number - frames[low - 1] < frames[low] - number);
+  const before =
+    low > 0 && (low === frames.length || number - frames[low - 1] < frames[low] - number);
   return values[before ? low - 1 : low] ?? NaN;
 }
 
@@ -41,7 +42,9 @@ export class Panel {
    * @param {() => void} changed
    */
   constructor(list, display, changed) {
-    Object.assign(this, { list, display, changed });
+    this.list = list;
+    this.display = display;
+    this.changed = changed;
   }
 
   /** Lists a recording's methods. @param {import("./recording.js").Recording} recording */
@@ -53,7 +56,8 @@ export class Panel {
 
   /** Takes the methods' colours as they are at present. */
   paint() {
-    for (const { row, method } of this.items) row.style.setProperty("--colour", readable(method.colour));
+    for (const { row, method } of this.items)
+      row.style.setProperty("--colour", readable(method.colour));
   }
 
   item(method) {
@@ -89,7 +93,9 @@ export class Panel {
         values.append(element("dt", "", method.curves[cells.length].name), cell);
         cells.push(cell);
       }
-      method.curves.forEach((curve, c) => text(cells[c], quantity(valueAt(curve, frame.number), curve.unit)));
+      method.curves.forEach((curve, c) =>
+        text(cells[c], quantity(valueAt(curve, frame.number), curve.unit)),
+      );
       text(unsure, this.unsure(method, frame.poses[m].confidence));
     });
   }

@@ -22,7 +22,7 @@ export class Picture {
     stage.orient(recording.up);
     const size = this.extent(recording.frames[0])?.radius ?? 1;
     this.ground = new Ground();
-    this.points = new Cloud({ size: 0.013 * size });
+    this.points = new Cloud({ size: 0.012 * size });
     this.joints = new Cloud({ size: 0.035 * size, least: 9, most: 15, cross: true, above: true });
     this.clouds = recording.clouds.map((source) => {
       const cloud = new Cloud({ size: 0.011 * size });
@@ -30,7 +30,9 @@ export class Picture {
       cloud.uniforms.near.value.set(source.colour);
       return cloud;
     });
-    this.models = recording.methods.map((method, order) => new Model(method, order, this.look, size));
+    this.models = recording.methods.map(
+      (method, order) => new Model(method, order, this.look, size),
+    );
     const parts = [this.points, this.joints, ...this.clouds, ...this.models];
     stage.world.add(...parts.map((part) => part.object));
     stage.scene.add(this.ground.object);

@@ -1,6 +1,14 @@
 /** Points of the scene: round ones of a size in metres, or marks of a size in pixels. */
 
-import { BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, Points, ShaderMaterial, Vector2 } from "three";
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  DynamicDrawUsage,
+  Points,
+  ShaderMaterial,
+  Vector2,
+} from "three";
 
 const VERTEX = `
 uniform float size, least, most, height, ratio, shaded;
@@ -16,7 +24,7 @@ void main() {
 
 const FRAGMENT = `
 uniform vec3 near, far;
-uniform float opacity;
+uniform float opacity, least_inside;
 varying float shade;
 void main() {
   float clear = opacity;
@@ -27,7 +35,7 @@ void main() {
   #else
     float edge = length(place);
     float inside = clamp((1.0 - edge) / fwidth(edge) + 0.5, 0.0, 1.0);
-    if (inside == 0.0) discard;
+    if (inside < least_inside) discard;
     clear *= inside;
   #endif
   gl_FragColor = vec4(mix(near, far, shade), clear);
@@ -40,7 +48,7 @@ export class Cloud {
    *   Diameter [m], its bounds in the page's pixels, whether the points are crosses, and whether
    *   they are drawn above everything.
    */
-  constructor({ size = 0, least = 1.6, most = 9, cross = false, above = false }) {
+  constructor({ size = 0, least = 1.3, most = 9, cross = false, above = false }) {
     this.uniforms = {
       size: { value: size },
       least: { value: least },
@@ -52,6 +60,7 @@ export class Cloud {
       near: { value: new Color() },
       far: { value: new Color() },
       opacity: { value: 1 },
+      least_inside: { value: 0 },
     };
     const material = new ShaderMaterial({
       uniforms: this.uniforms,
@@ -70,6 +79,8 @@ export class Cloud {
     this.object.onBeforeRender = (renderer) => {
       this.uniforms.height.value = renderer.domElement.height;
       this.uniforms.ratio.value = renderer.getPixelRatio();
+      // Without samples a pixel is in the point or not.
+      this.uniforms.least_inside.value = above || renderer.capabilities.samples > 0 ? 0.02 : 0.5;
     };
     this.reserve(64);
   }

@@ -12,17 +12,28 @@ const $ = (id) => document.getElementById(id);
  */
 export function readout(recording, frame, methods) {
   const found = methods.map(({ name, verdicts }) => ({ name, verdict: verdicts.at(frame.number) }));
-  const why = recording.marks.filter((mark) => recording.frames[recording.nearest(mark.frame)] === frame).map((mark) => mark.why);
+  const why = recording.marks
+    .filter((mark) => recording.frames[recording.nearest(mark.frame)] === frame)
+    .map((mark) => mark.why);
   const [, last] = recording.range;
   const time = `${frame.time.toFixed(2)} s`;
   const number = document.createElement("strong");
   number.textContent = `Frame ${frame.number}`;
   const rest = document.createElement("small");
-  rest.textContent = [recording.live ? "" : ` of ${last}`, ` · ${time}`, ...why.map((one) => ` · ${one}`)].join("");
+  rest.textContent = [
+    recording.live ? "" : ` of ${last}`,
+    ` · ${time}`,
+    ...why.map((one) => ` · ${one}`),
+  ].join("");
   $("readout").replaceChildren(number, rest);
   const news = alarm(found);
   showBanner(news?.alarm ?? "", news?.more, news?.verdict);
-  return [`frame ${frame.number}`, time, ...found.map(({ name, verdict }) => `${name}: ${verdict}`), ...why].join(", ");
+  return [
+    `frame ${frame.number}`,
+    time,
+    ...found.map(({ name, verdict }) => `${name}: ${verdict}`),
+    ...why,
+  ].join(", ");
 }
 
 /** Shows a line over the scene, or none. */

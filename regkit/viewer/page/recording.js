@@ -11,8 +11,9 @@ import { Verdicts } from "./verdicts.js";
  * (M, 3) [m], and how well data support each segment (S), if that is known.
  * @typedef {{transforms: Float32Array, markers: Float32Array, confidence: Float32Array | null}} Pose
  *
+ * A frame; its points may still be at the address `href`.
  * @typedef {{number: number, time: number, points: Points | null, href: string | null,
- *   joints: Float32Array | null, poses: Pose[]}} Frame
+ *   pending?: Promise<Points> | null, joints: Float32Array | null, poses: Pose[]}} Frame
  *
  * @typedef {{name: string, unit: string, frames: ArrayLike<number>, values: ArrayLike<number>}} Curve
  */
@@ -21,12 +22,21 @@ import { Verdicts } from "./verdicts.js";
 const KEPT = 240;
 
 export class Recording {
-  /** @param {any} source The recording as the scene's document has it. */
-  constructor(source) {
-    Object.assign(this, { name: source.name, fps: source.fps, length: source.length });
-    /** @type {number[]} */
+  /**
+   * @param {any} source The recording as the scene's document has it.
+   * @param {boolean} live Whether frames follow.
+   */
+  constructor(source, live) {
+    this.live = live;
+    /** @type {string} */
+    this.name = source.name;
+    /** Frames of the whole recording, not only those of the scene. @type {number} */
+    this.length = source.length;
+    /** Direction that is drawn upward. @type {number[]} */
     this.up = source.up;
+    /** Intrinsics of the depth camera, or null. */
     this.camera = source.camera;
+    /** Frames that deserve a look, and why. @type {{frame: number, why: string}[]} */
     this.marks = [...source.marked].sort((a, b) => a.frame - b.frame);
     this.clouds = source.clouds.map((cloud) => ({ ...cloud, positions: numbers(cloud.positions) }));
     this.jointNames = source.joints?.names ?? [];

@@ -1,6 +1,16 @@
 /** Bones between the segments' origins and markers, above everything. */
 
-import { Color, CylinderGeometry, DynamicDrawUsage, Group, InstancedMesh, Matrix4, MeshBasicMaterial, Quaternion, Vector3 } from "three";
+import {
+  Color,
+  CylinderGeometry,
+  DynamicDrawUsage,
+  Group,
+  InstancedMesh,
+  Matrix4,
+  MeshBasicMaterial,
+  Quaternion,
+  Vector3,
+} from "three";
 import { Cloud } from "./points.js";
 import { colour, readable } from "./theme.js";
 
@@ -20,7 +30,11 @@ export class Skeleton {
     this.count = method.bones.length / 2;
     this.joints = new Float32Array(3 * (method.segments.length + method.markerNames.length));
     const material = new MeshBasicMaterial({ depthTest: false, transparent: true });
-    this.bones = new InstancedMesh(new CylinderGeometry(0.5, 0.5, 1, 8, 1, true), material, this.count);
+    this.bones = new InstancedMesh(
+      new CylinderGeometry(0.5, 0.5, 1, 8, 1, true),
+      material,
+      this.count,
+    );
     this.bones.instanceMatrix.setUsage(DynamicDrawUsage);
     this.bones.frustumCulled = false;
     this.bones.renderOrder = 1000;

@@ -2,7 +2,7 @@
 
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Matrix4, Mesh } from "three";
 import { numbers } from "./arrays.js";
-import { surface } from "./material.js";
+import { FINE, surface } from "./material.js";
 import { matricesOf } from "./rigid.js";
 
 export class Skin {
@@ -17,7 +17,10 @@ export class Skin {
     this.unposed = matricesOf(rest, rest.length / 7).map((one) => one.invert());
     this.posed = this.unposed.map(() => new Matrix4());
     const geometry = new BufferGeometry();
-    geometry.setAttribute("position", new BufferAttribute(this.vertices.slice(), 3).setUsage(DynamicDrawUsage));
+    geometry.setAttribute(
+      "position",
+      new BufferAttribute(this.vertices.slice(), 3).setUsage(DynamicDrawUsage),
+    );
     geometry.setIndex(new BufferAttribute(numbers(shape.triangles), 1));
     geometry.computeVertexNormals();
     this.normals = geometry.attributes.normal.array.slice();
@@ -29,6 +32,7 @@ export class Skin {
     this.material = materials.shown;
     this.objects = [materials.depth, materials.shown].map((one) => new Mesh(geometry, one));
     for (const object of this.objects) object.frustumCulled = false;
+    this.objects[0].layers.set(FINE);
   }
 
   /** Moves the vertices with their carriers. @param {Matrix4[]} transforms T_camera_segment (S). */

@@ -1,8 +1,21 @@
 /** The canvas with its lights and its renderer, which draws only when something changed. */
 
-import { AmbientLight, Color, DirectionalLight, Group, HemisphereLight, Scene, Vector3, WebGLRenderer } from "three";
+import {
+  AmbientLight,
+  Color,
+  DirectionalLight,
+  Group,
+  HemisphereLight,
+  Scene,
+  Vector3,
+  WebGLRenderer,
+} from "three";
 import { View } from "./camera.js";
+import { FINE } from "./material.js";
 import { colour } from "./theme.js";
+
+/** After so long without a change, a slow renderer draws a fine picture [ms]. */
+const REST = 220;
 
 const UP = new Vector3(0, 1, 0);
 
@@ -12,8 +25,10 @@ export class NoWebGL extends Error {}
 export class Stage {
   /** @param {HTMLCanvasElement} canvas */
   constructor(canvas) {
-    const context = canvas.getContext("webgl2", { antialias: true, powerPreference: "high-performance" });
+    this.slow = withoutGraphicsCard();
+    const context = canvas.getContext("webgl2", { alpha: false, antialias: !this.slow });
     if (!context) throw new NoWebGL();
+    this.canvas = canvas;
     /** Called whenever a picture was drawn. @type {() => void} */
     this.drawn = () => {};
     this.renderer = new WebGLRenderer({ canvas, context });
@@ -32,8 +47,8 @@ export class Stage {
     this.scene.add(this.view.camera);
     // A phone takes the canvas away from pages in the background.
     canvas.addEventListener("webglcontextrestored", () => this.invalidate());
-    new ResizeObserver(() => this.resize(canvas)).observe(canvas);
-    this.resize(canvas);
+    new ResizeObserver(() => this.resize()).observe(canvas);
+    this.resize();
   }
 
   /** Turns the recording's coordinates. @param {number[]} up */
@@ -42,13 +57,19 @@ export class Stage {
     this.world.updateMatrixWorld(true);
   }
 
-  resize(canvas) {
-    const { clientWidth: width, clientHeight: height } = canvas;
+  resize() {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
     if (width === 0 || height === 0) return;
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setPixelRatio(this.ratio(false));
     this.renderer.setSize(width, height, false);
     this.view.resize(width, height);
     this.invalidate();
+  }
+
+  /** Pixels of the picture in one of the page's, in a picture that stays or one of many. */
+  ratio(still) {
+    if (!this.slow) return Math.min(devicePixelRatio, 2);
+    return still ? 2 : 0.75;
   }
 
   /** Takes the colours of the style as they are at present. */
@@ -64,8 +85,33 @@ export class Stage {
     this.pending ??= requestAnimationFrame(() => {
       this.pending = undefined;
       if (this.view.update()) this.invalidate();
-      this.renderer.render(this.scene, this.view.camera);
-      this.drawn();
+      this.render(false);
+      if (!this.slow) return;
+      clearTimeout(this.rest);
+      this.rest = setTimeout(() => this.render(true), REST);
     });
   }
+
+  render(still) {
+    const ratio = this.ratio(still);
+    this.view.camera.layers.set(0);
+    if (still || !this.slow) this.view.camera.layers.enable(FINE);
+    if (ratio !== this.renderer.getPixelRatio()) this.renderer.setPixelRatio(ratio);
+    this.renderer.render(this.scene, this.view.camera);
+    this.drawn();
+  }
+}
+
+/** Whether the browser draws on the processor, for which smooth edges are too much in motion. */
+function withoutGraphicsCard() {
+  const context = document.createElement("canvas").getContext("webgl2");
+  if (!context) return false;
+  let name = context.getParameter(context.RENDERER);
+  // Most browsers give a name of their own there; Firefox warns of those who ask for another.
+  if (name === "WebKit WebGL") {
+    const names = context.getExtension("WEBGL_debug_renderer_info");
+    if (names) name = context.getParameter(names.UNMASKED_RENDERER_WEBGL);
+  }
+  context.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
 }

@@ -35,7 +35,8 @@ export class Timeline {
    * @param {any[]} methods The methods that are shown.
    */
   open(recording, methods) {
-    Object.assign(this, { recording, methods });
+    this.recording = recording;
+    this.methods = methods;
     this.offer();
     this.draw();
   }
@@ -43,7 +44,9 @@ export class Timeline {
   /** Offers the curves that the methods have. */
   offer() {
     const { choice, recording } = this;
-    const names = new Set(recording.methods.flatMap(({ curves }) => curves.map(({ name }) => name)));
+    const names = new Set(
+      recording.methods.flatMap(({ curves }) => curves.map(({ name }) => name)),
+    );
     const before = choice.value;
     if (names.size > 0 && choice.options.length === names.size && names.has(before)) return;
     choice.replaceChildren(...[...names].map((name) => new Option(name, name)));
@@ -54,7 +57,9 @@ export class Timeline {
   draw() {
     const width = this.slider.clientWidth;
     if (width === 0) return;
-    const scale = scaleOf(this.recording, width, this.methods, this.choice.value);
+    // The style hides the choice where there is no room for a curve.
+    const quantity = this.choice.offsetParent ? this.choice.value : "";
+    const scale = scaleOf(this.recording, width, this.methods, quantity);
     const ratio = devicePixelRatio;
     const size = [Math.round(width * ratio), Math.round(scale.height * ratio)];
     const pen = this.canvas.getContext("2d");
@@ -64,18 +69,20 @@ export class Timeline {
     }
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     pen.clearRect(0, 0, width, scale.height);
-    drawChart(pen, scale, this.recording, this.methods, this.choice.value);
+    drawChart(pen, scale, this.recording, this.methods, quantity);
     this.scale = scale;
     if (this.number !== undefined) this.show(this.number, this.told);
   }
 
   /** Moves the playhead. @param {number} number @param {string} told The frame in words. */
   show(number, told) {
-    Object.assign(this, { number, told });
+    this.number = number;
+    this.told = told;
     if (!this.scale) return;
     this.head.style.transform = `translateX(${across(this.scale, number)}px)`;
     const { first, last } = this.scale;
     const values = { valuemin: first, valuemax: last, valuenow: number, valuetext: told };
-    for (const [key, value] of Object.entries(values)) this.slider.setAttribute(`aria-${key}`, value);
+    for (const [key, value] of Object.entries(values))
+      this.slider.setAttribute(`aria-${key}`, value);
   }
 }

@@ -52,7 +52,8 @@ export class Verdicts {
  * @returns {{verdict: string, alarm: string, more: string} | null}
  */
 export function alarm(methods) {
-  const names = (verdict) => methods.filter((one) => one.verdict === verdict).map((one) => one.name);
+  const names = (verdict) =>
+    methods.filter((one) => one.verdict === verdict).map((one) => one.name);
   const [worst, ...others] = Object.keys(ALARMS).filter((verdict) => names(verdict).length > 0);
   if (!worst) return null;
   const whose = names(worst).length < methods.length ? `: ${names(worst).join(", ")}` : "";
