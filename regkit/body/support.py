@@ -23,9 +23,10 @@ def segment_supports(body: Body, transforms: Array, points: Array) -> Array:
         transforms: T_world_segment, (S, 4, 4).
         points: The data, (N, 3) [m].
     """
-    axes, count = body.axes, len(transforms)
+    count = len(transforms)
     if not len(body.capsules):
         return np.full(count, np.nan)
+    axes = body.axes
     capsules = body.capsules.place(transforms)
     supported = capsules.supported(axes, points, body.limb_radius)
     samples = np.bincount(axes.segments, minlength=count)

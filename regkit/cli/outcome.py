@@ -19,6 +19,12 @@ from regkit.cli.verdicts import conclude
 from regkit.interfaces import Template
 from regkit.tracking import Verdict
 
+OFTEN = 0.1
+"""A segment is told if it has little data in such a fraction of the frames."""
+
+SHOWN = 4
+"""Maximum number of segments in the table."""
+
 
 def finish(
     tracking: Tracking, template: Template, out: Path | None, *, as_json: bool, strict: bool
@@ -92,6 +98,7 @@ def _figures(tracking: Tracking) -> dict[str, Any]:
         "surface_distance_mm": measure.surface_distance_mm,
         "inlier_share": _share(measure.inlier_percent),
         "coverage": _share(measure.coverage_percent),
+        "segments_with_little_data": _weak_segments(tracking),
         "frames_per_second": measure.fps,
         "marker_names": list(tracking.joint_names),
     }
@@ -118,6 +125,7 @@ def _table(tracking: Tracking, figures: dict[str, Any]) -> Table:
         ("surface distance", "-" if distance is None else f"{distance:.1f} mm (median)"),
         ("inliers", _percent(figures["inlier_share"], "the points")),
         ("covered", _percent(figures["coverage"], "the visible body has data")),
+        ("little data", _told(figures["segments_with_little_data"])),
         ("converged", f"{figures['converged_frames']} of {len(tracking)}"),
         ("verdict", verdict),
         ("stream", _stream(figures)),
@@ -138,6 +146,19 @@ def _stream(figures: Mapping[str, Any]) -> str:
         latency = figures["latency_ms"]
         parts.append(f"latency {latency['p50']:.3g} ms (p99 {latency['p99']:.3g} ms)")
     return ", ".join(parts)
+
+
+def _weak_segments(tracking: Tracking) -> dict[str, float]:
+    """Returns the segments that often have little data, and in which fraction of the frames."""
+    shares = zip(tracking.body.skeleton.names, tracking.track.weakly_seen.tolist(), strict=True)
+    return {name: round(share, 3) for name, share in shares if share >= OFTEN}
+
+
+def _told(weak: dict[str, float]) -> str:
+    """Returns segments with little data in words, the worst first."""
+    worst = sorted(weak, key=lambda name: -weak[name])
+    told = [f"{name} in {100.0 * weak[name]:.0f} % of the frames" for name in worst[:SHOWN]]
+    return ", ".join(told) + (f", and {len(worst) - SHOWN} more" if len(worst) > SHOWN else "")
 
 
 def _share(percent: float | None) -> float | None:

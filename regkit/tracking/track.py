@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from regkit.body import Body
+from regkit.body.support import WEAK
 from regkit.body.verdict import Verdict, frame_verdicts
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
@@ -93,6 +94,12 @@ class Track(Brief):
     def seen(self) -> NDArray[np.bool_]:
         """Whether each frame has data, (T,)."""
         return self.points > 0
+
+    @property
+    def weakly_seen(self) -> Array:
+        """Fraction of the frames with data in which each segment has little of it, (S,)."""
+        known = self.supports[self.seen]
+        return np.asarray((known < WEAK).sum(axis=0) / max(len(known), 1))
 
     def __len__(self) -> int:
         """Number T of frames."""

@@ -2,31 +2,24 @@
 
 from __future__ import annotations
 
-import json
 from collections import deque
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from functools import cached_property
 from threading import Condition, Thread
-from typing import Any
 
 import numpy as np
 
+from regkit.geometry.camera import Camera
 from regkit.interfaces import Registrar
 from regkit.system.arrays import Array
-from regkit.viewer.model_shapes import transforms_of
-from regkit.viewer.packed import packed
+from regkit.viewer.live_frame import LiveFrame
 from regkit.viewer.page import page
-from regkit.viewer.points import FramePoints, packed_frame
+from regkit.viewer.points import FramePoints
 from regkit.viewer.scene import MethodScene, RecordingScene, Scene
 from regkit.viewer.server import HOST, HTML, JSON, Answer, Server
 from regkit.viewer.track_scene import TrackScene
 
 KEPT = 600
 """Number of frames that are kept for browsers that come later, or go back."""
-
-MOST_POINTS = 1500
-"""Maximum number of points of a frame."""
 
 BEHIND = 60
 """Number of frames by which a slow browser may lag; it then skips to the newest."""
@@ -39,56 +32,6 @@ POLLED = 0.05
 
 SILENCE = 5.0
 """Time [s] without a frame after which a sign of life is sent, which finds browsers that left."""
-
-
-@dataclass(frozen=True)
-class LiveFrame:
-    """A tracked frame for browsers; its text is made when the first browser asks for it.
-
-    Attributes:
-        number: Number of the frame.
-        time: Its time [s].
-        points: Its data, (N, 3) [m].
-        method: Name of the method.
-        transforms: T_camera_segment, (S, 4, 4) [m].
-        markers: The markers, (M, 3) [m].
-        supports: How well data support each segment, (S,), from 0 to 1; None if unknown.
-        verdict: Whether the body was found.
-        curves: Numbers of the frame by the names of their curves.
-        status: A few words on the state, such as the speed.
-    """
-
-    number: int
-    time: float
-    points: Array
-    method: str
-    transforms: Array
-    markers: Array
-    supports: Array | None
-    verdict: str
-    curves: Mapping[str, float]
-    status: str
-
-    @cached_property
-    def event(self) -> bytes:
-        """The frame as a server-sent event."""
-        tracked: dict[str, Any] = {
-            "name": self.method,
-            "transforms": packed(transforms_of(self.transforms), "f4"),
-            "markers": packed(self.markers, "f4"),
-            "verdict": self.verdict,
-            "curves": {name: one for name, one in self.curves.items() if np.isfinite(one)},
-        }
-        if self.supports is not None:
-            known = np.where(np.isfinite(self.supports), self.supports, 1.0)
-            tracked["confidence"] = packed(known, "f4")
-        return _event({
-            "frame": self.number,
-            "time": self.time,
-            "points": packed_frame(self.points, MOST_POINTS),
-            "status": self.status,
-            "methods": [tracked],
-        })  # fmt: skip
 
 
 class LiveViewer:
@@ -104,6 +47,7 @@ class LiveViewer:
         method: Name of the method.
         colour: Its colour, #rrggbb.
         curves: Units of the curves by their names.
+        camera: The camera, if it is known.
         host: Address to bind to; others than this machine's are told.
         port: Port; 0 for any that is free.
 
@@ -120,12 +64,22 @@ class LiveViewer:
         method: str = "track",
         colour: str = "#0072B2",
         curves: Mapping[str, str] | None = None,
+        camera: Camera | None = None,
         host: str = HOST,
         port: int = 0,
     ) -> None:
         self._method = method
         units = {"inlier share": "%"} if curves is None else dict(curves)
-        recording = _empty_recording(title, fps, registrar, method, colour, units)
+        track = TrackScene.empty(registrar, fps, units)
+        recording = RecordingScene(
+            name=title,
+            fps=fps,
+            length=0,
+            frames=np.zeros(0, dtype=np.intp),
+            points=FramePoints.of({}),
+            methods=(MethodScene(method, colour, track),),
+            camera=camera,
+        )
         self._scene = Scene(title, (recording,), live=True).json()
         self._page = page(title).encode()
         self._frames: deque[LiveFrame] = deque(maxlen=KEPT)
@@ -223,27 +177,3 @@ class LiveViewer:
             with self._news:
                 self._watching -= 1
                 self._news.notify_all()
-
-
-def _event(content: Any) -> bytes:
-    return b"data: " + json.dumps(content, separators=(",", ":")).encode() + b"\n\n"
-
-
-def _empty_recording(
-    title: str,
-    fps: float,
-    registrar: Registrar,
-    method: str,
-    colour: str,
-    units: Mapping[str, str],
-) -> RecordingScene:
-    """Returns the recording before its first frame."""
-    track = TrackScene.empty(registrar, fps, units)
-    return RecordingScene(
-        name=title,
-        fps=fps,
-        length=0,
-        frames=np.zeros(0, dtype=np.intp),
-        points=FramePoints.of({}),
-        methods=(MethodScene(method, colour, track),),
-    )

@@ -22,6 +22,9 @@ Answer = tuple[str, bytes] | Iterator[bytes]
 
 JSON, HTML, BYTES = "application/json", "text/html; charset=utf-8", "application/octet-stream"
 
+PATIENCE = 30.0
+"""Time [s] for which a browser may neither ask nor read before its connection is closed."""
+
 WORTH = 1000
 """Number of bytes from which an answer is compressed."""
 
@@ -86,6 +89,7 @@ class Server(ThreadingHTTPServer):
 class _Handler(BaseHTTPRequestHandler):
     server: Server
     protocol_version = "HTTP/1.1"
+    timeout = PATIENCE
     server_version = "regkit"
     sys_version = ""
     fixed: ClassVar[dict[str, str]] = {

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import Any, ClassVar
 
@@ -196,9 +196,3 @@ def shape_of(named: Mapping[str, NDArray[Any]], segments: int) -> Shape:
         if indices.size and not (indices.min() >= 0 and indices.max() < bounds[name]):
             raise ValueError(f"'{name}' of {kind.kind} is out of range")
     return kind(**values)
-
-
-def drawn_centres(shapes: tuple[Shape, ...], transforms: Array) -> Iterator[Array]:
-    """Yields the placed points of each shape, (N, 3) [m]."""
-    for shape in shapes:
-        yield shape.placed(transforms).reshape(-1, 3)

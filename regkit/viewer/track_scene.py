@@ -64,7 +64,7 @@ class TrackScene:
     markers: Markers
     transforms: Array
     supports: Array
-    verdicts: NDArray[np.str_]
+    verdicts: NDArray[Any]
     curves: tuple[Curve, ...]
     shapes: tuple[Shape, ...]
     points: FramePoints

@@ -129,7 +129,7 @@ def test_what_is_no_result_is_refused(regkit, tmp_path, tracked):
     assert f"there are: {tracked}" in ended.err
     ended = regkit("export", tracked, "--to", tmp_path / "motion.fbx")
     assert ended.code == 1
-    assert "--to: '.fbx' is not an export format (.bvh, .csv, .glb)" in ended.err
+    assert "--to: '.fbx' is not an export format (.bvh, .csv, .glb, .gif, .webp)" in ended.err
     copy = tmp_path / "other" / "gsog" / "first"
     shutil.copytree(tracked, copy)
     ended = regkit("export", copy, "--to", tmp_path / "motion.bvh")

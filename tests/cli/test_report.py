@@ -1,13 +1,20 @@
 """``regkit report`` makes the report from what a run left behind."""
 
+import base64
+import gzip
 import json
+import re
 import shutil
 from pathlib import Path
 
 import pytest
 from small_experiment import add_method, damage, small
 
-from regkit.experiment import Experiment, run
+from regkit.experiment import Experiment, found, report, run
+from regkit.experiment.reporting import run_in
+from regkit.experiment.results import Results
+from regkit.experiment.scenes import write_replay
+from regkit.system.notes import RegkitWarning
 
 
 @pytest.fixture(scope="module")
@@ -102,3 +109,50 @@ def test_damaged_record_is_told(regkit, results):
 def test_record_of_a_recording_is_small(results):
     for path in results.glob("*/*/record.npz"):
         assert path.stat().st_size < 300_000
+
+
+def make_older(folder: Path) -> None:
+    """Makes a track one of a version that stored no scene."""
+    (folder / "scene.npz").unlink()
+    manifest = json.loads((folder / "checksums.json").read_text())
+    del manifest["files"]["scene.npz"]
+    (folder / "checksums.json").write_text(json.dumps(manifest))
+
+
+def embedded(page: Path) -> dict:
+    data = re.search(r'<script id="scene"[^>]*>(.*?)</script>', page.read_text("utf-8"), re.DOTALL)
+    return json.loads(gzip.decompress(base64.b64decode(data[1])))
+
+
+def test_report_leads_to_a_replay_of_the_tracks(done):
+    (recording,) = embedded(done / "replay.html")["recordings"]
+    assert (recording["name"], recording["frames"]) == ("second", [0, 1])
+    assert [one["name"] for one in recording["methods"]] == ["gsog", "sog"]
+    assert {one["why"].split(" ")[0] for one in recording["marked"]} == {"worst"}
+    assert recording["joints"]["names"]
+    assert 'href="replay.html"' in (done / "report.html").read_text()
+    assert "(replay.html)" in (done / "report.md").read_text()
+    assert (done / "replay.html").stat().st_size < 5_000_000
+
+
+def test_tracks_of_an_earlier_version_have_a_report_without_them(results):
+    make_older(results / "sog" / "second")
+    run = run_in(results, *found(results))
+    assert write_replay(run, Results(results)) == "replay.html"
+    scene = embedded(results / "replay.html")
+    assert [one["name"] for one in scene["recordings"][0]["methods"]] == ["gsog"]
+    assert "sog on second" in scene["note"]
+    make_older(results / "gsog" / "second")
+    with pytest.warns(RegkitWarning, match="no replay"):
+        assert write_replay(run_in(results, *found(results)), Results(results)) is None
+    assert not (results / "replay.html").exists()
+    report(results, *found(results), figures=False)
+    assert "replay.html" not in (results / "report.html").read_text()
+
+
+def test_damaged_scene_is_told(regkit, results):
+    damaged = results / "gsog" / "second" / "scene.npz"
+    damaged.write_bytes(damaged.read_bytes()[:200])
+    ended = regkit("report", results)
+    assert ended.code == 1
+    assert ended.err.startswith(f"error: {damaged}: damaged")

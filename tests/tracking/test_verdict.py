@@ -168,3 +168,10 @@ def test_track_is_no_surer_than_its_start(start, frames, verdict):
     judged = TrackVerdict.of(track_with(*frames), start=begun)
     assert judged.verdict is verdict
     assert ("a cupboard" in judged.reason) == (start is not F)
+
+
+def test_segments_with_little_data_are_counted_in_the_frames_that_have_some():
+    supports = np.array([[0.9, 0.1, np.nan], [0.8, 0.9, np.nan], [0.0, 0.0, 0.0]])
+    track = replace(track_with(F, F, N), supports=supports)
+    assert track.weakly_seen.tolist() == [0.0, 0.5, 0.0]
+    assert replace(track_with(N), supports=np.zeros((1, 2))).weakly_seen.tolist() == [0.0, 0.0]

@@ -71,7 +71,7 @@ class Drawing:
             add_shape(self.shape, canvas, view, pose)
         canvas.blend_solids(OPACITY * presence)
         for view in self.views:
-            _add_points(canvas, view, pose.points, presence)
+            _add_points(canvas, view, pose, presence)
         image = Image.fromarray(np.rint(canvas.colours).astype(np.uint8))
         image = self._with_bones(image, pose, presence)
         self._write(image, pose)
@@ -129,14 +129,14 @@ class Drawing:
                 pen.text(at, words, fill=PAPER, font=_font(15), anchor="ma")
 
 
-def _add_points(canvas: Canvas, view: View, points: Array, presence: float) -> None:
+def _add_points(canvas: Canvas, view: View, pose: ShownPose, presence: float) -> None:
     """Draws points, fainter where the model hides them."""
-    seen = view.moved(points)
+    seen = view.moved(pose.points)
     seen = seen[seen[:, 2] > 0.0]
     at = np.rint(view.pixels(seen)).astype(int)
     there = canvas.inside(at, 1)
     seen, at = seen[there], at[there]
-    slack = 0.01 * float(np.ptp(points, axis=0).max(initial=0.0))
+    slack = 0.01 * float(np.ptp(pose.ends, axis=0).max())
     hidden = seen[:, 2] > canvas.depths[at[:, 1], at[:, 0]] + slack
     opacity = np.where(hidden, 0.9 - 0.72 * presence, 0.9)
     for down in (-1, 0, 1):

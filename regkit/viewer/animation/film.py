@@ -77,7 +77,7 @@ def write_film(track: TrackScene, file: Path, fps: float | None = None) -> Film:
     if not times:
         raise DataError("no frame of the track has points to show", place=str(file))
     poses = [ShownPose.of(track, int(track.points.frames[at]), track.points.at(at)) for at in times]
-    drawing = drawing_of(track, poses)
+    drawing = drawing_of(track, poses, SHEET)
     pictures = [drawing.picture(pose) for pose in steps(poses, "drawing", len(poses))]
     begins = list(times.values())
     while True:
@@ -92,7 +92,7 @@ def write_film(track: TrackScene, file: Path, fps: float | None = None) -> Film:
 
 
 def drawing_of(
-    track: TrackScene, poses: Sequence[ShownPose], sheet: Sheet = SHEET, ground: float | None = None
+    track: TrackScene, poses: Sequence[ShownPose], sheet: Sheet, ground: float | None = None
 ) -> Drawing:
     """Returns what the pictures of a track share: views in which all poses are in sight.
 

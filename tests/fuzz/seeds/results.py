@@ -20,6 +20,9 @@ from regkit.experiment.tracked_motion import read_tracked_motion
 from regkit.interchange.motion import TrackedMotion
 from regkit.interchange.motions import write_motion
 from regkit.tracking import Verdict
+from regkit.viewer.run_scene import run_scene
+from regkit.viewer.track_file import read_scene
+from regkit.viewer.track_scene import TrackScene
 from tests.fuzz import oracles
 from tests.fuzz.kind import Damaged, Files, Kind
 
@@ -100,6 +103,23 @@ def _exported(folder: Path) -> TrackedMotion:
     return motion
 
 
+def _viewed(folder: Path) -> TrackScene:
+    """All that ``regkit view`` reads of a track, as the page gets it."""
+    track = read_scene(folder / TRACK)
+    scene = run_scene("seed", {"walk": {"icp": lambda: track}}, {"icp": "#000000"})
+    if scene is not None:
+        scene.json()
+    return track
+
+
+def _can_be_shown(track: TrackScene, file: Damaged) -> Iterator[str]:
+    yield from oracles.numbers(track.transforms, "transforms", most=oracles.FARTHEST)
+    for frame in range(len(track.points)):
+        yield from oracles.numbers(track.points.at(frame), "points", most=oracles.LARGEST)
+    if not 0.0 < track.fps < np.inf:
+        yield f"fps: {track.fps}"
+
+
 def _as_tracked(motion: TrackedMotion, file: Damaged) -> Iterator[str]:
     """What is exported was tracked."""
     sound = _sound()[1]
@@ -172,6 +192,15 @@ RESULTS = (
         {f"{TRACK}/poses.npz": "npz"},
         lambda folder: _exported(_sealed(folder)),
         _can_be_tracked,
+        whole=True,
+        weight=0.8,
+    ),
+    Kind(
+        "results/scene",
+        seeds,
+        {f"{TRACK}/scene.npz": "npz"},
+        _viewed,
+        _can_be_shown,
         whole=True,
         weight=0.8,
     ),
