@@ -45,8 +45,10 @@ export class Address {
   /** @param {(place: Place) => void} go Called when somebody else changes the address. */
   constructor(go) {
     this.timer = 0;
+    this.known = location.hash;
     addEventListener("hashchange", () => {
-      if (location.hash !== this.last) go(read(location.hash));
+      this.known = location.hash;
+      go(read(location.hash));
     });
   }
 
@@ -54,12 +56,14 @@ export class Address {
   write(place) {
     this.timer ||= setTimeout(() => {
       this.timer = 0;
-      this.last = written(place());
+      // An address that somebody else has just set is followed, and not overwritten.
+      if (location.hash !== this.known) return;
       try {
-        history.replaceState(null, "", this.last);
+        history.replaceState(null, "", written(place()));
       } catch {
         // Some frames of other pages, such as a notebook's, have no address of their own.
       }
+      this.known = location.hash;
     }, SELDOM);
   }
 }
