@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from regkit.body.verdict import Verdict
 from regkit.report.frame_drawing import FrameDrawing
 from regkit.report.outlines import outlines
 from regkit.report.plot import LIGHT, canvas, inked, styled
@@ -60,7 +61,13 @@ def overlay(title: str, record: Record, colour: str) -> Figure:
         for row, (view, axes) in enumerate(VIEWS.items()):
             plot = styled(grid[row, column], LIGHT)
             _draw(plot, axes, drawing, colour)
-            plot.set_title(f"frame {drawing.frame} ({drawing.why}), {view}", fontsize=8.5)
+            title = f"frame {drawing.frame} ({drawing.why}), {view}"
+            verdict = record.verdicts[drawing.frame]
+            if verdict == Verdict.FOUND:
+                plot.set_title(title, fontsize=8.5)
+            else:
+                # A drawn pose looks right in any case.
+                plot.set_title(f"{title}\nbody {verdict}", fontsize=8.5, color=FOUND)
     handles, labels = grid[0, 0].get_legend_handles_labels()
     legend = figure.legend(
         handles, labels, loc="outside lower center", ncols=len(labels), fontsize=8

@@ -17,6 +17,7 @@ from regkit.report.figures import plots
 from regkit.report.figures.density import projected
 from regkit.report.labels import wrapped
 from regkit.report.outlines import outlines
+from regkit.report.overlay import overlay
 from regkit.report.plot import DARK, LIGHT
 from regkit.report.style import PALETTE, styles
 from regkit.report.tables import main_table, p_text
@@ -416,3 +417,13 @@ def test_methods_of_different_settings_are_no_pair_of_shape_models():
                                    (("sog", one), ("gsog", other))})  # fmt: skip
     assert swept.shape_pairs == [("a/sog", "a/gsog"), ("b/sog", "b/gsog")]
     assert swept.style("a/sog").shape == "sog"
+
+
+def test_overlay_tells_where_the_body_was_not_found(random):
+    made = record(random, 0.02)
+    verdicts = np.where(np.arange(len(made.verdicts)) > 0, "lost", "found")
+    titles = [
+        one.get_title()
+        for one in overlay("m on r", replace(made, verdicts=verdicts), "#000000").axes
+    ]
+    assert [title.endswith("body lost") for title in titles] == [False, True, False, True]
