@@ -26,7 +26,7 @@ def view(
         typer.Argument(
             metavar="WHAT",
             help="Results of a run, RESULTS/METHOD/RECORDING, a folder of `track` or `register`, "
-            "the JSON of `align --json`, the folder of a recording, or a cloud.",
+            "the JSON of `align --json`, the folder or file of a recording, or a cloud.",
             show_default=False,
         ),
     ],

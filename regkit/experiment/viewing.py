@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from regkit.clouds import read_cloud
+from regkit.clouds.reading import READABLE
 from regkit.config.model import did_you_mean
 from regkit.experiment.provenance import manifest
 from regkit.experiment.reporting import found, run_in
@@ -35,7 +36,8 @@ FRAMES = 1200
 
 KNOWN = (
     "the results of a run, RESULTS/METHOD/RECORDING in them, a folder of `regkit track` or "
-    "`regkit register`, the JSON of `regkit align --json`, the folder of a recording, or a cloud"
+    "`regkit register`, the JSON of `regkit align --json`, the folder or file of a recording, or a "
+    "cloud; a camera is shown by `regkit track CAMERA --view`"
 )
 """What can be shown, for messages."""
 
@@ -85,7 +87,7 @@ def site_of(what: Path, recording: str | None = None, methods: Sequence[str] = (
         )
     if what.suffix.lower() == ".json":
         return SceneSite(_alignment(what))
-    if what.is_file():
+    if what.is_file() and what.suffix.lower() in READABLE:
         points = read_cloud(what)
         return SceneSite(clouds_scene(what.name, {"points": points}, {"points": PALETTE[0]}))
     return RecordingSite(_dataset(what).only(recording))

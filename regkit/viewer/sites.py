@@ -10,6 +10,7 @@ from threading import Lock
 import numpy as np
 
 from regkit.interfaces import Recording
+from regkit.viewer.frame_cursor import FrameCursor
 from regkit.viewer.page import page
 from regkit.viewer.points import frame_bytes
 from regkit.viewer.reference import reference_of
@@ -56,22 +57,26 @@ class RecordingSite:
         Raises:
             RegkitError: If a frame cannot be read.
         """
-        frame = FRAME.fullmatch(path)
-        if frame is None:
+        asked = FRAME.fullmatch(path)
+        if asked is None:
             return self._site(path)
-        index = int(frame[1])
+        index = int(asked[1])
         if index >= self.recording.length:
             return None
         # A dataset need not bear two readers.
         with self._reading:
-            for _, one in self.recording.some([index]):
-                points = one.points[:: max(1, -(-len(one.points) // MOST_POINTS))]
-                return BYTES, frame_bytes(points)
-        return None
+            frame = self._cursor.at(index)
+        if frame is None:
+            return None
+        return BYTES, frame_bytes(frame.points[:: max(1, -(-len(frame.points) // MOST_POINTS))])
 
     @cached_property
     def _reading(self) -> Lock:
         return Lock()
+
+    @cached_property
+    def _cursor(self) -> FrameCursor:
+        return FrameCursor(self.recording)
 
     @cached_property
     def _site(self) -> SceneSite:

@@ -92,7 +92,7 @@ def test_what_cannot_be_shown_is_refused(results, track, tmp_path):
     (tmp_path / "other.json").write_text("{}")
     for arguments, expected in (
         ((tmp_path / "nothing",), "give the results of a run"),
-        ((tmp_path / "empty",), "the folder of a recording"),
+        ((tmp_path / "empty",), "the folder or file of a recording"),
         ((tmp_path / "other.json",), "regkit align --json"),
         ((results, "third"), "--recording: no recording 'third'.*first, second"),
         ((results, None, ["sogg"]), "--method: no method 'sogg'.*did you mean"),

@@ -32,6 +32,8 @@ def made_track(body: Body, frames: int, *, lost: int = 0) -> Track:
     poses = [Pose(one, rest.balls, angles) for one, angles in zip(root, hinges, strict=True)]
     shares = np.where(np.arange(frames) >= frames - lost, 0.1, 0.95)
     return Track(
+        numbers=np.arange(float(frames)),
+        times=np.arange(frames) / 30.0,
         root=root,
         balls=np.tile(rest.balls, (frames, 1, 1)),
         hinges=hinges,

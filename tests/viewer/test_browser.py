@@ -70,7 +70,7 @@ def test_switches_change_what_is_drawn(shown):
     shown.wait(f"Number(data.triangles) < {one}")
     shown.page.select_option("#model", "capsules")
     shown.wait(f"Number(data.triangles) > {one}")
-    shown.page.select_option("#model", "mesh")
+    shown.page.select_option("#model", "own")
     shown.page.check("#show-bones")
     shown.wait(f"Number(data.triangles) === {one}")
 

@@ -1,6 +1,6 @@
 /** What is drawn: the choices of the panel. */
 
-import { KINDS } from "./model.js";
+import { KINDS, OWN } from "./model.js";
 
 const $ = (id) => document.getElementById(id);
 const BOXES = {
@@ -58,7 +58,9 @@ export function offer(recording, display) {
   const kinds = Object.keys(KINDS).filter((kind) =>
     methods.some((method) => method.shapes.some((shape) => shape.kind === kind)),
   );
-  const options = [...kinds.map((kind) => [kind, KINDS[kind]]), ["none", "none"]];
+  // Methods are compared by what each of them compares with the data.
+  const own = methods.length > 1 && kinds.length > 1 ? [[OWN, "each method's own"]] : [];
+  const options = [...own, ...kinds.map((kind) => [kind, KINDS[kind]]), ["none", "none"]];
   $("model").replaceChildren(...options.map(([value, text]) => new Option(text, value)));
   if (!options.some(([value]) => value === display.model)) display.model = options[0][0];
   $("model").value = display.model;
@@ -75,7 +77,7 @@ export function offer(recording, display) {
   shown("show-joints", jointNames.length > 0);
   shown(
     "show-confidence",
-    frames.some((frame) => frame.poses.some((pose) => pose.confidence)),
+    recording.live || frames.some((frame) => frame.poses.some((pose) => pose.confidence)),
   );
   shown(
     "show-solid",

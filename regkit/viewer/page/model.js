@@ -9,6 +9,9 @@ import { Skeleton } from "./skeleton.js";
 import { Skin } from "./skin.js";
 import { readable } from "./theme.js";
 
+/** The choice of each method's own kind of shape. */
+export const OWN = "own";
+
 /** How the kinds of shapes are called, in the order in which they are offered. */
 export const KINDS = {
   mesh: "mesh",
@@ -62,8 +65,8 @@ export class Model {
     if (!placed) return;
     this.presence.value = verdict === "lost" || verdict === "no data" ? GHOST : 1;
     setMatrices(this.matrices, pose.transforms);
-    const kind =
-      this.shapes.has(display.model) || display.model === "none" ? display.model : this.first;
+    const known = this.shapes.has(display.model) || display.model === "none";
+    const kind = display.model === OWN ? this.own : known ? display.model : this.first;
     for (const [name, shapes] of this.shapes) {
       for (const shape of shapes) {
         for (const object of shape.objects) object.visible = name === kind;
@@ -76,6 +79,11 @@ export class Model {
     if (!display.bones) return;
     this.skeleton.place(pose);
     this.skeleton.fade(this.presence.value);
+  }
+
+  /** The kind of shape that the method compares with the data. */
+  get own() {
+    return this.shapes.keys().next().value ?? "none";
   }
 
   /** The kind of shape that stands for one that the method does not have. */
