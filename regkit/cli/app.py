@@ -33,7 +33,7 @@ COMMANDS = {
     "view": "Show tracks, clouds or a recording in a browser, until Ctrl-C.",
     "export": "Export a tracked motion: BVH, CSV or glTF, or an animated picture.",
     "register": "Register a template to one frame: body size, pose, and quality of the fit.",
-    "track": "Track a template through a recording; the first frame's pose is found automatically.",
+    "track": "Track a template through a camera's stream or a recording, from the first frames on.",
     "record": "Record the depth images of a camera, or of a file, as a folder that regkit reads.",
     "preview": "Show what the segmentation removes from a recording, and what it leaves of it.",
     "align": "Align a rigid cloud or mesh to another: T_target_source, and how well they match.",

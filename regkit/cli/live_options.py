@@ -43,7 +43,7 @@ Opening = Annotated[
     typer.Option(
         metavar="SECONDS",
         help="Duration in which the body, its size and its surroundings are sought. (default: "
-        f"{OPENING:g} for a camera, {RECORDED_OPENING:g} for a recording)",
+        f"{OPENING} for a camera, {RECORDED_OPENING} for a recording)",
         show_default=False,
     ),
 ]
