@@ -15,6 +15,10 @@ from regkit.system.errors import ConfigError, DataError, NoBodyError, SourceLost
 from regkit.system.notes import RegkitWarning
 
 HUMAN = {"kind": "human", "height": 1.63}
+START = {
+    "kind": "given",
+    "root": {"position": [-0.05, -0.05, 3.25], "rotation_deg": [180, 0, 0]},
+}
 COUNT = 8
 
 
@@ -26,12 +30,13 @@ def frames() -> list[TimedFrame]:
 @pytest.fixture(scope="module")
 def usual(frames):
     """The markers of the same frames as a recording."""
-    return regkit.track(regkit.load_recording(WALK, frames=COUNT), HUMAN).markers
+    recording = regkit.load_recording(WALK, frames=COUNT)
+    return regkit.track(recording, HUMAN, start=START).markers
 
 
 def following(script, *, live=False, **options) -> LiveTrack:
     """A track of the script, which begins with the known start where it is a recording."""
-    pipeline = Pipeline.of(HUMAN, place="test")
+    pipeline = Pipeline.of(HUMAN, start=START, place="test")
     return live_track(lambda: Scripted(list(script), live=live), pipeline, **options)
 
 
@@ -200,7 +205,7 @@ def test_streams_are_closed(frames):
         opened.append(Scripted(frames))
         return opened[-1]
 
-    with live_track(source, Pipeline.of(HUMAN, place="test")) as track:
+    with live_track(source, Pipeline.of(HUMAN, start=START, place="test")) as track:
         list(track)
     assert len(opened) == 2
     assert all(stream.is_closed for stream in opened)

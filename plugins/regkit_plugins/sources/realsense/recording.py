@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, ClassVar, Literal
 
@@ -71,6 +72,14 @@ class PlaybackStream(DeviceStream):
         self.name = path.stem
         self._ended = False
         super().__init__(player, sensor, profile, place=str(path), behind=BEHIND)
+
+    def close(self) -> None:
+        """Ends the playback."""
+        if self._open:
+            # A recording that is released while it is read ends the process.
+            with suppress(RuntimeError):
+                self._device.pause()
+        super().close()
 
     def read(self) -> TimedFrame | None:
         """Returns the next frame; None at the end.
