@@ -79,6 +79,7 @@ def _points(tracking: Tracking, wanted: list[int]) -> dict[int, Singles]:
         spread = np.linspace(0, len(seen) - 1, min(FEWEST, len(seen))).round().astype(int)
         wanted = [*wanted, *map(int, seen[spread])]
     for at in wanted:
-        if at not in points:
+        # The frames of a camera cannot be read again.
+        if at not in points and tracking.recorder.has(tracking.indices[at]):
             points[at] = thinned(tracking.snapshot(at).points)
     return points

@@ -166,6 +166,11 @@ class TrackRecorder:
         """Returns the reason why the registration of a frame ended."""
         return self._messages[index]
 
+    def has(self, index: int) -> bool:
+        """Returns whether the points of a frame are stored, or can be read again."""
+        kept = any(one.frame == index for one in self._snapshots.values())
+        return kept or self._read is not None
+
     def snapshot(self, index: int) -> Snapshot:
         """Returns a frame for pictures, read again unless it is stored.
 
