@@ -83,12 +83,12 @@ def test_recorded_frames_are_those_of_the_stream(regkit, tmp_path):
     assert "copy: the folder exists already" in again.err
 
 
-@pytest.mark.parametrize("suffix", ["bvh", "csv", "glb"])
-def test_track_is_exported(regkit, tmp_path, suffix):
+def test_track_is_exported(regkit, tmp_path):
     assert regkit("track", WALK, *HUMAN, *START, *FEW, "--out", "one").code == 0
-    ended = regkit("export", "one", "--to", f"motion.{suffix}")
-    assert ended.code == 0, ended.err
-    assert "frames: 4, 30 per second" in ended.out
+    for suffix in ("bvh", "csv", "glb"):
+        ended = regkit("export", "one", "--to", f"motion.{suffix}")
+        assert ended.code == 0, ended.err
+        assert "frames: 4, 30 per second" in ended.out
     (tmp_path / "one" / "track.json").write_text("{}")
     assert "track.json: format: " in regkit("export", "one", "--to", "motion.bvh").err
 

@@ -16,6 +16,7 @@ def test_page_plays_and_pauses(shown):
     assert shown.page.get_attribute("#play", "aria-label") == "Play"
 
 
+@pytest.mark.long
 def test_page_plays_at_the_speed_of_the_recording(shown):
     # 40 of 30 frames a second, four times as fast; a busy machine is late, but never early.
     shown.page.evaluate("started = performance.now()")
@@ -24,6 +25,7 @@ def test_page_plays_at_the_speed_of_the_recording(shown):
     assert shown.page.evaluate("performance.now() - started") > 250
 
 
+@pytest.mark.long
 def test_page_rests_when_nothing_changes(shown):
     draws = []
     while len(draws) < 2 or draws[-1] != draws[-2]:
@@ -101,6 +103,7 @@ def test_panel_tells_verdict_values_and_segments_with_little_data(shown):
     assert "87.2 %" in best.inner_text()
 
 
+@pytest.mark.long
 def test_views_are_marked(shown):
     for view in ("front", "side", "top", "sensor", "free"):
         button = shown.page.locator(f"[data-view={view}]")
@@ -109,6 +112,7 @@ def test_views_are_marked(shown):
         assert shown.page.is_visible("#border") == (view == "sensor")
 
 
+@pytest.mark.long
 def test_drags_and_the_wheel_turn_and_move_the_view(shown):
     shown.page.click("[data-view=front]")
     fit = shown.page.locator("[data-view=front]")
