@@ -101,7 +101,8 @@ def _aligned(
 ) -> Alignment:
     """Returns the alignment on the current threads."""
     clouds = source, target
-    each(lambda one: check_shape(clouds[one], place=places[one]), (0, 1))
+    for cloud, place in zip(clouds, places, strict=True):
+        check_shape(cloud, place=place)
     check_sizes(source, target)
     if voxel is not None and not 0.0 <= voxel < np.inf:
         raise ConfigError(
@@ -109,7 +110,7 @@ def _aligned(
         )
     begun = time.perf_counter()
     if voxel is None:
-        voxel = max(each(lambda cloud: voxel_for(cloud, POINTS) or 0.0, clouds))
+        voxel = max(voxel_for(cloud, POINTS) or 0.0 for cloud in clouds)
     few, seen = each(lambda cloud: voxel_downsampled(cloud, voxel) if voxel else cloud, clouds)
     if min(len(few), len(seen)) < MIN_POINTS:
         raise DataError(

@@ -27,11 +27,11 @@ def scattered(x: int, y: int, z: int) -> int:
 
 
 @compiled
-def occupied(points: Array, voxel: float, low: Array, most: int) -> int:
-    """Returns the number of occupied voxels, or ``most + 1`` if there are more.
+def occupants(points: Array, voxel: float, low: Array, most: int) -> Array:
+    """Returns the first point in each occupied voxel (M, 3), of ``most + 1`` voxels at the most.
 
     Args:
-        points: The cloud, (N, 3) [m].
+        points: Points of a cloud, (N, 3) [m].
         voxel: Side of a voxel [m], at least 2^-20 of the cloud's extent.
         low: Least coordinates of the cloud, (3,) [m].
         most: Number beyond which counting stops.
@@ -40,7 +40,7 @@ def occupied(points: Array, voxel: float, low: Array, most: int) -> int:
     while size < 3 * most:
         size *= 2
     mask = size - 1
-    taken = np.full(size, -1)
+    taken, firsts = np.full(size, -1), np.empty((most + 1, 3))
     a, b, c = np.floor(low[0] / voxel), np.floor(low[1] / voxel), np.floor(low[2] / voxel)
     count = 0
     for n in range(len(points)):
@@ -53,12 +53,14 @@ def occupied(points: Array, voxel: float, low: Array, most: int) -> int:
         while taken[entry] != number:
             if taken[entry] < 0:
                 taken[entry] = number
+                for axis in range(3):
+                    firsts[count, axis] = points[n, axis]
                 count += 1
                 break
             entry = (entry + 1) & mask
         if count > most:
             break
-    return count
+    return firsts[:count]
 
 
 @compiled

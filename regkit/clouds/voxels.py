@@ -4,14 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from regkit.clouds.bounds import bounds
-from regkit.clouds.compiled_voxels import (
-    cell_numbers,
-    means_in_order,
-    occupied,
-    voxel_sums,
-)
+from regkit.clouds.bounds import POINTS, bounds
+from regkit.clouds.compiled_voxels import cell_numbers, means_in_order, occupants, voxel_sums
 from regkit.system.arrays import Array, Indices
+from regkit.system.threads import in_chunks
 
 MIN_VOXEL = 1e-6
 """Smallest voxel that is tried, as a fraction of the cloud's extent."""
@@ -47,11 +43,27 @@ def voxel_for(points: Array, wanted: int) -> float | None:
     # Twelve bisections of the logarithm determine the size to a thousandth of its range.
     for _ in range(12):
         middle = float(np.sqrt(lower * upper))
-        if occupied(points, middle, low, wanted) > wanted:
+        if _fills(points, middle, low, wanted):
             lower = middle
         else:
             upper = middle
     return upper
+
+
+def _fills(points: Array, voxel: float, low: Array, most: int) -> bool:
+    """Returns whether points (N, 3) occupy more than ``most`` voxels; see ``occupants``."""
+    firsts, done = np.empty((0, 3)), 0
+    # A few points are often enough to tell that a voxel is too small, so more and more are counted.
+    while done < len(points) and len(firsts) <= most:
+        rest = points[done : max(4 * done, 16 * most)]
+
+        def part(begin: int, end: int, rest: Array = rest) -> Array:
+            return occupants(rest[begin:end], voxel, low, most)
+
+        firsts = np.concatenate([firsts, *in_chunks(part, len(rest), POINTS)])
+        firsts = occupants(firsts, voxel, low, most)
+        done += len(rest)
+    return len(firsts) > most
 
 
 def _sorted(cells: Array) -> Indices:

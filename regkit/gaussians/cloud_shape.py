@@ -44,20 +44,15 @@ class CloudShape(ShapeModel, ABC):
                 f"shape '{self.kind}' needs a surface, and the template '{body.name}' has none; "
                 "take a template with a surface, or another shape"
             )
-        carrier = surface.blend.argmax(axis=1)
-        vertices = np.arange(len(surface))
-        points = surface.points[vertices, carrier]
+        segments, points, known = surface.unblended()
         width = spacing(points) if self.width is None else self.width
         flat = self.flat()
-        known = None if surface.normals is None else surface.normals[vertices, carrier]
         if flat == 1.0:
             axes = np.tile(np.eye(3), (len(points), 1, 1))
         else:
             axes = along(normals(points) if known is None else known)
-        scales = np.tile([width, width, flat * width], (len(points), 1))
-        return Gaussians(
-            surface.segments[vertices, carrier], points, axes, scales, np.ones(len(points))
-        )
+        scales = np.broadcast_to([width, width, flat * width], points.shape)
+        return Gaussians(segments, points, axes, scales, np.ones(len(points)))
 
 
 def along(directions: Array) -> Array:

@@ -69,6 +69,18 @@ class SkinnedSurface(Brief):
         carried += carriers[..., :3, 3]
         return np.asarray(np.einsum("va,vai->vi", self.blend, carried))
 
+    def unblended(self) -> tuple[Indices, Array, Array | None]:
+        """Returns the segment (V,) with the largest weight, and position and normal (V, 3) in it.
+
+        Of a rigid cloud these are the surface's own arrays, which may be large.
+        """
+        if self.blend.shape[1] == 1:
+            normals = None if self.normals is None else self.normals[:, 0]
+            return self.segments[:, 0], self.points[:, 0], normals
+        own = np.arange(len(self)), self.blend.argmax(axis=1)
+        normals = None if self.normals is None else self.normals[own]
+        return self.segments[own], self.points[own], normals
+
     def scaled(self, factor: float) -> Self:
         """Returns the surface with all lengths multiplied by ``factor``."""
         rest = self.rest

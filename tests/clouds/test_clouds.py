@@ -15,6 +15,7 @@ from regkit.clouds.checks import check_shape, check_sizes
 from regkit.clouds.voxels import voxel_for
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.system.errors import ConfigError, DataError
+from regkit.system.threads import using_threads
 
 
 @pytest.mark.parametrize("suffix", [".npz", ".txt", ".csv", ".xyz", ".ply", ".pcd"])
@@ -134,3 +135,20 @@ def test_clouds_of_different_units_are_refused(lump):
     check_sizes(lump, 3.0 * lump)
     with pytest.raises(DataError, match=r"a factor of 1e\+03.*one in millimetres"):
         check_sizes(lump, 1000.0 * lump)
+
+
+def test_voxel_is_the_same_however_its_search_is_divided(random, monkeypatch):
+    points = random.normal(size=(20_000, 3))
+    whole = voxel_for(points, 100)
+    monkeypatch.setattr("regkit.clouds.voxels.POINTS", 500)
+    with using_threads(2):
+        assert voxel_for(points, 100) == whole
+    assert 90 < len(voxel_downsampled(points, whole)) <= 100
+
+
+def test_flat_cloud_is_refused_however_its_points_are_divided(lump, monkeypatch):
+    monkeypatch.setattr("regkit.clouds.checks.POINTS", 20)
+    far = lump + np.array([4.1e6, -2.7e6, 0.0])
+    check_shape(far, place="a")
+    with pytest.raises(DataError, match="in a plane"):
+        check_shape(far * [1.0, 1.0, 0.0], place="a")

@@ -89,8 +89,15 @@ class LocalRigidComparison(RigidComparison):
 
     def paired(self, transform: Array) -> LocalRigidSimilarity:
         """Returns the similarity with the nearest Gaussians in the start pose."""
-        moved = (self.points - transform[:3, 3]) @ transform[:3, :3]
-        return LocalRigidSimilarity(self, self.tree.nearest(moved, self.near, self.reach)[1])
+        neighbours = np.empty((len(self.points), self.near), dtype=np.intp)
+
+        def part(begin: int, end: int) -> None:
+            # The distances and the moved points of all at once would be the largest arrays.
+            moved = (self.points[begin:end] - transform[:3, 3]) @ transform[:3, :3]
+            neighbours[begin:end] = self.tree.nearest(moved, self.near, self.reach)[1]
+
+        in_chunks(part, len(self.points), POINTS)
+        return LocalRigidSimilarity(self, neighbours)
 
 
 @dataclass(frozen=True)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy
 
+from regkit.clouds.tree import Tree
 from regkit.geometry.rotation import cross
 from regkit.observation import Observation
 from regkit.primitives import Placed
@@ -72,9 +72,7 @@ class BoundMatching(ResidualSimilarity):
                 self._facing = np.where(away[:, None], -self._facing, self._facing)
         self._point_share, self._normals = point_share, normals
         self._visible = visible(start) if self._oriented else np.arange(len(start))
-        self._cloud = (
-            scipy.spatial.cKDTree(observation.points) if kernel.reverse_weight > 0.0 else None
-        )
+        self._cloud = Tree.of(observation.points) if kernel.reverse_weight > 0.0 else None
         self.loss = self._bound_loss(float(np.sqrt(observation.variances.mean())), start, smoothing)
         self._max_distance = kernel.max_correspondence_distance * self.loss.scale
         self._fixed = self._matched(start) if kernel.matches == "fixed" else None
@@ -104,7 +102,7 @@ class BoundMatching(ResidualSimilarity):
             robust = robust.model_copy(update={"scale": noise * deviation})
         residuals = np.zeros(0)
         if robust.scale is None:
-            _, nearest = self._nearest(start, np.inf)
+            _, nearest = _nearest(self._surface(start), self.points, np.inf)
             offsets_and_normals = self._offsets(
                 start, np.arange(len(nearest)), self._visible[nearest]
             )
@@ -118,12 +116,10 @@ class BoundMatching(ResidualSimilarity):
             return found
         weights = placed.primitives.weights[self._visible]
         weights = self._kernel.reverse_weight * weights / weights.sum()
-        distances, points = self._cloud.query(
-            placed.centres[self._visible], distance_upper_bound=self._max_distance
-        )
-        near = np.asarray(distances) < self._max_distance
+        distances, points = _nearest(self._cloud, placed.centres[self._visible], self._max_distance)
+        near = distances < self._max_distance
         return Matches(
-            np.concatenate([found.points, np.asarray(points)[near]]),
+            np.concatenate([found.points, points[near]]),
             np.concatenate([found.surfels, self._visible[near]]),
             np.concatenate([found.weights, weights[near]]),
             found.lost + float(weights[~near].sum()),
@@ -131,7 +127,7 @@ class BoundMatching(ResidualSimilarity):
 
     def _partners(self, placed: Placed[Surfels]) -> Matches:
         """Returns the nearest visible surfel of each point within the distance and angle limits."""
-        distances, nearest = self._nearest(placed, self._max_distance)
+        distances, nearest = _nearest(self._surface(placed), self.points, self._max_distance)
         points = np.flatnonzero(distances < self._max_distance)
         surfels = self._visible[nearest[points]]
         if self._facing is not None and self._kernel.angle_deg is not None:
@@ -143,11 +139,9 @@ class BoundMatching(ResidualSimilarity):
         weights = self.weights[points]
         return Matches(points, surfels, weights, 1.0 - float(weights.sum()))
 
-    def _nearest(self, placed: Placed[Surfels], reach: float) -> tuple[Array, Indices]:
-        """Returns distances (N,) [m] and indices (N,) of the nearest among the visible surfels."""
-        tree = scipy.spatial.cKDTree(placed.centres[self._visible])
-        distances, nearest = tree.query(self.points, distance_upper_bound=reach)
-        return np.asarray(distances), np.asarray(nearest)
+    def _surface(self, placed: Placed[Surfels]) -> Tree:
+        """Returns the tree of the visible surfels."""
+        return Tree.of(placed.centres[self._visible])
 
     def _offsets(
         self, placed: Placed[Surfels], points: Indices, surfels: Indices
@@ -183,3 +177,9 @@ class BoundMatching(ResidualSimilarity):
             values[:, first:] = point * offsets
             rows[:, [first, first + 1, first + 2], [0, 1, 2]] = -point
         return values, rows
+
+
+def _nearest(tree: Tree, queries: Array, reach: float) -> tuple[Array, Indices]:
+    """Returns distance (Q,) [m] and index (Q,) of the nearest point; infinite and any for none."""
+    distances, places = tree.nearest(queries, 1, reach)
+    return distances[:, 0], tree.order.take(places[:, 0], mode="clip")

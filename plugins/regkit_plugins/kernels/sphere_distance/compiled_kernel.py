@@ -7,12 +7,16 @@ from math import hypot, isnan, log, nan, sqrt
 import numpy as np
 
 from regkit.interfaces.compiled import SceneArrays
-from regkit.registration.compiled_robust import SQUARES, loss_value, loss_weight
+from regkit.registration.compiled_robust import SQUARES, write_losses
 from regkit.system.compiled import compiled
-from regkit.system.machine_types import IntegerVector, Matrix, Stack, Vector
-from regkit_plugins.kernels.sphere_distance.compiled import residuals_and_rows
+from regkit.system.machine_types import Matrix, SingleMatrix, SingleVector, Stack, Vector
+from regkit_plugins.kernels.sphere_distance.compiled_capsule import (
+    add_derivatives,
+    write_residuals,
+)
 from regkit_plugins.kernels.sphere_distance.compiled_owners import (
-    capsule_distances,
+    GroupedPoints,
+    grouped_points,
     likely_capsules,
 )
 
@@ -26,40 +30,60 @@ _NORMAL_QUARTILE = 0.6744897501960817
 
 
 @compiled(python=False)
-def _residuals(
-    scene: SceneArrays,
-    centres: Matrix,
-    axes: Stack,
-    numbers: Vector,
-    table: Matrix,
-    state: Matrix,
-    scale: float,
-    rows: Matrix,
-) -> tuple[IntegerVector, Vector]:
-    """Returns each point's capsule (N,) and residual (N,) [m]; see ``residuals_and_rows``."""
-    count, data = len(centres), scene.data
-    capsules, handicaps = np.empty((count, 9)), np.empty(count)
-    for k in range(count):
+def _capsules(scene: SceneArrays, centres: Matrix, axes: Stack, table: Matrix) -> SingleMatrix:
+    """Returns the capsules in a pose, (K, 10); see ``compiled_owners``."""
+    capsules = np.empty((len(centres), 10), np.float32)
+    for k in range(len(centres)):
         for i in range(3):
-            capsules[k, i], capsules[k, 3 + i] = centres[k, i], axes[k, i, 1]
+            capsules[k, i] = centres[k, i] - scene.data.centre[i]
+            capsules[k, 3 + i] = axes[k, i, 1]
             capsules[k, 6 + i] = table[k, i]
-        handicaps[k] = 2.0 * scale**2 * state[k, 0]
-    owners = likely_capsules(data.centred, data.centre, capsules, handicaps)
-    distances, places = capsule_distances(data.points, capsules, owners)
-    front = numbers[FRONT] != 0.0 and data.camera
-    residuals = residuals_and_rows(data.points, capsules, owners, distances, places, front, rows)
-    return owners, residuals
+        capsules[k, 9] = table[k, SINE] / sqrt(1.0 - table[k, SINE] ** 2)
+    return capsules
 
 
 @compiled(python=False)
-def _scale(numbers: Vector, residuals: Vector, deviation: float) -> float:
+def _eye(scene: SceneArrays, numbers: Vector) -> SingleVector:
+    """Returns the camera's position relative to the data's centre and whether it counts, (4,)."""
+    eye = np.empty(4, np.float32)
+    for i in range(3):
+        eye[i] = -scene.data.centre[i]
+    eye[3] = 1.0 if numbers[FRONT] != 0.0 and scene.data.camera else 0.0
+    return eye
+
+
+@compiled(python=False)
+def _grouped(
+    scene: SceneArrays, capsules: SingleMatrix, state: Matrix, scale: float
+) -> GroupedPoints:
+    """Returns the points in the order of their capsules."""
+    count = len(capsules)
+    handicaps = np.empty(count)
+    for k in range(count):
+        handicaps[k] = 2.0 * scale**2 * state[k, 0]
+    owners = likely_capsules(scene.data.centred, capsules, handicaps)
+    return grouped_points(scene.data, owners, count)
+
+
+@compiled(python=False)
+def _residuals(points: GroupedPoints, capsules: SingleMatrix, eye: SingleVector) -> SingleVector:
+    """Returns the residuals of grouped points, (N,) [m]."""
+    residuals, ends = np.empty(len(points.numbers), np.float32), points.ends
+    for k in range(len(capsules)):
+        if ends[k] < ends[k + 1]:
+            write_residuals(points.places, capsules[k], eye, ends[k], ends[k + 1], residuals)
+    return residuals
+
+
+@compiled(python=False)
+def _scale(numbers: Vector, residuals: SingleVector, deviation: float) -> float:
     """Returns the loss's scale [m]: the given one, or that of the residuals."""
     if not isnan(numbers[SCALE]):
         return float(numbers[SCALE])
-    sizes = np.empty(len(residuals))
+    sizes = np.empty(len(residuals), np.float32)
     for j in range(len(sizes)):
         sizes[j] = abs(residuals[j])
-    return max(np.median(sizes) / _NORMAL_QUARTILE, deviation)
+    return max(float(np.median(sizes)) / _NORMAL_QUARTILE, deviation)
 
 
 @compiled(python=False)
@@ -71,9 +95,9 @@ def bind(scene: SceneArrays, numbers: Vector, table: Matrix, state: Matrix) -> N
     for k in range(count):
         state[k, 0] = log(most / scene.weights[k])
     deviation = sqrt(scene.data.variance)
-    _, residuals = _residuals(
-        scene, scene.centres, scene.axes, numbers, table, state, deviation, np.empty((0, 6))
-    )
+    capsules = _capsules(scene, scene.centres, scene.axes, table)
+    points = _grouped(scene, capsules, state, deviation)
+    residuals = _residuals(points, capsules, _eye(scene, numbers))
     state[count, 0] = hypot(_scale(numbers, residuals, deviation), scene.smoothing)
 
 
@@ -91,41 +115,30 @@ def respond(
 ) -> float:
     """Returns the mean loss of the distances, and adds its derivatives."""
     scale = state[len(centres), 0]
-    rows = np.empty((len(scene.data.points) if order else 0, 6))
-    owners, residuals = _residuals(scene, centres, axes, numbers, table, state, scale, rows)
-    energy, weights = log(scale / sqrt(scene.data.variance)), scene.data.weights
-    factors = np.empty(len(residuals))
-    for j in range(len(residuals)):
-        square = (residuals[j] / scale) ** 2
-        energy += weights[j] * (loss_value(numbers[LOSS], square) + state[owners[j], 0])
-        factors[j] = weights[j] * loss_weight(numbers[LOSS], square) / scale**2
-    if order:
-        add_residuals(owners, residuals, rows, factors, wrenches, stiffness)
+    capsules, eye = _capsules(scene, centres, axes, table), _eye(scene, numbers)
+    points = _grouped(scene, capsules, state, scale)
+    residuals, ends = _residuals(points, capsules, eye), points.ends
+    values, factors = np.empty(len(residuals), np.float32), np.empty(len(residuals), np.float32)
+    write_losses(numbers[LOSS], residuals, scale, values, factors)
+    energy = log(scale / sqrt(scene.data.variance))
+    for k in range(len(capsules)):
+        first, last = ends[k], ends[k + 1]
+        for j in range(first, last):
+            energy += points.weights[j] * (values[j] + state[k, 0])
+            factors[j] *= points.weights[j] / scale**2
+        if order and first < last:
+            add_derivatives(
+                points.places,
+                capsules[k],
+                eye,
+                first,
+                last,
+                residuals,
+                factors,
+                wrenches[k],
+                stiffness[k],
+            )
     return energy
-
-
-@compiled(reordered=True, python=False)
-def add_residuals(
-    owners: IntegerVector,
-    residuals: Vector,
-    rows: Matrix,
-    factors: Vector,
-    wrenches: Matrix,
-    stiffness: Stack,
-) -> None:
-    """Adds w J^T r (K, 6) and w J^T J (K, 6, 6) of the residuals of each capsule."""
-    blocks = np.zeros((len(wrenches), 6, 6))
-    for j in range(len(owners)):
-        k = owners[j]
-        for a in range(6):
-            scaled = factors[j] * rows[j, a]
-            wrenches[k, a] += scaled * residuals[j]
-            for b in range(a + 1):
-                blocks[k, a, b] += scaled * rows[j, b]
-    for k in range(len(blocks)):
-        for a in range(6):
-            for b in range(6):
-                stiffness[k, a, b] += blocks[k, max(a, b), min(a, b)]
 
 
 @compiled(python=False)
@@ -139,10 +152,11 @@ def explain(
     probability: Vector,
 ) -> None:
     """Writes the loss's weight of each distance, on the scale of this pose; NaN for squares."""
-    scale = state[len(centres), 0]
-    rows = np.empty((0, 6))
-    _, residuals = _residuals(scene, centres, axes, numbers, table, state, scale, rows)
+    capsules = _capsules(scene, centres, axes, table)
+    points = _grouped(scene, capsules, state, state[len(centres), 0])
+    residuals = _residuals(points, capsules, _eye(scene, numbers))
     scale = _scale(numbers, residuals, sqrt(scene.data.variance))
+    values, factors = np.empty(len(residuals), np.float32), np.empty(len(residuals), np.float32)
+    write_losses(numbers[LOSS], residuals, scale, values, factors)
     for j in range(len(residuals)):
-        square = (residuals[j] / scale) ** 2
-        probability[j] = nan if numbers[LOSS] == SQUARES else loss_weight(numbers[LOSS], square)
+        probability[points.numbers[j]] = nan if numbers[LOSS] == SQUARES else factors[j]

@@ -1,28 +1,46 @@
-"""The nearest capsule of each point, in single precision and vector instructions.
+"""The points of each capsule, in single precision and vector instructions.
 
-``nearest_capsules`` is the readable form. Near a tie either capsule may be returned.
+``nearest_capsules`` is the readable form. Near a tie either capsule may be chosen. A capsule is a
+row of ten numbers: those of ``nearest_capsules``, with the midpoint relative to the data's centre,
+and the tangent of the cone's half angle.
 """
 
 from __future__ import annotations
 
-from math import sqrt
+from typing import NamedTuple
 
 import numpy as np
 
+from regkit.observation.arrays import ObservationArrays
 from regkit.system.compiled import compiled
-from regkit.system.machine_types import IntegerVector, Matrix, SingleMatrix, Vector
+from regkit.system.machine_types import IntegerVector, SingleMatrix, SingleVector, Vector
+
+
+class GroupedPoints(NamedTuple):
+    """Points in the order of their capsules.
+
+    Attributes:
+        places: Coordinates relative to the data's centre, (3, N) [m].
+        weights: Weights, (N,).
+        numbers: Indices among the data, (N,).
+        ends: First point of each capsule, and the end, (K + 1,).
+    """
+
+    places: SingleMatrix
+    weights: SingleVector
+    numbers: IntegerVector
+    ends: IntegerVector
 
 
 @compiled(reordered=True, python=False)
 def likely_capsules(
-    points: SingleMatrix, centre: Vector, capsules: Matrix, handicaps: Vector
+    points: SingleMatrix, capsules: SingleMatrix, handicaps: Vector
 ) -> IntegerVector:
     """Returns the nearest capsule of each point, (N,).
 
     Args:
-        points: Coordinates of the points relative to the centre, (3, N) [m].
-        centre: The centre, (3,) [m].
-        capsules: Capsules, (K, 9).
+        points: Coordinates of the points relative to the data's centre, (3, N) [m].
+        capsules: Capsules, (K, 10).
         handicaps: Summands of the signed squared distances in the comparison, (K,) [m^2].
     """
     count = points.shape[1]
@@ -32,13 +50,10 @@ def likely_capsules(
         least[j], owners[j] = np.float32(np.inf), np.int32(0)
     zero = np.float32(0.0)
     for k in range(len(capsules)):
-        cx = np.float32(capsules[k, 0] - centre[0])
-        cy = np.float32(capsules[k, 1] - centre[1])
-        cz = np.float32(capsules[k, 2] - centre[2])
-        ux, uy = np.float32(capsules[k, 3]), np.float32(capsules[k, 4])
-        uz, half = np.float32(capsules[k, 5]), np.float32(capsules[k, 6])
-        radius, sine = np.float32(capsules[k, 7]), np.float32(capsules[k, 8])
-        tangent = np.float32(capsules[k, 8] / sqrt(1.0 - capsules[k, 8] ** 2))
+        cx, cy, cz = capsules[k, 0], capsules[k, 1], capsules[k, 2]
+        ux, uy, uz = capsules[k, 3], capsules[k, 4], capsules[k, 5]
+        half, radius = capsules[k, 6], capsules[k, 7]
+        sine, tangent = capsules[k, 8], capsules[k, 9]
         handicap, number = np.float32(handicaps[k]), np.int32(k)
         for j in range(count):
             x, y, z = xs[j] - cx, ys[j] - cy, zs[j] - cz
@@ -58,20 +73,20 @@ def likely_capsules(
 
 
 @compiled(python=False)
-def capsule_distances(
-    points: Matrix, capsules: Matrix, owners: IntegerVector
-) -> tuple[Vector, Vector]:
-    """Returns each point's signed distance (N,) and axis position (N,) [m] on its capsule."""
-    distances, places = np.empty(len(points)), np.empty(len(points))
-    for i in range(len(points)):
-        k = owners[i]
-        x = points[i, 0] - capsules[k, 0]
-        y = points[i, 1] - capsules[k, 1]
-        z = points[i, 2] - capsules[k, 2]
-        along = x * capsules[k, 3] + y * capsules[k, 4] + z * capsules[k, 5]
-        side = sqrt(max(x * x + y * y + z * z - along * along, 0.0))
-        sine, half = capsules[k, 8], capsules[k, 6]
-        at = min(max(along - side * sine / sqrt(1.0 - sine**2), -half), half)
-        places[i] = at
-        distances[i] = sqrt(side * side + (along - at) ** 2) - capsules[k, 7] + sine * at
-    return distances, places
+def grouped_points(data: ObservationArrays, owners: IntegerVector, count: int) -> GroupedPoints:
+    """Returns the points in the order of their ``count`` capsules."""
+    ends, size = np.zeros(count + 1, np.int64), len(owners)
+    for j in range(size):
+        ends[owners[j] + 1] += 1
+    for k in range(count):
+        ends[k + 1] += ends[k]
+    free = ends.copy()
+    places, weights = np.empty((3, size), np.float32), np.empty(size, np.float32)
+    numbers = np.empty(size, np.int64)
+    for j in range(size):
+        at = free[owners[j]]
+        free[owners[j]] += 1
+        numbers[at], weights[at] = j, data.weights[j]
+        for i in range(3):
+            places[i, at] = data.centred[i, j]
+    return GroupedPoints(places, weights, numbers, ends)

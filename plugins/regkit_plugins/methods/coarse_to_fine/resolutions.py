@@ -97,9 +97,7 @@ def sorted_observation(tree: Tree, level: Resolution) -> Observation:
 
 def voxel_downsampled_surface(surface: SkinnedSurface, voxel: float) -> SkinnedSurface:
     """Returns a surface with one point per voxel [m] of each segment's frame, without blending."""
-    carrier = surface.blend.argmax(axis=1)
-    vertices = np.arange(len(surface))
-    owners, points = surface.segments[vertices, carrier], surface.points[vertices, carrier]
+    owners, points, _ = surface.unblended()
     pieces: list[Array] = []
     segments: list[Indices] = []
     for segment in np.unique(owners):
