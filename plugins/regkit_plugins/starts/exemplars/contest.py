@@ -15,7 +15,9 @@ from regkit_plugins.starts.exemplars.finalists import Comparison
 
 HALF = 2
 """The better half of the finalists of each size are registered again with a search of their limbs,
-which takes ten times as long."""
+which takes ten times as long. Of a body that the picture cuts off all are: with fewer data, the best
+is less often among the better half (120 bodies each of the development set: 83.3 % right in both
+cases with 65 % in view, 80.0 instead of 77.5 % with 50 %)."""
 
 MIRRORED = 2
 """Number of finalists whose mirror images are registered too: from the front and from behind a
@@ -59,7 +61,7 @@ class Contest:
         for body in self.finder.bodies:
             chosen = [one for one in candidates if one.body.size == body.size][:each]
             of_size = sorted(map(self._finalist, chosen), key=cost_of)
-            searched = -(-len(of_size) // HALF)
+            searched = len(of_size) if self.pictures.cut else -(-len(of_size) // HALF)
             finalists += [*map(self._recovered, of_size[:searched]), *of_size[searched:]]
         finalists.sort(key=cost_of)
         if len(self.finder.bodies) == 1 and self.pictures.one_sided:
