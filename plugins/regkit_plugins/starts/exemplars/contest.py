@@ -15,9 +15,12 @@ from regkit_plugins.starts.exemplars.finalists import Comparison
 
 HALF = 2
 """The better half of the finalists of each size are registered again with a search of their limbs,
-which takes ten times as long. Of a body that the picture cuts off all are: with fewer data, the best
-is less often among the better half (120 bodies each of the development set: 83.3 % right in both
-cases with 65 % in view, 80.0 instead of 77.5 % with 50 %)."""
+which takes ten times as long.
+
+Of a body that the picture cuts off all are: with fewer data, the best is less often among the
+better half (120 bodies each of the development set: 83.3 % right in both cases with 65 % in view,
+80.0 instead of 77.5 % with 50 %).
+"""
 
 MIRRORED = 2
 """Number of finalists whose mirror images are registered too: from the front and from behind a
