@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from regkit.api import track_each
+from regkit.api import Tracking, track_each
 from regkit.api.live import LiveTrack
 from regkit.api.pipeline import Pipeline
 from regkit.cli.choices import Choices
@@ -30,7 +30,7 @@ from regkit.cli.live_options import (
     TrackOut,
     View,
 )
-from regkit.cli.live_run import LiveRun, Output
+from regkit.cli.live_run import Ended, LiveRun, Output
 from regkit.cli.options import (
     MethodName,
     PluginFiles,
@@ -48,7 +48,7 @@ from regkit.cli.track_source import dataset_recording, described, opener
 from regkit.cli.verdicts import conclude
 from regkit.cli.view_output import ViewOutput
 from regkit.interfaces import Recording
-from regkit.system.errors import ConfigError
+from regkit.system.errors import ConfigError, NoDataError
 from regkit.tracking import Verdict
 from regkit.viewer.server import HOST
 
@@ -122,7 +122,7 @@ def track(
         outputs=outputs,
     )
     ended = run.followed()
-    tracking = replace(ended.track.tracking(), method=name)
+    tracking = replace(_tracked(ended), method=name)
     shown = errors if stream == "-" else output
     show(
         tracking, choices.template, ended.folder, as_json=as_json, console=shown,
@@ -145,6 +145,21 @@ def _pipeline(choices: Choices) -> Pipeline:
         choices.start,
         place="regkit track",
     )
+
+
+def _tracked(ended: Ended) -> Tracking:
+    """Returns what was tracked.
+
+    Raises:
+        RegkitError: What ended the track before its first frame.
+        Exit: If Ctrl-C did.
+    """
+    try:
+        return ended.track.tracking()
+    except NoDataError as error:
+        if ended.interrupted:
+            raise typer.Exit(INTERRUPTED) from None
+        raise ended.error or error from None
 
 
 def _track_all(
