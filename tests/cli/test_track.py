@@ -142,12 +142,17 @@ def test_interrupted_track_is_kept_whole(regkit, tmp_path):
 
 
 def test_killed_track_is_exported_as_far_as_it_came(regkit, tmp_path, monkeypatch):
+    """Also in the folder of a former track, of which nothing is taken for the new one."""
+    assert regkit("track", WALK, *HUMAN, *START, *FEW).code == 0
     process = running(WALK, "--out", "poses.csv")
     wait_for_rows(tmp_path / "poses.csv", 40)
     process.kill()
     process.communicate(timeout=60)
     folder = tmp_path / "tracks" / "human_walk"
-    assert not (folder / "poses.npz").exists()
+    assert {path.name for path in folder.iterdir()} == {"track.json", "frames.rows"}
+    shown = regkit("view", folder, "--no-browser")
+    assert shown.code == 1
+    assert "the track did not end" in shown.err
     ended = regkit("export", folder, "--to", "motion.bvh")
     assert ended.code == 0, ended.err
     assert "the track did not end" in ended.err
