@@ -166,6 +166,7 @@ def test_killed_track_is_exported_as_far_as_it_came(regkit, tmp_path, monkeypatc
         (("walk.avi",), "there is no such file"),
         ((WALK, "--out", "-", "--json"), "standard output takes the poses"),
         ((WALK, "--opening", "0"), "opening"),
+        ((WALK, "--out", "walk.bvh"), "regkit export"),
         ((WALK, "--set", "source.fps=15"), "source.fps"),
     ],
 )
