@@ -29,7 +29,7 @@ from regkit.observation import Observation
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit.system.brief import Brief
-from regkit.system.errors import ConfigError
+from regkit.system.errors import ConfigError, NoDataError
 from regkit.system.optional import one_thread
 from regkit.tracking import Verdict
 from regkit.tracking.live import LiveFrame, LiveSetup, LiveTracking
@@ -164,10 +164,14 @@ class LiveTrack:
         """Returns everything that was tracked so far.
 
         Raises:
-            RegkitError: If no body has come into sight.
+            RegkitError: If no body has come into sight, or no frame has been tracked.
         """
         live = self._live
         stream = live.stream
+        if not len(live.recorder):
+            raise NoDataError(
+                "no frame has been tracked yet; iterate over the track first", place=stream.name
+            )
         return Tracking.of(stream.name, self._method, stream.fps, live.start, live.recorder)
 
     def close(self) -> None:

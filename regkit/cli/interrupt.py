@@ -11,6 +11,7 @@ from typing import NoReturn
 
 from regkit.cli.console import errors
 from regkit.cli.exit_codes import INTERRUPTED
+from regkit.system.plugin_code import Ended
 
 PATIENCE = 1.5
 """Time [s] after Ctrl-C at which a command that still runs is ended."""
@@ -97,4 +98,4 @@ class Interrupt:
 def _leave(*_: object) -> NoReturn:
     # A KeyboardInterrupt in code that is compiled from a string, as of a dataclass, would make
     # Python end by the signal and not by the exit code, even where it is caught.
-    raise SystemExit(INTERRUPTED)
+    raise Ended(INTERRUPTED)

@@ -14,6 +14,7 @@ from regkit.cli.interrupt import Interrupt
 from regkit.cli.out_folder import check_out
 from regkit.cli.recording_tap import RecordingTap
 from regkit.cli.status_line import StatusLine
+from regkit.cli.track_files import remove_former
 from regkit.interfaces import Start, Stream
 from regkit.system.errors import RegkitError
 from regkit.tracking.rows import RowsInFile
@@ -111,6 +112,7 @@ class LiveRun:
         """Keeps the frames on disk: memory does not grow, and a kill loses half a second."""
         about = (track.name, self.method, track.stream.fps, start.body.size)
         description = TrackDescription.of(*about, self.pipeline.template)
+        remove_former(self.folder(track))
         return description.rows(self.folder(track), start.body)
 
 

@@ -64,4 +64,6 @@ class RecordingTap:
             self._over = True
             if self._writer is not None:
                 self._writer.close()
-                errors.print(f"recorded: {self._writer.count} frames, in {self._folder}")
+                count = self._writer.count
+                where = f"in {self._folder}" if count else f"so that there is no {self._folder}"
+                errors.print(f"recorded: {count} frames, {where}")

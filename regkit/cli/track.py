@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from regkit.api import track_each
+from regkit.api import Tracking, track_each
 from regkit.api.live import LiveTrack
 from regkit.api.pipeline import Pipeline
 from regkit.cli.choices import Choices
@@ -30,7 +30,7 @@ from regkit.cli.live_options import (
     TrackOut,
     View,
 )
-from regkit.cli.live_run import LiveRun, Output
+from regkit.cli.live_run import Ended, LiveRun, Output
 from regkit.cli.options import (
     MethodName,
     PluginFiles,
@@ -43,13 +43,15 @@ from regkit.cli.options import (
 )
 from regkit.cli.out_folder import check_out
 from regkit.cli.outcome import show
-from regkit.cli.pose_stream import PoseOutput, is_pose_stream
+from regkit.cli.pose_stream import SUFFIXES, PoseOutput, is_pose_stream
 from regkit.cli.track_source import dataset_recording, described, opener
 from regkit.cli.verdicts import conclude
 from regkit.cli.view_output import ViewOutput
+from regkit.interchange.motions import FORMATS
 from regkit.interfaces import Recording
-from regkit.system.errors import ConfigError
+from regkit.system.errors import ConfigError, NoDataError
 from regkit.tracking import Verdict
+from regkit.viewer.animation.film import FORMATS as FILMS
 from regkit.viewer.server import HOST
 
 
@@ -93,7 +95,7 @@ def track(
     data = described(source, recording)
     choices, name = Choices.of(named, settings or (), data)
     stream = out if out is not None and is_pose_stream(out) else None
-    folder = None if out is None or stream is not None else Path(out)
+    folder = None if out is None or stream is not None else _folder(Path(out))
     if stream == "-" and as_json:
         raise ConfigError("standard output takes the poses; leave one of both out", place="--json")
     if people is People.ALL:
@@ -122,7 +124,7 @@ def track(
         outputs=outputs,
     )
     ended = run.followed()
-    tracking = replace(ended.track.tracking(), method=name)
+    tracking = replace(_tracked(ended), method=name)
     shown = errors if stream == "-" else output
     show(
         tracking, choices.template, ended.folder, as_json=as_json, console=shown,
@@ -145,6 +147,36 @@ def _pipeline(choices: Choices) -> Pipeline:
         choices.start,
         place="regkit track",
     )
+
+
+def _folder(out: Path) -> Path:
+    """Returns the folder of the results.
+
+    Raises:
+        ConfigError: If it is named as the file of an export, and not there.
+    """
+    if out.suffix.lower() in (*FORMATS, *FILMS) and not out.is_dir():
+        raise ConfigError(
+            f"'{out.suffix}' is a format of `regkit export`; name a folder, or a file "
+            f"{' or '.join(SUFFIXES)}, and export the track then",
+            place=f"--out {out}",
+        )
+    return out
+
+
+def _tracked(ended: Ended) -> Tracking:
+    """Returns what was tracked.
+
+    Raises:
+        RegkitError: What ended the track before its first frame.
+        Exit: If Ctrl-C did.
+    """
+    try:
+        return ended.track.tracking()
+    except NoDataError as error:
+        if ended.interrupted:
+            raise typer.Exit(INTERRUPTED) from None
+        raise ended.error or error from None
 
 
 def _track_all(

@@ -12,12 +12,16 @@ from regkit.api.viewing import scene_of
 from regkit.interfaces import Template
 from regkit.report.png import png
 from regkit.system.csv_table import CsvTable, write_csv
+from regkit.system.errors import DataError
 from regkit.system.files import replacing
 from regkit.system.json_files import write_json
 from regkit.tracking.track_folder import POSES, TrackDescription, finish_rows
-from regkit.viewer.track_file import write_scene
+from regkit.viewer.track_file import FILE, write_scene
 
 DPI = 110
+
+BESIDE_POSES = ("result.json", "markers.csv", "hinges.csv", "frames.csv", FILE, "picture.png")
+"""Files of a result beside the poses and their description."""
 
 
 def write_track(
@@ -46,6 +50,21 @@ def write_track(
     picture = png(tracking.plot(), DPI)
     with replacing(out / "picture.png") as temporary:
         temporary.write_bytes(picture)
+
+
+def remove_former(out: Path) -> None:
+    """Removes the result of a former track, which a new one in its folder would contradict.
+
+    Raises:
+        DataError: If a file cannot be removed.
+    """
+    for name in BESIDE_POSES:
+        try:
+            (out / name).unlink(missing_ok=True)
+        except OSError as error:
+            raise DataError(
+                f"cannot be replaced: {error.strerror or error}", place=str(out / name)
+            ) from None
 
 
 def _markers(tracking: Tracking) -> CsvTable:

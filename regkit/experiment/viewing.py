@@ -23,6 +23,7 @@ from regkit.report.style import PALETTE
 from regkit.system.errors import ConfigError, DataError, RegkitError
 from regkit.system.json_files import read_json
 from regkit.system.links import check_links
+from regkit.tracking.track_folder import ROWS
 from regkit.viewer.alignment_scene import alignment_scene, clouds_scene
 from regkit.viewer.run_scene import Stored, run_scene
 from regkit.viewer.scene import Scene
@@ -77,10 +78,15 @@ def site_of(what: Path, recording: str | None = None, methods: Sequence[str] = (
         raise ConfigError(f"there is no such file or folder; give {KNOWN}", place=str(what))
     if (what / "config.yaml").is_file() and (what / "environment.json").is_file():
         return SceneSite(_results(what, recording, methods))
+    _check_ended(what)
     if methods:
         raise ConfigError("only the results of a run have methods", place="--method")
     if what.is_dir() and any((what / name).is_file() for name in (manifest.FILE, "result.json")):
         one = read_track(what)
+        if recording not in (None, one.recording):
+            raise ConfigError(
+                f"no recording {recording!r} (there is: {one.recording})", place="--recording"
+            )
         stored: Stored = {one.method: lambda: one.track}
         return SceneSite(
             _shown(one.recording, {one.recording: stored}, {one.method: one.colour}, what)
@@ -115,6 +121,7 @@ def read_track(folder: Path) -> StoredTrack:
         ConfigError: If there is no finished track.
         DataError: If it is damaged, or was stored without a scene.
     """
+    _check_ended(folder)
     if not (folder / manifest.FILE).is_file() and not (folder / "result.json").is_file():
         others = sorted(path.parent for path in folder.glob(f"**/{FILE}"))
         hint = f"; there are: {', '.join(map(str, others[:5]))}" if others else ""
@@ -138,6 +145,16 @@ def read_track(folder: Path) -> StoredTrack:
             place=str(folder),
         )
     return StoredTrack(place.name, method, colour, read_scene(folder))
+
+
+def _check_ended(folder: Path) -> None:
+    """Refuses a track whose program was killed, before its scene was written."""
+    if (folder / ROWS).is_file() and not (folder / FILE).is_file():
+        raise ConfigError(
+            "the track did not end, and has no scene; `regkit export` writes its motion, such as "
+            "to .bvh",
+            place=str(folder),
+        )
 
 
 def _shown(title: str, stored: dict[str, Stored], colours: dict[str, str], place: Path) -> Scene:

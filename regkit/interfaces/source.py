@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 
 from regkit.config.plugin import Plugin
 from regkit.interfaces.stream import Stream
+from regkit.system.errors import ConfigError
 
 
 class Source(Plugin, ABC):
@@ -56,6 +57,12 @@ class Source(Plugin, ABC):
         # The search loads the plug-ins of this group, and so imports this module.
         from regkit.interfaces.source_search import described
 
+        if not isinstance(address, str | Path):
+            raise ConfigError(
+                f"an address or a path is needed, not {type(address).__name__}; arrays are tracked "
+                "by regkit.track, and a source of your own is a plug-in",
+                place="source",
+            )
         return described(str(address), kind)
 
     @classmethod

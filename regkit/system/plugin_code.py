@@ -10,11 +10,15 @@ from regkit.system.errors import PluginError
 from regkit.system.guard import foreign
 
 
+class Ended(SystemExit):
+    """The program's own end, as after a second Ctrl-C, which is no fault of a plug-in."""
+
+
 @contextmanager
 def plugin_code(what: str) -> Iterator[None]:
     """Context manager: ``sys.exit`` and the like in a plug-in become a PluginError.
 
-    Only Ctrl-C, with the exceptions derived from it, and ordinary exceptions pass.
+    Only Ctrl-C, with the exceptions derived from it, ``Ended`` and ordinary exceptions pass.
 
     Args:
         what: The plug-in, file or command in messages.
@@ -25,7 +29,7 @@ def plugin_code(what: str) -> Iterator[None]:
     """
     try:
         yield
-    except (Exception, KeyboardInterrupt, GeneratorExit):
+    except (Exception, KeyboardInterrupt, GeneratorExit, Ended):
         raise
     except BaseException as error:
         raise PluginError(

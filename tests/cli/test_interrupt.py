@@ -8,6 +8,7 @@ import pytest
 from places import EXAMPLES
 
 from regkit.cli.interrupt import Interrupt
+from regkit.system.plugin_code import plugin_code
 
 
 @pytest.fixture(autouse=True)
@@ -28,7 +29,7 @@ def test_interrupt_is_answered_when_it_is_asked_for():
 
 
 def test_second_interrupt_ends_at_once():
-    with Interrupt(checked=True):
+    with Interrupt(checked=True), plugin_code("a plug-in in a command"):
         signal.raise_signal(signal.SIGINT)
         with pytest.raises(SystemExit) as ended:
             signal.raise_signal(signal.SIGINT)

@@ -142,12 +142,17 @@ def test_interrupted_track_is_kept_whole(regkit, tmp_path):
 
 
 def test_killed_track_is_exported_as_far_as_it_came(regkit, tmp_path, monkeypatch):
+    """Also in the folder of a former track, of which nothing is taken for the new one."""
+    assert regkit("track", WALK, *HUMAN, *START, *FEW).code == 0
     process = running(WALK, "--out", "poses.csv")
     wait_for_rows(tmp_path / "poses.csv", 40)
     process.kill()
     process.communicate(timeout=60)
     folder = tmp_path / "tracks" / "human_walk"
-    assert not (folder / "poses.npz").exists()
+    assert {path.name for path in folder.iterdir()} == {"track.json", "frames.rows"}
+    shown = regkit("view", folder, "--no-browser")
+    assert shown.code == 1
+    assert "the track did not end" in shown.err
     ended = regkit("export", folder, "--to", "motion.bvh")
     assert ended.code == 0, ended.err
     assert "the track did not end" in ended.err
@@ -161,6 +166,7 @@ def test_killed_track_is_exported_as_far_as_it_came(regkit, tmp_path, monkeypatc
         (("walk.avi",), "there is no such file"),
         ((WALK, "--out", "-", "--json"), "standard output takes the poses"),
         ((WALK, "--opening", "0"), "opening"),
+        ((WALK, "--out", "walk.bvh"), "regkit export"),
         ((WALK, "--set", "source.fps=15"), "source.fps"),
     ],
 )

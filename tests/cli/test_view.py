@@ -97,6 +97,7 @@ def test_what_cannot_be_shown_is_refused(results, track, tmp_path):
         ((results, "third"), "--recording: no recording 'third'.*first, second"),
         ((results, None, ["sogg"]), "--method: no method 'sogg'.*did you mean"),
         ((track, None, ["best"]), "--method"),
+        ((track, "third"), "--recording: no recording 'third'"),
         ((DATA,), "human_walk"),
     ):
         with pytest.raises(RegkitError, match=expected):

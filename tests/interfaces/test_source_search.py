@@ -112,6 +112,12 @@ def test_path_that_is_not_there_is_no_scheme(tmp_path, monkeypatch, address):
     assert "scheme" not in told
 
 
+@pytest.mark.parametrize("address", [None, 3, [[[0.0]]], {"kind": "folder"}])
+def test_what_is_no_address_is_refused(address):
+    with pytest.raises(ConfigError, match=f"not {type(address).__name__};"):
+        Source.at(address)
+
+
 def test_scheme_names_a_camera(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     odd = reader("camera", "a", scheme="odd")

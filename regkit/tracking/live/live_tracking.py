@@ -21,7 +21,7 @@ from regkit.interfaces import (
     Tracker,
 )
 from regkit.system.brief import Brief
-from regkit.system.errors import DataError, NoBodyError, NoDataError, SourceLostError
+from regkit.system.errors import DataError, NoBodyError, NoDataError, RegkitError, SourceLostError
 from regkit.system.notes import RegkitWarning
 from regkit.system.progress import working
 from regkit.tracking.live.latency import Quantiles
@@ -120,6 +120,7 @@ class LiveTracking:
         span = 2.0 * self._opening * self.stream.fps
         self._dropped_before = 0
         self._early: deque[Arrived] = deque(maxlen=ceil(span) + 1)
+        self._damage: RegkitError | None = None
         self._found: tuple[Session, Start, Opening] | None = None
         self._recorder: TrackRecorder | None = None
 
@@ -183,6 +184,8 @@ class LiveTracking:
         before = RegistrationResult.given(start.pose).without_data("not in sight yet")
         for arrived in self._frames_from(opening, session):
             if not self.stream.live and arrived.number < opening.first:
+                if arrived.frame is None:
+                    self.watch.damaged(arrived, str(arrived.error or "it is damaged"))
                 tracked: TrackedFrame | None = TrackedFrame(None, before, 0.0, 0.0)
             else:
                 tracked = self._followed(follower, arrived)
@@ -251,13 +254,17 @@ class LiveTracking:
             # A recording without a surely found body is tracked from its first frames, and said to
             # be lost.
             return first
-        raise NoBodyError(f"no body comes into sight: {reason.message}", place=stream.name)
+        why = reason.message
+        if self._damage is not None:
+            why += f"; damaged frames are passed over, the last one because: {self._damage}"
+        raise NoBodyError(f"no body comes into sight: {why}", place=stream.name)
 
     def _seen(self) -> Iterator[Arrived]:
         """Yields the frames of the openings."""
         for arrived in self._arrivals():
             if self.stream.live and self._setup.every_frame:
                 self._early.append(arrived)
+            self._damage = arrived.error or self._damage
             yield arrived
 
     def _frames_from(self, opening: Opening, session: Session) -> Iterator[Arrived]:

@@ -11,7 +11,7 @@ import regkit
 from regkit.api.live import LiveTrack, live_track, track_live
 from regkit.api.pipeline import Pipeline
 from regkit.interfaces import TimedFrame
-from regkit.system.errors import ConfigError, DataError, NoBodyError, SourceLostError
+from regkit.system.errors import ConfigError, DataError, NoBodyError, NoDataError, SourceLostError
 from regkit.system.notes import RegkitWarning
 
 HUMAN = {"kind": "human", "height": 1.63}
@@ -100,6 +100,25 @@ def test_damaged_frame_keeps_the_pose_and_the_tracking_goes_on(frames, usual):
     np.testing.assert_array_equal(markers[3], markers[2])
     assert np.linalg.norm(markers[-1] - usual[-1], axis=1).max() < 0.03
     assert faults == {"damaged": 1}
+
+
+def test_damaged_frames_before_the_first_whole_one_are_told(frames):
+    script = [DataError("cut short", place="000000.png"), *frames[1:4]]
+    with pytest.warns(RegkitWarning, match="frame 0 is passed over: 000000.png: cut short"):
+        numbers, _, faults = tracked(script)
+    assert numbers == [0, 1, 2, 3]
+    assert faults == {"damaged": 1}
+
+
+def test_stream_of_nothing_but_damage_names_it():
+    script = [DataError("8 bits instead of 16", place=f"{at}.png") for at in range(3)]
+    with pytest.raises(NoBodyError, match=r"2\.png: 8 bits instead of 16"):
+        tracked(script)
+
+
+def test_track_without_a_frame_is_refused(frames):
+    with following(frames) as track, pytest.raises(NoDataError, match="iterate"):
+        track.tracking()
 
 
 def test_stream_that_ends_within_a_frame_keeps_the_rest(frames):
