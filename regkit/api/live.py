@@ -102,7 +102,8 @@ class LiveTrack:
         Raises:
             RegkitError: If no body comes into sight before the stream ends, or it is lost.
         """
-        with one_thread():
+        # A loop that is left early closes the stream too.
+        with one_thread(), self:
             for frame in self._live.frames():
                 yield LivePose.of(frame)
 

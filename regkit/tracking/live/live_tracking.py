@@ -3,42 +3,23 @@
 from __future__ import annotations
 
 import time
-import warnings
 from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from math import ceil
 
-from regkit.body import Body
-from regkit.body.verdict import Verdict
-from regkit.interfaces import (
-    Recording,
-    Registrar,
-    RegistrationResult,
-    Start,
-    Stream,
-    TimedFrame,
-    Tracker,
-)
+from regkit.interfaces import RegistrationResult, Start, Stream
 from regkit.system.brief import Brief
-from regkit.system.errors import DataError, NoBodyError, NoDataError, RegkitError, SourceLostError
-from regkit.system.notes import RegkitWarning
-from regkit.system.progress import working
+from regkit.system.errors import DataError, NoBodyError, RegkitError, SourceLostError
+from regkit.tracking.live.beginning import Beginning, beginning_in
 from regkit.tracking.live.latency import Quantiles
-from regkit.tracking.live.opening import Opening, openings
+from regkit.tracking.live.opening import openings
 from regkit.tracking.live.paced import PacedStream
 from regkit.tracking.live.reader import Arrived, FrameReader
+from regkit.tracking.live.setup import LiveSetup
 from regkit.tracking.live.watch import StreamWatch
 from regkit.tracking.loop import Follower, TrackedFrame
 from regkit.tracking.recorder import RecordedFrame, TrackRecorder
-from regkit.tracking.rows import Rows
-from regkit.tracking.session import Session
-
-OPENING = 2.0
-"""Duration of a camera's opening [s], for which a person waits."""
-
-RECORDED_OPENING = 10.0
-"""Duration of a recording's opening [s], which shows more of the body and of what moves."""
 
 PATIENCE = 0.2
 """Time between two looks at whether to stop while no frame comes [s]."""
@@ -66,33 +47,6 @@ class LiveFrame(Brief):
     latency: float
 
 
-@dataclass(frozen=True)
-class LiveSetup:
-    """How a stream is tracked.
-
-    Attributes:
-        session: Returns the session of a recording with the stream's first frames.
-        bind: Binds the method to the body that was found.
-        tracker: Tracker from frame to frame.
-        rows: Returns where the values of a track are kept; in memory by default.
-        opening: Duration of the opening [s]; for None that of a camera or of a recording.
-        every_frame: Whether every frame of a camera is tracked, however late.
-        realtime: Whether a recording is played at its own pace after its opening was seen.
-        tap: Called with every frame of the track when it is read, in another thread.
-        check: Called between two frames, and while none comes; what it raises ends the tracking.
-    """
-
-    session: Callable[[Recording], Session]
-    bind: Callable[[Body], Registrar]
-    tracker: Tracker
-    rows: Callable[[Start], Rows] | None = None
-    opening: float | None = None
-    every_frame: bool = False
-    realtime: bool = False
-    tap: Callable[[TimedFrame], None] | None = None
-    check: Callable[[], None] = lambda: None
-
-
 class LiveTracking:
     """A stream that is being tracked; its memory does not grow with the number of frames.
 
@@ -116,12 +70,11 @@ class LiveTracking:
         self.watch = StreamWatch(self.stream.name, self.stream.fps)
         self.latencies = Quantiles()
         # Those that an opening may begin with; it lasts a little longer than it should.
-        self._opening = setup.opening or (OPENING if self.stream.live else RECORDED_OPENING)
-        span = 2.0 * self._opening * self.stream.fps
+        span = 2.0 * setup.opening_of(live=self.stream.live) * self.stream.fps
         self._dropped_before = 0
         self._early: deque[Arrived] = deque(maxlen=ceil(span) + 1)
         self._damage: RegkitError | None = None
-        self._found: tuple[Session, Start, Opening] | None = None
+        self._beginning: Beginning | None = None
         self._recorder: TrackRecorder | None = None
 
     @property
@@ -141,7 +94,7 @@ class LiveTracking:
     @property
     def is_begun(self) -> bool:
         """Whether a body has come into sight."""
-        return self._found is not None
+        return self._beginning is not None
 
     @property
     def start(self) -> Start:
@@ -150,7 +103,7 @@ class LiveTracking:
         Raises:
             RegkitError: If the stream ends before a body comes into sight, or is damaged.
         """
-        return self._begun()[1]
+        return self._begun().start
 
     @property
     def recorder(self) -> TrackRecorder:
@@ -178,11 +131,11 @@ class LiveTracking:
                 them are damaged.
             RegkitError: If no body comes into sight, or a frame cannot be registered.
         """
-        session, start, opening = self._begun()
-        recorder, registrar = self.recorder, self.recorder.registrar
-        follower = session.follower(registrar, self._setup.tracker, start.pose)
+        begun, recorder = self._begun(), self.recorder
+        start, opening = begun.start, begun.opening
+        follower = self._follower(begun)
         before = RegistrationResult.given(start.pose).without_data("not in sight yet")
-        for arrived in self._frames_from(opening, session):
+        for arrived in self._frames_from(begun):
             if not self.stream.live and arrived.number < opening.first:
                 if arrived.frame is None:
                     self.watch.damaged(arrived, str(arrived.error or "it is damaged"))
@@ -219,45 +172,18 @@ class LiveTracking:
                 ) from None
             return follower.skip(error.message)
 
-    def _begun(self) -> tuple[Session, Start, Opening]:
-        if self._found is None:
-            self._found = self._sought()
-        return self._found
-
-    def _sought(self) -> tuple[Session, Start, Opening]:
-        """Returns the first opening in which a body is found, with its session and start.
-
-        Raises:
-            RegkitError: If the stream ends before. The last reason is told.
-        """
-        first: tuple[Session, Start, Opening] | None = None
-        reason: NoDataError = NoDataError("it has no frame with a measurement")
-        stream, seconds = self.stream, self._opening
-        for opening in openings(self._seen(), stream.name, stream.fps, seconds):
-            session = self._setup.session(opening.recording)
-            # What is told of an attempt matters only if the tracking begins with it.
-            with warnings.catch_warnings(record=True) as told:
-                warnings.simplefilter("always")
-                try:
-                    with working("looking for the body"):
-                        start = session.begin()
-                except NoDataError as error:
-                    reason = error
-                    continue
-            for one in told:
-                if not issubclass(one.category, RegkitWarning) or start.verdict is not Verdict.LOST:
-                    warnings.warn_explicit(one.message, one.category, one.filename, one.lineno)
-            if start.verdict is not Verdict.LOST:
-                return session, start, opening
-            first = first or (session, start, opening)
-        if first is not None and not stream.live:
-            # A recording without a surely found body is tracked from its first frames, and said to
-            # be lost.
-            return first
-        why = reason.message
-        if self._damage is not None:
-            why += f"; damaged frames are passed over, the last one because: {self._damage}"
-        raise NoBodyError(f"no body comes into sight: {why}", place=stream.name)
+    def _begun(self) -> Beginning:
+        if self._beginning is None:
+            stream, seconds = self.stream, self._setup.opening_of(live=self.stream.live)
+            opened = openings(self._seen(), stream.name, stream.fps, seconds)
+            try:
+                self._beginning = beginning_in(opened, self._setup.session, live=stream.live)
+            except NoBodyError as error:
+                why = error.message
+                if self._damage is not None:
+                    why += f"; damaged frames are passed over, the last one because: {self._damage}"
+                raise NoBodyError(why, place=stream.name) from None
+        return self._beginning
 
     def _seen(self) -> Iterator[Arrived]:
         """Yields the frames of the openings."""
@@ -267,14 +193,20 @@ class LiveTracking:
             self._damage = arrived.error or self._damage
             yield arrived
 
-    def _frames_from(self, opening: Opening, session: Session) -> Iterator[Arrived]:
+    def _follower(self, begun: Beginning) -> Follower:
+        registrar, tracker = self.recorder.registrar, self._setup.tracker
+        return begun.session.follower(registrar, tracker, begun.start.pose)
+
+    def _frames_from(self, begun: Beginning) -> Iterator[Arrived]:
         """Yields the frames to track."""
+        opening = begun.opening
         every_frame = self._setup.every_frame
         if self.stream.live and every_frame:
             yield from (one for one in self._early if one.number >= opening.first)
             self._early.clear()
         else:
-            self._warm(session, opening)
+            # Everything that a step needs is loaded, so that no camera's frame waits for it.
+            self._follower(begun).follow(opening.recording.given[0])
             if self.stream.live and (found := opening.arrived[0]).frame is not None:
                 # Since then the body has moved.
                 self.watch.gap(found.number, found.frame)
@@ -289,12 +221,6 @@ class LiveTracking:
     def _reading(self, stream: Stream, *, tapped: bool) -> FrameReader:
         setup = self._setup
         return FrameReader(stream, every_frame=setup.every_frame, tap=setup.tap if tapped else None)
-
-    def _warm(self, session: Session, opening: Opening) -> None:
-        """Loads everything that a step needs, so that no camera's frame waits for it."""
-        registrar, pose = self.recorder.registrar, self.start.pose
-        follower = session.follower(registrar, self._setup.tracker, pose)
-        follower.follow(opening.recording.given[0])
 
     def _arrivals(self) -> Iterator[Arrived]:
         """Yields the frames of the reader until its end."""
