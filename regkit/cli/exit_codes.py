@@ -16,4 +16,5 @@ NOT_FOUND = 3
 ``--strict``."""
 
 INTERRUPTED = 130
-"""Ended by Ctrl-C; finished work is kept."""
+"""Ended by Ctrl-C; finished work is kept. A camera's track has no other end: its code is that of its
+verdict."""
