@@ -16,5 +16,7 @@ NOT_FOUND = 3
 ``--strict``."""
 
 INTERRUPTED = 130
-"""Ended by Ctrl-C; finished work is kept. A camera's track has no other end: its code is that of its
-verdict."""
+"""Ended by Ctrl-C; finished work is kept.
+
+Ctrl-C is the usual end of a camera's track, whose code is that of its verdict.
+"""
