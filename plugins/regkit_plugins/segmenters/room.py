@@ -52,7 +52,8 @@ class Room(Segmenter):
         # A body without a surface shows no area, and nothing can be told from it.
         known = has_surface(template.body(template.candidate_sizes()[0]))
         frames = list(sampled(recording, FRAMES)) if known else []
-        if not any(_is_larger(frame, template) for frame in frames):
+        figure = Figure.of(template) if known else None
+        if figure is None or not any(_is_larger(frame, template, figure) for frame in frames):
             return Chain()
         extent = max(extent_of(frame.points) for frame in frames)
         steps = (self.planes, self.gate, self.pieces)
@@ -67,9 +68,9 @@ class Room(Segmenter):
         return tuple(self.model_copy(update={"pieces": one}) for one in pieces)
 
 
-def _is_larger(frame: Frame, template: Template) -> bool:
+def _is_larger(frame: Frame, template: Template, figure: Figure) -> bool:
     """Returns whether a frame extends over more than the body, or shows a larger area."""
-    figure, largest = Figure.of(template), template.candidate_sizes()[-1]
+    largest = template.candidate_sizes()[-1]
     whole = Piece(frame, np.arange(len(frame.points)), largest / CELLS)
     return (
         extent_of(frame.points) > LARGE * largest
