@@ -22,6 +22,7 @@ LONG = (
     "docs/how-to/install.md",
     "docs/tutorials/comparison.md",
     "docs/tutorials/first-experiment.md",
+    "docs/tutorials/notebook.md",
     "docs/tutorials/new-shape-model.md",
 )
 """Pages whose blocks only a release runs; they take longest, and others use what they use."""

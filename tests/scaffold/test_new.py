@@ -15,7 +15,7 @@ from regkit.scaffold import KINDS, Scaffold
 RUN = tuple(what for what in KINDS if what != "source")
 """Kinds that an experiment uses."""
 
-LONG = ("term", "preprocessor", "tracker")
+LONG = ("term", "preprocessor", "tracker", "start", "template")
 """Kinds whose example runs for a release only; each runs the plug-ins of the others."""
 
 

@@ -196,6 +196,7 @@ def test_hand_shows_its_palm():
     assert position["middle_tip"][1] < position["wrist"][1]
 
 
+@pytest.mark.long
 def test_main_makes_the_same_bytes_twice(tmp_path, monkeypatch, capsys):
     for run in ("first", "second"):
         monkeypatch.setattr(sys, "argv", ["synthesis", str(tmp_path / run)])
