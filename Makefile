@@ -3,8 +3,6 @@
 PYTHON ?= python3
 ready := .venv/.ready
 bin := .venv/bin
-# One more than cores, since some tests wait for a browser or another process.
-workers := $(shell expr $$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2) + 1)
 
 .PHONY: help demo test test-long fuzz lint loops docs notebook pictures samples templates schemas lock benchmarks clean
 
@@ -20,7 +18,7 @@ demo: $(ready) ## Track a person in a depth recording with SoG, G-SoG and the de
 
 test: $(ready) ## Run every check
 	@$(MAKE) --no-print-directory --jobs 2 lint loops
-	@$(bin)/pytest -q --numprocesses $(workers) --dist worksteal
+	@$(bin)/pytest -q --numprocesses auto --dist worksteal
 
 test-long: $(ready) ## Run what a release needs besides: fuzzing, soaks, long walks
 	@$(bin)/pytest -q --numprocesses auto --dist worksteal -m "long or hypothesis" --hypothesis-profile long

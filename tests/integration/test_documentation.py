@@ -19,7 +19,9 @@ LEFT_OUT = {block.place: block for page in PAGES.values() for block in page.bloc
 LONG = (
     "docs/explanation/spheres.md",
     "docs/how-to/shape-model.md",
+    "docs/how-to/compiled.md",
     "docs/how-to/install.md",
+    "docs/how-to/limits.md",
     "docs/tutorials/comparison.md",
     "docs/tutorials/first-experiment.md",
     "docs/tutorials/notebook.md",

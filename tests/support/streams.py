@@ -1,7 +1,7 @@
 """Streams made of a script: frames, faults and pauses."""
 
 import time
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import numpy as np
@@ -16,12 +16,15 @@ FPS = 30.0
 
 
 class Scripted(Stream):
-    """Yields frames, raises errors and waits for the seconds of numbers, in order."""
+    """Yields frames, raises errors, calls functions and waits for the seconds of numbers."""
 
     fps = FPS
 
     def __init__(
-        self, script: Iterable[TimedFrame | RegkitError | float], *, live: bool = False
+        self,
+        script: Iterable[TimedFrame | RegkitError | Callable[[], object] | float],
+        *,
+        live: bool = False,
     ) -> None:
         self.name = "scripted"
         self.live = live
@@ -34,7 +37,10 @@ class Scripted(Stream):
                 raise one
             if isinstance(one, TimedFrame):
                 return one
-            time.sleep(one)
+            if callable(one):
+                one()
+            else:
+                time.sleep(one)
         return None
 
     def close(self) -> None:

@@ -2,6 +2,7 @@
 
 import time
 from dataclasses import replace
+from threading import Event
 
 import numpy as np
 import pytest
@@ -62,15 +63,19 @@ def test_every_frame_of_a_camera_is_tracked_if_asked_for(frames, usual):
 
 def test_newest_frame_of_a_camera_wins(frames):
     """Frames that come while the last pose is used are dropped, but for the newest."""
-    first = replace(frames[0], time=-1.0)
-    later = [one for frame in frames[1:] for one in (frame, 0.05)]
-    with following([first, 0.1, frames[0], 1.5, *later], live=True, opening=0.01) as track:
+    first, begun, used = replace(frames[0], time=-1.0), Event(), Event()
+    later = [one for frame in frames[2:] for one in (frame, 0.02)]
+    script = [first, 0.1, frames[0], begun.wait, frames[1], used.wait, *later]
+    with following(script, live=True, opening=0.01) as track:
+        assert track.start is not None
+        begun.set()
         numbers = []
         for pose in track:
             numbers.append(pose.number)
-            time.sleep(0.12)
+            used.set()
+            time.sleep(0.4)
         assert numbers == sorted(set(numbers))
-        assert numbers[-1] == COUNT
+        assert (numbers[0], numbers[-1]) == (2, COUNT)
         assert track.dropped == numbers[-1] - numbers[0] + 1 - len(numbers)
         assert track.dropped > 0
         assert track.tracking().numbers == tuple(numbers)
