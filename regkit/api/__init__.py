@@ -3,7 +3,9 @@
 from regkit.api.aligning import CloudAlignment, align
 from regkit.api.choices import load_template
 from regkit.api.frame_files import load_frame
-from regkit.api.live import LivePose, LiveTrack, track_live
+from regkit.api.live import track_live
+from regkit.api.live_pose import LivePose
+from regkit.api.live_track import LiveTrack
 from regkit.api.previewing import Preview, preview
 from regkit.api.recordings import load_recording
 from regkit.api.registering import register, track

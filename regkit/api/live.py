@@ -2,21 +2,15 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable
 from pathlib import Path
-from types import TracebackType
-from typing import Self
 
 from regkit.api.choices import Choice, Choices
+from regkit.api.live_track import LiveTrack
 from regkit.api.pipeline import Beginning, Pipeline
-from regkit.api.tracking import Tracking
-from regkit.body import Body
 from regkit.interfaces import (
     Method,
     Preprocessor,
-    Registrar,
     Segmenter,
     Source,
     Start,
@@ -25,172 +19,9 @@ from regkit.interfaces import (
     TimedFrame,
     Tracker,
 )
-from regkit.observation import Observation
-from regkit.skeleton import Pose
-from regkit.system.arrays import Array
-from regkit.system.brief import Brief
-from regkit.system.errors import ConfigError, NoDataError
-from regkit.system.optional import one_thread
-from regkit.tracking import Verdict
-from regkit.tracking.live import LiveFrame, LiveSetup, LiveTracking
+from regkit.system.errors import ConfigError
+from regkit.tracking.live import LiveSetup, LiveTracking
 from regkit.tracking.rows import Rows
-
-
-@dataclass(frozen=True)
-class LivePose(Brief):
-    """The body in one frame of a stream.
-
-    Attributes:
-        number: Number of the frame in the stream, from 0; dropped frames count too.
-        time: Its time on the stream's clock [s].
-        pose: The pose.
-        segments: T_camera_segment of each of S segments, (S, 4, 4) [m].
-        markers: The markers in the camera's frame, (M, 3) [m].
-        supports: How well data support each segment, (S,), from 0 to 1; NaN for one without
-            capsules.
-        verdict: Whether the body was found.
-        inlier_share: Fraction of the points that lie on the body; NaN without data.
-        observation: The data of the frame; None if it has none.
-        latency: Time from the frame's arrival to its pose [s].
-        seconds: Time to preprocess and register [s].
-    """
-
-    number: int
-    time: float
-    pose: Pose
-    segments: Array
-    markers: Array
-    supports: Array
-    verdict: Verdict
-    inlier_share: float
-    observation: Observation | None
-    latency: float
-    seconds: float
-
-    @classmethod
-    def of(cls, frame: LiveFrame) -> Self:
-        """Returns the pose of a tracked frame."""
-        tracked, recorded = frame.tracked, frame.recorded
-        return cls(
-            number=frame.number,
-            time=frame.time,
-            pose=tracked.registered.pose,
-            segments=recorded.placement.transforms,
-            markers=recorded.markers,
-            supports=recorded.supports,
-            verdict=recorded.verdict,
-            inlier_share=recorded.fit.inlier_share,
-            observation=tracked.observation,
-            latency=frame.latency,
-            seconds=tracked.seconds,
-        )
-
-
-class LiveTrack:
-    """A stream that is being tracked: iterate over it for the poses, as they come.
-
-    A context manager that closes the stream.
-    """
-
-    def __init__(self, live: LiveTracking, method: str) -> None:
-        self._live = live
-        self._method = method
-
-    def __iter__(self) -> Iterator[LivePose]:
-        """Yields the pose in each frame.
-
-        Raises:
-            RegkitError: If no body comes into sight before the stream ends, or it is lost.
-        """
-        # A loop that is left early closes the stream too.
-        with one_thread(), self:
-            for frame in self._live.frames():
-                yield LivePose.of(frame)
-
-    @property
-    def name(self) -> str:
-        """Name of the recording or the camera."""
-        return self._live.stream.name
-
-    @property
-    def stream(self) -> Stream:
-        """The stream."""
-        return self._live.stream
-
-    @property
-    def start(self) -> Start:
-        """The pose and size with which the tracking began, sought when they are first needed.
-
-        Raises:
-            RegkitError: If the stream ends before a body comes into sight.
-        """
-        with one_thread():
-            return self._live.start
-
-    @property
-    def body(self) -> Body:
-        """The body at its given or estimated size."""
-        return self.start.body
-
-    @property
-    def registrar(self) -> Registrar:
-        """The registrar of the frames."""
-        return self._live.recorder.registrar
-
-    @property
-    def is_live(self) -> bool:
-        """Whether frames come at their own pace, and those that are late are dropped."""
-        return self._live.is_live
-
-    @property
-    def is_begun(self) -> bool:
-        """Whether a body has come into sight."""
-        return self._live.is_begun
-
-    @property
-    def dropped(self) -> int:
-        """Number of frames that were not tracked because newer ones had arrived."""
-        return self._live.dropped
-
-    @property
-    def faults(self) -> Counter[str]:
-        """Numbers of faults of the stream, such as ``repeated`` or ``damaged`` frames."""
-        return self._live.watch.faults
-
-    def latency(self, quantile: float = 0.5) -> float:
-        """Returns the time [s] from a frame's arrival to its pose, at a quantile of all frames."""
-        return self._live.latencies[quantile]
-
-    def tracking(self) -> Tracking:
-        """Returns everything that was tracked so far.
-
-        Raises:
-            RegkitError: If no body has come into sight, or no frame has been tracked.
-        """
-        live = self._live
-        stream = live.stream
-        if not len(live.recorder):
-            raise NoDataError(
-                "no frame has been tracked yet; iterate over the track first", place=stream.name
-            )
-        return Tracking.of(stream.name, self._method, stream.fps, live.start, live.recorder)
-
-    def close(self) -> None:
-        """Closes the stream."""
-        self._live.close()
-
-    def __enter__(self) -> Self:
-        """Returns the track."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
-        """Closes the stream."""
-        self.close()
 
 
 def track_live(

@@ -8,7 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
 
-from regkit.api.live import LivePose, LiveTrack, live_track
+from regkit.api.live import live_track
+from regkit.api.live_pose import LivePose
+from regkit.api.live_track import LiveTrack
 from regkit.api.pipeline import Pipeline
 from regkit.cli.interrupt import Interrupt
 from regkit.cli.out_folder import check_out
@@ -83,7 +85,7 @@ class LiveRun:
                 tap.begin(track.stream)
             check_out(folder, whole=False)
             # The search for the body ends at Ctrl-C; from here on Ctrl-C ends the track.
-            track.start  # noqa: B018
+            track.begin()
             with interrupt:
                 error = self._poses(track, interrupt)
         return Ended(track, folder, error, interrupt.pressed)

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, TextIO
 
-from regkit.api.live import LivePose
+from regkit.api.live_pose import LivePose
 from regkit.body import Body
 from regkit.geometry.rotation import from_matrix
 from regkit.system.csv_table import safe_cell

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from pathlib import Path
 from threading import Lock
-from types import TracebackType
 
 from regkit.cli.console import errors
 from regkit.interfaces import Stream, TimedFrame
 from regkit.recording import FolderWriter
 from regkit.recording.writer import check_new
+from regkit.system.closing import Closing
 from regkit.system.errors import DataError
 from regkit.system.notes import note
 
 
-class RecordingTap:
+class RecordingTap(Closing):
     """Writes all frames of a stream into a folder; where that is not possible, tracking goes on.
 
     Args:
@@ -49,21 +49,13 @@ class RecordingTap:
                 self._over = True
                 note(f"the recording ends here, the tracking goes on: {error}", place=self._folder)
 
-    def __enter__(self) -> RecordingTap:
-        """Returns the tap."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
         """Ends the recording."""
         with self._lock:
             self._over = True
-            if self._writer is not None:
-                self._writer.close()
-                count = self._writer.count
+            writer, self._writer = self._writer, None
+            if writer is not None:
+                writer.close()
+                count = writer.count
                 where = f"in {self._folder}" if count else f"so that there is no {self._folder}"
                 errors.print(f"recorded: {count} frames, {where}")

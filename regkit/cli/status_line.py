@@ -8,7 +8,8 @@ from collections.abc import Callable
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
-from regkit.api.live import LivePose, LiveTrack
+from regkit.api.live_pose import LivePose
+from regkit.api.live_track import LiveTrack
 from regkit.cli.console import errors
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from regkit.api import Tracking, track_each
-from regkit.api.live import LiveTrack
+from regkit.api.live_track import LiveTrack
 from regkit.api.pipeline import Pipeline
 from regkit.cli.choices import Choices
 from regkit.cli.console import errors, output

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from regkit.api.live import LivePose, LiveTrack
+from regkit.api.live_pose import LivePose
+from regkit.api.live_track import LiveTrack
 from regkit.cli.console import errors
 from regkit.cli.view import open_browser
 from regkit.viewer.live import LiveViewer

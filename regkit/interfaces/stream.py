@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Iterator
-from types import TracebackType
-from typing import Self
 
 from regkit.observation import TimedFrame
+from regkit.system.closing import Closing
 
 
-class Stream(ABC):
+class Stream(Closing):
     """An open source; a context manager that closes it.
 
     Attributes:
@@ -46,18 +45,5 @@ class Stream(ABC):
         while (timed := self.read()) is not None:
             yield timed
 
-    def close(self) -> None:  # noqa: B027
+    def close(self) -> None:
         """Releases the file or device; calling it again does nothing."""
-
-    def __enter__(self) -> Self:
-        """Returns the stream."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
-        """Closes the stream."""
-        self.close()

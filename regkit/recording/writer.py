@@ -5,8 +5,7 @@ from __future__ import annotations
 import json
 import re
 from pathlib import Path
-from types import TracebackType
-from typing import Self, TextIO
+from typing import TextIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +15,7 @@ from regkit.recording import description, times
 from regkit.recording.depth_folder import DepthFolder
 from regkit.recording.png import png_of
 from regkit.system.arrays import Array
+from regkit.system.closing import Closing
 from regkit.system.errors import ConfigError, DataError
 from regkit.system.files import replacing, write_text
 from regkit.system.notes import note
@@ -28,7 +28,7 @@ LARGEST = 65535
 """Largest value of a pixel of 16 bits."""
 
 
-class FolderWriter:
+class FolderWriter(Closing):
     """Writes depth images with their times as the folder of a recording.
 
     From the first frame on, what is in the folder is a whole recording at any time, also if the
@@ -103,19 +103,6 @@ class FolderWriter:
         if self._times is not None:
             self._times.close()
             self._times = None
-
-    def __enter__(self) -> Self:
-        """Returns the writer."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
-        """Ends the recording."""
-        self.close()
 
     def _write(self, image: Image, camera: Camera, time: float) -> None:
         """Writes the next frame, whole or not at all."""
