@@ -8,7 +8,10 @@ from regkit.body.body import Body
 from regkit.system.arrays import Array
 
 WEAK = 0.3
-"""A segment with less support is hardly seen: its pose is a guess from its neighbours."""
+"""A segment with less support is hardly seen: its pose is a guess from its neighbours.
+
+It was chosen by eye; no data have confirmed it.
+"""
 
 
 def segment_supports(body: Body, transforms: Array, points: Array) -> Array:
