@@ -42,6 +42,9 @@ FORMAT = 1
 UNEVEN = 0.5
 """Frames that are off their time by more of a period than this are resampled for an export."""
 
+LONGEST = 10
+"""A motion is resampled to at most this many times its frames: a clock that jumps is no pause."""
+
 
 class TrackDescription(Model):
     """The content of ``track.json``."""
@@ -212,10 +215,18 @@ def _even(arrays: Mapping[str, NDArray[Any]], fps: float, *, place: Path) -> NDA
     Where frames are missing, the one before is held.
     """
     count = len(arrays["root"])
-    times = np.asarray(arrays.get("times", np.arange(count) / fps), dtype=np.float64)
+    each = np.arange(count)
+    times = np.asarray(arrays.get("times", each / fps), dtype=np.float64)
     since = (times - times[0]) * fps
-    if count < 2 or np.abs(since - np.arange(count)).max() <= UNEVEN or (np.diff(since) < 0).any():
-        return np.arange(count)
+    if np.abs(since - each).max(initial=0.0) <= UNEVEN:
+        return each
+    if (np.diff(since) < 0.0).any() or since[-1] > LONGEST * count:
+        note(
+            f"the times of the {count} frames go back or jump; they are taken one after another, "
+            f"at {fps:g} per second",
+            place=place,
+        )
+        return each
     periods = np.arange(round(since[-1]) + 1)
     note(
         f"the {count} frames are not evenly spaced; the motion has {len(periods)} at {fps:g} per "

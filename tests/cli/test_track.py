@@ -93,20 +93,28 @@ def test_track_is_exported(regkit, tmp_path):
     assert "track.json: format: " in regkit("export", "one", "--to", "motion.bvh").err
 
 
-def test_dropped_frames_are_held_in_an_export(regkit, tmp_path):
+@pytest.mark.parametrize(
+    ("times", "count", "told"),
+    [
+        ((0.0, 1 / 30, 4 / 30, 5 / 30), 6, "held"),
+        ((0.0, 1 / 30, 1e9, 1e9 + 1 / 30), 4, "go back or jump"),
+        ((5.0, 5.1, 0.0, 0.1), 4, "go back or jump"),
+    ],
+)
+def test_uneven_times_are_resampled_or_told_in_an_export(regkit, tmp_path, times, count, told):
     gaps = tmp_path / "gaps"
     shutil.copytree(WALK, gaps)
-    times = "".join(f"{frame},{at}\n" for frame, at in enumerate((0.0, 1 / 30, 4 / 30, 5 / 30)))
+    rows = "".join(f"{frame},{at!r}\n" for frame, at in enumerate(times))
     for path in (gaps / "depth").iterdir():
         if int(path.stem) >= 4:
             path.unlink()
     (gaps / "truth.csv").unlink()
-    (gaps / "times.csv").write_text(f"frame,time_s\n{times}")
+    (gaps / "times.csv").write_text(f"frame,time_s\n{rows}")
     assert regkit("track", gaps, *HUMAN, *START, "--out", "one").code == 0
     ended = regkit("export", "one", "--to", "motion.bvh")
     assert ended.code == 0, ended.err
-    assert "frames: 6, 30 per second" in ended.out
-    assert "held" in ended.err
+    assert f"frames: {count}, 30 per second" in ended.out
+    assert told in ended.err
 
 
 def running(*arguments) -> subprocess.Popen:

@@ -74,6 +74,7 @@ class LiveTracking:
         self._dropped_before = 0
         self._early: deque[Arrived] = deque(maxlen=ceil(span) + 1)
         self._damage: RegkitError | None = None
+        self._clock = 0, 0.0
         self._beginning: Beginning | None = None
         self._recorder: TrackRecorder | None = None
 
@@ -134,6 +135,9 @@ class LiveTracking:
         begun, recorder = self._begun(), self.recorder
         start, opening = begun.start, begun.opening
         follower = self._follower(begun)
+        if (found := opening.arrived[0]).frame is not None:
+            # Damaged frames before the opening precede its time.
+            self._clock = found.number, found.frame.time
         before = RegistrationResult.given(start.pose).without_data("not in sight yet")
         for arrived in self._frames_from(begun):
             if not self.stream.live and arrived.number < opening.first:
@@ -144,12 +148,19 @@ class LiveTracking:
                 tracked = self._followed(follower, arrived)
             if tracked is None:
                 continue
-            moment = arrived.number / self.stream.fps
-            moment = moment if arrived.frame is None else arrived.frame.time
+            moment = self._time_of(arrived)
             recorded = recorder.add(tracked, arrived.number, moment)
             latency = time.perf_counter() - arrived.at
             self.latencies.add(latency)
             yield LiveFrame(arrived.number, moment, tracked, recorded, latency)
+
+    def _time_of(self, arrived: Arrived) -> float:
+        """Returns the time of a frame [s]; a damaged one follows the last whole one at the rate."""
+        number, at = self._clock
+        if arrived.frame is None:
+            return at + (arrived.number - number) / self.stream.fps
+        self._clock = arrived.number, arrived.frame.time
+        return arrived.frame.time
 
     def _followed(self, follower: Follower, arrived: Arrived) -> TrackedFrame | None:
         """Returns a frame, tracked; None if it adds nothing to the last one."""

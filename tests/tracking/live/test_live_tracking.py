@@ -127,6 +127,15 @@ def test_track_without_a_frame_is_refused(frames):
         track.tracking()
 
 
+def test_damaged_frame_has_a_time_on_the_clock_of_the_stream(frames):
+    later = [replace(frame, time=1e9 + frame.time) for frame in frames]
+    damaged = DataError("cut short")
+    script = [damaged, *later[1:3], damaged, *later[4:]]
+    with following(script) as track, pytest.warns(RegkitWarning, match="cut short"):
+        times = [pose.time for pose in track]
+    np.testing.assert_allclose(np.array(times) - 1e9, np.arange(COUNT) / FPS, atol=1e-6)
+
+
 def test_stream_that_ends_within_a_frame_keeps_the_rest(frames):
     script = [*frames[:3], DataError("ends within the frame")]
     with pytest.warns(RegkitWarning, match="ends within the frame"):
