@@ -173,7 +173,7 @@ class LiveTracking:
             gap = self.watch.gap(arrived.number, frame)
             if gap is not None:
                 follower.pause(gap)
-            return follower.follow(frame.frame)
+            found = follower.follow(frame.frame)
         except DataError as error:
             self.watch.damaged(arrived, str(error))
             if self.watch.is_lost:
@@ -182,6 +182,8 @@ class LiveTracking:
                     place=self.stream.name,
                 ) from None
             return follower.skip(error.message)
+        self.watch.tracked()
+        return found
 
     def _begun(self) -> Beginning:
         if self._beginning is None:

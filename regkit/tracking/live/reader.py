@@ -110,10 +110,16 @@ class FrameReader:
         except BaseException as error:
             self._failure = error
         finally:
-            self.stream.close()
-            with self._changed:
-                self._over = True
-                self._changed.notify_all()
+            try:
+                self.stream.close()
+            except Exception as error:
+                self._failure = self._failure or error
+            self._end()
+
+    def _end(self) -> None:
+        with self._changed:
+            self._over = True
+            self._changed.notify_all()
 
     def _hold(self, arrived: Arrived) -> bool:
         """Holds a frame until it is taken, and returns whether to go on."""

@@ -56,6 +56,10 @@ class StreamWatch:
         self._damaged += 1
         self._tell("damaged", f"frame {arrived.number} is passed over: {reason}")
 
+    def tracked(self) -> None:
+        """Notes that a frame was tracked."""
+        self._damaged = 0
+
     @property
     def is_lost(self) -> bool:
         """Whether too many frames in a row were damaged."""
@@ -86,7 +90,7 @@ class StreamWatch:
             number: Number of the frame.
             frame: A frame that is tracked.
         """
-        last, self._last, self._damaged = self._last, frame, 0
+        last, self._last = self._last, frame
         since, self._number = number - self._number, number
         if last is None:
             return None

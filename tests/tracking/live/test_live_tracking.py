@@ -214,6 +214,36 @@ def test_stream_of_damaged_frames_ends(frames):
         assert len(track.tracking()) < 150
 
 
+def test_stream_of_frames_that_cannot_be_registered_ends(frames):
+    """They are read whole, but a number in them is none."""
+    seen = frames[0].frame
+    broken = [
+        replace(frames[0], time=1.0 + at, frame=replace(seen, points=seen.points * np.nan))
+        for at in range(200)
+    ]
+    script = [*frames[:2], *broken]
+    with (
+        following(script, opening=0.02) as track,
+        pytest.warns(RegkitWarning),
+        pytest.raises(SourceLostError, match="in a row"),
+    ):
+        list(track)
+    assert track.faults["damaged"] == 100
+
+
+def test_stream_that_cannot_be_closed_ends_with_its_error(frames):
+    class Stuck(Scripted):
+        def close(self):
+            raise OSError("stuck")
+
+    pipeline = Pipeline.of(HUMAN, start=START, place="test")
+    with (
+        live_track(lambda: Stuck(frames), pipeline, opening=0.05) as track,
+        pytest.raises(OSError, match="stuck"),
+    ):
+        list(track)
+
+
 def test_body_that_comes_into_sight_later_is_found(frames, usual):
     blank = [empty_frame(at / FPS) for at in range(20)]
     later = [replace(frame, time=(20 + at) / FPS) for at, frame in enumerate(frames)]
