@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable
-from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 from regkit.api.live_pose import LivePose
 from regkit.api.live_track import LiveTrack
 from regkit.cli.console import errors
+from regkit.system.closing import Closing
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -25,7 +25,7 @@ SMOOTH = 0.05
 """Weight of the last frame in the mean time of a frame."""
 
 
-class StatusLine:
+class StatusLine(Closing):
     """The state of a live track: rate, latency, inliers, verdict, dropped frames.
 
     Args:
@@ -49,19 +49,11 @@ class StatusLine:
         self._latency = math.nan
         self._line: Any = None
 
-    def __enter__(self) -> StatusLine:
-        """Shows nothing before the first frame."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
         """Removes the line."""
         if self._line is not None:
             self._line.stop()
+            self._line = None
 
     def add(self, pose: LivePose) -> str:
         """Counts a frame, and returns the line."""

@@ -5,10 +5,11 @@ from __future__ import annotations
 import gzip
 import ipaddress
 import socket
+import sys
 from collections.abc import Callable, Iterator
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
-from typing import ClassVar
+from typing import Any, ClassVar
 from urllib.parse import urlsplit
 
 from regkit.system.errors import ConfigError, RegkitError
@@ -82,8 +83,10 @@ class Server(ThreadingHTTPServer):
             return True
         return _is_address(name)
 
-    def handle_error(self, request: object, client_address: object) -> None:
-        """Says nothing: a browser that goes away is no error."""
+    def handle_error(self, request: Any, client_address: Any) -> None:
+        """Tells a fault; a browser that goes away is none."""
+        if not isinstance(sys.exception(), (ConnectionError, TimeoutError)):
+            super().handle_error(request, client_address)
 
 
 class _Handler(BaseHTTPRequestHandler):
