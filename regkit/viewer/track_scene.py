@@ -9,17 +9,20 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from regkit.body import Markers
+from regkit.body import Body, Markers
 from regkit.body.bones import bones_of
 from regkit.geometry.camera import Camera
 from regkit.interfaces import Registrar
 from regkit.observation import Truth
-from regkit.system.arrays import Array, Indices
+from regkit.system.arrays import Array, Indices, Singles
 from regkit.tracking import Track
 from regkit.viewer.model_shapes import shapes_of, transforms_of
 from regkit.viewer.points import FramePoints
 from regkit.viewer.reference import reference_of
 from regkit.viewer.shapes import Shape, moved
+
+CHUNK = 256
+"""Number of frames that are placed together."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +65,7 @@ class TrackScene:
     segments: tuple[str, ...]
     bones: Indices
     markers: Markers
-    transforms: Array
+    transforms: Array | Singles
     supports: Array
     verdicts: NDArray[Any]
     curves: tuple[Curve, ...]
@@ -99,7 +102,6 @@ class TrackScene:
             marked: Why frames are marked, by their numbers.
         """
         body = registrar.body
-        placed = [body.place(track.pose(frame)).transforms for frame in range(len(track))]
         known = FramePoints.of(points)
         joints, reference = reference_of(truth, known.frames)
         curves = [
@@ -113,7 +115,7 @@ class TrackScene:
             segments=body.skeleton.names,
             bones=bones_of(body),
             markers=body.markers,
-            transforms=transforms_of(np.array(placed)),
+            transforms=_transforms(track, body),
             supports=track.supports,
             verdicts=np.array(track.verdicts, dtype=np.str_),
             curves=tuple(curves),
@@ -159,5 +161,17 @@ class TrackScene:
 
     def marker_positions(self, frames: Iterable[int]) -> Array:
         """Returns the markers in some frames, (F, M, 3) [m]."""
-        carriers = self.transforms[list(frames)][:, self.markers.segments]
+        carriers = self.transforms[list(frames)][:, self.markers.segments].astype(np.float64)
         return moved(carriers, np.broadcast_to(self.markers.points, (*carriers.shape[:2], 3)))
+
+
+def _transforms(track: Track, body: Body) -> Singles:
+    """Returns the quaternions and origins of all segments in all frames, (T, S, 7)."""
+    frames = range(len(track))
+    transforms = np.empty((len(track), len(body.skeleton.names), 7), dtype=np.float32)
+    # Matrices of an hour of frames at once would take many times the memory of the result.
+    for first in frames[::CHUNK]:
+        chunk = frames[first : first + CHUNK]
+        placed = [body.place(track.pose(frame)).transforms for frame in chunk]
+        transforms[first : first + CHUNK] = transforms_of(np.array(placed))
+    return transforms
