@@ -49,7 +49,6 @@ def read_scene(folder: Path) -> TrackScene:
 
 def scene_arrays(scene: TrackScene) -> dict[str, NDArray[Any]]:
     """Returns the scene as named arrays, in single precision."""
-    singles = {"transforms": scene.transforms, "supports": scene.supports}
     named: dict[str, NDArray[Any]] = {
         "fps": np.array(scene.fps),
         "segments": np.array(scene.segments, dtype=np.str_),
@@ -57,6 +56,8 @@ def scene_arrays(scene: TrackScene) -> dict[str, NDArray[Any]]:
         "marker_names": np.array(scene.markers.names, dtype=np.str_),
         "marker_segments": scene.markers.segments.astype(np.uint16),
         "marker_points": scene.markers.points,
+        "transforms": scene.transforms,
+        "supports": scene.supports.astype(np.float32),
         "verdicts": scene.verdicts,
         "joints": np.array(scene.joints, dtype=np.str_),
         "reference": scene.reference.astype(np.float32),
@@ -68,7 +69,6 @@ def scene_arrays(scene: TrackScene) -> dict[str, NDArray[Any]]:
     }
     if scene.camera is not None:
         named["camera"] = np.array([float(value) for value in vars(scene.camera).values()])
-    named |= {name: one.astype(np.float32) for name, one in singles.items()}
     named |= {f"points_{name}": one for name, one in scene.points.arrays().items()}
     for number, shape in enumerate(scene.shapes):
         named |= {f"shape{number}_{name}": one for name, one in shape.arrays().items()}
@@ -129,7 +129,7 @@ def scene_of(named: Mapping[str, NDArray[Any]]) -> TrackScene:
         segments=segments,
         bones=values["bones"],
         markers=Markers(names, values["marker_segments"], values["marker_points"]),
-        transforms=transforms,
+        transforms=transforms.astype(np.float32),
         supports=values["supports"],
         verdicts=named["verdicts"],
         curves=tuple(

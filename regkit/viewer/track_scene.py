@@ -65,7 +65,7 @@ class TrackScene:
     segments: tuple[str, ...]
     bones: Indices
     markers: Markers
-    transforms: Array | Singles
+    transforms: Singles
     supports: Array
     verdicts: NDArray[Any]
     curves: tuple[Curve, ...]
@@ -143,7 +143,7 @@ class TrackScene:
             segments=body.skeleton.names,
             bones=bones_of(body),
             markers=body.markers,
-            transforms=np.zeros((0, count, 7)),
+            transforms=np.zeros((0, count, 7), dtype=np.float32),
             supports=np.zeros((0, count)),
             verdicts=np.zeros(0, dtype=np.str_),
             curves=tuple(Curve(name, unit, np.zeros(0)) for name, unit in curves.items()),
