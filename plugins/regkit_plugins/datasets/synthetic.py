@@ -16,12 +16,12 @@ from regkit.config.model import misplaced
 from regkit.config.quantities import Rate, Seed
 from regkit.interfaces import Dataset, Recording
 from regkit.observation import Frame, Truth
+from regkit.sensors.cameras import CameraChoice, camera_of
+from regkit.sensors.noise import NOISES, DepthNoise, NoiseChoice, noise_of
 from regkit.system.errors import DataError, RegkitError
 from regkit_plugins.datasets.depth import DepthFolders
 from regkit_synthesis.bodies.hand import ShippedHand
-from regkit_synthesis.cameras.cameras import CameraChoice, camera_of
 from regkit_synthesis.hands.config import GesturesConfig
-from regkit_synthesis.noise import NOISES, DepthNoise, NoiseChoice, noise_of
 from regkit_synthesis.recordings.cache import RecordingCache
 from regkit_synthesis.recordings.defaults import completed
 from regkit_synthesis.recordings.digest import digest

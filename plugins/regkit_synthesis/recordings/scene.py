@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 
 from regkit.geometry.camera import Camera
 from regkit.geometry.skinned_mesh import SkinnedMesh
+from regkit.sensors.cameras import CAMERAS
+from regkit.sensors.noise import DepthNoise, noise_of
+from regkit.sensors.raycast import RayCaster, View, nearest, stored
 from regkit.system.arrays import Array
 from regkit.system.progress import steps
 from regkit_synthesis.bodies.landmarks import Landmark, placed, some_vertices
-from regkit_synthesis.cameras.cameras import CAMERAS
-from regkit_synthesis.cameras.raycast import RayCaster, View, nearest, stored
-from regkit_synthesis.noise import DepthNoise, noise_of
 from regkit_synthesis.recordings.recording import DepthRecording
 from regkit_synthesis.rooms.surface import Surface
 

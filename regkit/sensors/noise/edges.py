@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from regkit.sensors.raycast import View
 from regkit.system.arrays import Array, Indices
-from regkit_synthesis.cameras.raycast import View
 
 _SIDES = ((0, 1), (0, -1), (1, 0), (-1, 0))
 
