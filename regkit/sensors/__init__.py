@@ -2,12 +2,14 @@
 
 from regkit.sensors.cameras import CAMERAS, CameraChoice, CameraName, camera_of
 from regkit.sensors.raycast import RayCaster, View, nearest, ray_cast, stored
+from regkit.sensors.sensor import Sensor
 
 __all__ = [
     "CAMERAS",
     "CameraChoice",
     "CameraName",
     "RayCaster",
+    "Sensor",
     "View",
     "camera_of",
     "nearest",
