@@ -17,10 +17,8 @@ def closed(faces: Indices) -> Indices:
     Args:
         faces: Vertex indices of the triangles, counter-clockwise seen from outside.
     """
-    edges = {
-        (a, b) for face in faces.tolist() for a, b in zip(face, face[1:] + face[:1], strict=True)
-    }
-    after = dict(edge for edge in edges if edge[::-1] not in edges)
+    edges = {(face[corner - 1], face[corner]) for face in faces.tolist() for corner in range(3)}
+    after = dict(edge for edge in sorted(edges) if edge[::-1] not in edges)
     lids: list[tuple[int, int, int]] = []
     while after:
         first, last = min(after.items())

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
+from numpy.typing import NDArray
 
 from regkit.system.arrays import Array, Indices
 from regkit.system.brief import Brief
@@ -32,7 +33,7 @@ class Pace(Brief):
 
     starts: Array
     durations: Array
-    still: Array
+    still: NDArray[np.bool_]
 
     @classmethod
     def sampled(cls, random: np.random.Generator, parts: int, frames: int) -> Self:
@@ -52,7 +53,7 @@ class Pace(Brief):
     @property
     def keys(self) -> int:
         """Number K of keys."""
-        return self.starts.shape[1] + 1
+        return int(self.starts.shape[1]) + 1
 
     def at(self, times: Array) -> tuple[Indices, Array]:
         """Returns the key that each part has left, (T, P), and the share of its way to the next.

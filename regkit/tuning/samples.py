@@ -82,7 +82,7 @@ class Sampler:
             ConfigError: If the rendered body has other joints, or no marker of the same name.
             DataError: If the camera's file is missing or invalid.
         """
-        _ = self.names, self._transfer, self._caster
+        _ = self._transfer, self.names, self._caster
 
     @cached_property
     def names(self) -> tuple[str, ...]:

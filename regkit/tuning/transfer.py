@@ -9,12 +9,12 @@ import numpy as np
 
 from regkit.body import Body
 from regkit.skeleton import Pose, Skeleton
-from regkit.system.arrays import Indices
+from regkit.system.arrays import Array, Indices
 from regkit.system.brief import Brief
 from regkit.system.errors import ConfigError
 
 PARALLEL = 1e-3
-"""Greatest difference of a component of two hinges' axes that count as the same."""
+"""Greatest difference of a component of axes that count as the same."""
 
 
 @dataclass(frozen=True)
@@ -36,10 +36,12 @@ class PoseTransfer(Brief):
         """Returns the transfer from the poses of one body to those of another.
 
         Raises:
-            ConfigError: If their joints differ in name or type, or a hinge in its axis.
+            ConfigError: If their joints differ in name or type, a hinge in its axis, or a segment
+                in its rotation at rest.
         """
         ours, others = source.skeleton, goal.skeleton
         _check_names(source, goal)
+        _check_rest(source, goal)
         balls = [ours.ball_names.index(name) for name in others.ball_names]
         hinges = [ours.hinge_names.index(name) for name in others.hinge_names]
         for name, own, other in zip(
@@ -82,5 +84,20 @@ def _check_names(source: Body, goal: Body) -> None:
         )
 
 
-def _told(axis: Indices) -> str:
+def _check_rest(source: Body, goal: Body) -> None:
+    """Refuses bodies whose segments are rotated differently at rest."""
+    at_rest = [
+        dict(zip(body.skeleton.names, body.place(body.skeleton.rest()).transforms, strict=True))
+        for body in (source, goal)
+    ]
+    for name, transform in at_rest[0].items():
+        if np.abs(transform[:3, :3] - at_rest[1][name][:3, :3]).max() > PARALLEL:
+            raise ConfigError(
+                f"the frame of the segment '{name}' is rotated at rest, compared between the "
+                f"templates '{source.name}' and '{goal.name}'; poses are transferred between "
+                "templates whose frames are parallel at rest"
+            )
+
+
+def _told(axis: Array) -> str:
     return f"[{', '.join(f'{value:.3g}' for value in axis)}]"

@@ -107,8 +107,9 @@ class Views:
         least, most = self.filling
         extent, front = np.ptp(points, axis=(0, 1)), -float(points[..., 2].min())
         place = np.array([0.0, 0.0, extent[2] + (extent[:2] * focal / size).max()])
+        axes = np.ascontiguousarray(np.moveaxis(points, -1, 0))
         for _ in range(STEPS):
-            lows, highs = _bounds(camera, points + place)
+            lows, highs = _bounds(camera, axes, place)
             low, high = lows.min(axis=0), highs.max(axis=0)
             filled = float(((high - low) / size).max())
             smallest = float(((highs - lows) / size).max(axis=1).min())
@@ -136,7 +137,12 @@ def _anywhere(random: np.random.Generator, opening: Array | None) -> Array:
             return rotation
 
 
-def _bounds(camera: Camera, points: Array) -> tuple[Array, Array]:
-    """Returns the least and greatest pixel coordinates (T, 2) of points (T, N, 3) [m]."""
-    pixels = camera.projected(points.reshape(-1, 3)).reshape(*points.shape[:2], 2)
-    return pixels.min(axis=1), pixels.max(axis=1)
+def _bounds(camera: Camera, axes: Array, place: Array) -> tuple[Array, Array]:
+    """Returns the least and greatest pixel coordinates (T, 2) of placed points (3, T, N) [m]."""
+    x, y, z = axes
+    inverse = 1.0 / (z + place[2])
+    columns, rows = (x + place[0]) * inverse, (y + place[1]) * inverse
+    focal, centre = np.array([camera.fx, camera.fy]), np.array([camera.cx, camera.cy])
+    lows = np.column_stack([columns.min(axis=1), rows.min(axis=1)])
+    highs = np.column_stack([columns.max(axis=1), rows.max(axis=1)])
+    return focal * lows + centre, focal * highs + centre

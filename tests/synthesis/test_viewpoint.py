@@ -8,7 +8,7 @@ from pydantic import ValidationError
 
 from regkit.geometry.camera import Camera
 from regkit.geometry.rigid import transformed
-from regkit_synthesis.recordings.scene import Sensor
+from regkit.sensors import Sensor
 from regkit_synthesis.recordings.take import Take
 from regkit_synthesis.viewpoint import Viewpoint
 

@@ -16,6 +16,8 @@ def step_across(depth: Array) -> Array:
     The step is infinite next to an invalid pixel, and zero at an invalid pixel. Pixels outside of
     the image are not neighbours.
     """
+    whole, shown = np.zeros(depth.shape), _shown(depth)
+    depth = depth[shown]
     inside = np.where(depth > 0.0, depth, np.inf)
     padded = np.pad(inside, 1, mode="edge")
     rows, columns = depth.shape
@@ -25,7 +27,17 @@ def step_across(depth: Array) -> Array:
             other = padded[1 + down : 1 + down + rows, 1 + right : 1 + right + columns]
             step = other - inside
             largest = np.where(np.abs(step) > np.abs(largest), step, largest)
-    return np.where(depth > 0.0, largest, 0.0)
+    whole[shown] = np.where(depth > 0.0, largest, 0.0)
+    return whole
+
+
+def _shown(depth: Array) -> tuple[slice, slice]:
+    """Returns the rows and columns that hold all valid pixels (H, W) and their neighbours."""
+    seen = depth > 0.0
+    places = (np.flatnonzero(seen.any(axis=axis)) for axis in (1, 0))
+    return tuple(  # type: ignore[return-value]
+        slice(max(at[0] - 1, 0), at[-1] + 2) if len(at) else slice(0, 1) for at in places
+    )
 
 
 def displaced(view: View, shifts: Indices) -> View:
