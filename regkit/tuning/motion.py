@@ -28,6 +28,9 @@ from regkit.tuning.pace import Pace
 TRIES = 300
 """Number of motions that are drawn until one does not intersect itself."""
 
+CHOICE = 3
+"""Number of poses that are drawn for each that a motion goes through."""
+
 AGREEMENT = 0.2
 """Standard deviation of a limb's share of two poses about that of the whole body."""
 
@@ -91,7 +94,17 @@ class Movement:
             slower *= 0.98 * most / speed
 
     def _keys(self, random: np.random.Generator, count: int) -> Pose:
-        """Returns the poses (K) that the parts go through, each a mixture of two."""
+        """Returns the poses (K) that the parts go through.
+
+        Poses that do not intersect themselves are preferred, so that few motions are in vain.
+        """
+        drawn = self._mixed(random, CHOICE * count)
+        posed = self.body.place(Pose(np.eye(4), drawn.balls, drawn.hinges))
+        kept = np.argsort(~self._overlap.allowed(posed.transforms), kind="stable")[:count]
+        return Pose(self._roots(random, count), drawn.balls[kept], drawn.hinges[kept])
+
+    def _mixed(self, random: np.random.Generator, count: int) -> Pose:
+        """Returns poses (K) of the joints, each a mixture of two."""
         balls, hinges = sampled_poses(self.body, random, 2 * count)
         whole = random.beta(0.5, 0.5, size=(count, 1))
         share = whole + AGREEMENT * random.normal(size=(count, self._parts))
@@ -99,7 +112,7 @@ class Movement:
         mixed = _between(balls[:count], balls[count:], share[:, self._of_balls, None])
         of_hinges = share[:, self._of_hinges]
         angles = hinges[:count] + of_hinges * (hinges[count:] - hinges[:count])
-        return Pose(self._roots(random, count), mixed, angles)
+        return Pose(np.eye(4), mixed, angles)
 
     def _roots(self, random: np.random.Generator, count: int) -> Array:
         """Returns T_body_root (K, 4, 4)."""

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
+from regkit.body import BodyDescription
 from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.skeleton import Pose
@@ -98,12 +97,22 @@ def test_overlap_does_not_depend_on_the_place(body):
     assert np.allclose(one, other, atol=1e-9)
 
 
-def test_a_body_that_always_intersects_itself_is_told(human):
-    thick = replace(human.capsules, radii=np.where(human.capsules.radii < 0.05, 0.3, 0.02))
-    always = replace(human, capsules=thick, stances=())
-    movement = Movement(always)
-    # What overlaps at rest may overlap as deeply; a limit below that cannot be kept.
-    overlap = SelfOverlap.of(always)
-    movement.__dict__["_overlap"] = replace(overlap, deepest=overlap.deepest - 2.0)
-    with pytest.raises(ConfigError, match="intersects itself"):
-        movement.sampled(np.random.default_rng(0), 2)
+def test_a_body_that_always_intersects_itself_is_told():
+    rod = {"start": [0, 0, 0], "end": [0, 1, 0], "radius": 0.1}
+
+    def hinged(parent, limits):
+        joint = {"type": "hinge", "axis": "x", "limits_deg": limits}
+        return {"parent": parent, "offset": [0, 1, 0], "joint": joint, "capsules": [rod]}
+
+    # The second rod lies beside the first one, and the third goes back through it.
+    segments = {
+        "first": {"joint": {"type": "free"}, "capsules": [rod]},
+        "second": hinged("first", [179, 180]),
+        "third": hinged("second", [-180, -179]),
+    }
+    size = {"name": "length", "value": 1.0, "range": [1.0, 1.0]}
+    folded = BodyDescription.model_validate(
+        {"title": "Folded.", "size": size, "segments": segments}
+    )
+    with pytest.raises(ConfigError, match="'folded' intersects itself"):
+        Movement(folded.body("folded", 1.0)).sampled(np.random.default_rng(0), 2)
