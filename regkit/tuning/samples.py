@@ -79,9 +79,16 @@ class Sampler:
         """Validates the bodies and the camera.
 
         Raises:
-            ConfigError: If the rendered body has other joints, or no marker of the same name.
+            ConfigError: If the body has no capsules, or the rendered one has other joints, or no
+                marker of the same name.
             DataError: If the camera's file is missing or invalid.
         """
+        for body in (self.body, self._shown):
+            if not len(body.capsules):
+                raise ConfigError(
+                    f"the template '{body.name}' has no capsules, by which its parts keep apart; "
+                    "give its segments capsules"
+                )
         _ = self._transfer, self.names, self._caster
 
     @cached_property

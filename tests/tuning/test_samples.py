@@ -10,6 +10,7 @@ import pytest
 
 from regkit.sensors import CAMERAS
 from regkit.system.errors import ConfigError
+from regkit.testing.samples import lump
 from regkit.tuning import Sampler, Views
 from regkit.tuning.surface import rendered_surface
 from regkit_plugins.preprocessors.points import PointsPreprocessor
@@ -37,7 +38,7 @@ def samples(sampler):
 
 
 def test_sample_is_that_of_its_seed_and_index(sampler, samples):
-    again = pickle.loads(pickle.dumps(replace(sampler)))
+    again = pickle.loads(pickle.dumps(sampler))
     assert same(again.sample(2), samples[2])
     assert not same(samples[1], samples[2])
     assert not same(replace(sampler, seed=5).sample(2), samples[2])
@@ -150,3 +151,8 @@ def test_body_without_a_common_marker_is_refused(human):
     markers = replace(human.markers, names=names)
     with pytest.raises(ConfigError, match="no marker"):
         Sampler(human, POINTS, rendered=replace(human, markers=markers))
+
+
+def test_body_without_capsules_is_refused():
+    with pytest.raises(ConfigError, match="'lump' has no capsules"):
+        Sampler(lump(), POINTS)

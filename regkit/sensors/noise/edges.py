@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from regkit.sensors.raycast import View
 from regkit.system.arrays import Array, Indices
@@ -34,10 +35,13 @@ def step_across(depth: Array) -> Array:
 def _shown(depth: Array) -> tuple[slice, slice]:
     """Returns the rows and columns that hold all valid pixels (H, W) and their neighbours."""
     seen = depth > 0.0
-    places = (np.flatnonzero(seen.any(axis=axis)) for axis in (1, 0))
-    return tuple(  # type: ignore[return-value]
-        slice(max(at[0] - 1, 0), at[-1] + 2) if len(at) else slice(0, 1) for at in places
-    )
+    return _around(seen, 1), _around(seen, 0)
+
+
+def _around(seen: NDArray[np.bool_], axis: int) -> slice:
+    """Returns the part of an image's side that holds all true pixels, and one beside them."""
+    places = np.flatnonzero(seen.any(axis=axis))
+    return slice(max(places[0] - 1, 0), places[-1] + 2) if len(places) else slice(0, 1)
 
 
 def displaced(view: View, shifts: Indices) -> View:
