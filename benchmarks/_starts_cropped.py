@@ -19,8 +19,8 @@ from _starts_views import seen, surface, view
 from regkit.geometry.rigid import rigid, transformed
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.geometry.skinned_mesh import SkinnedMesh
+from regkit.sensors.raycast import RayCaster
 from regkit.system.arrays import Array, Indices
-from regkit_synthesis.cameras.raycast import RayCaster
 from regkit_synthesis.recordings.scene import SR4000
 
 SHARES = (65, 50)

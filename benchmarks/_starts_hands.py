@@ -26,10 +26,10 @@ from regkit_plugins.templates.hand import with_forearm as with_part
 from regkit_synthesis import assets
 from regkit_synthesis.bodies.forearm import with_forearm
 from regkit_synthesis.bodies.hand import HandBody
-from regkit_synthesis.cameras.viewpoint import Viewpoint
 from regkit_synthesis.hands.config import GesturesConfig
 from regkit_synthesis.recordings.scene import SR305
 from regkit_synthesis.templates import right_hand_template
+from regkit_synthesis.viewpoint import Viewpoint
 
 ORIENTATIONS = 60
 """Number of orientations, the same for all gestures of a set."""

@@ -10,10 +10,11 @@ from _starts_shots import Shots
 
 from regkit.geometry.rotation import to_matrix
 from regkit.geometry.skinned_mesh import SkinnedMesh
+from regkit.sensors import Sensor
 from regkit.system.arrays import Array
 from regkit_synthesis.bodies.landmarks import Landmark, some_vertices
-from regkit_synthesis.cameras.viewpoint import Viewpoint
-from regkit_synthesis.recordings.scene import SR4000, Scene, Sensor
+from regkit_synthesis.recordings.scene import SR4000, Scene
+from regkit_synthesis.viewpoint import Viewpoint
 
 
 def view(heading: float, elevation: float, roll: float, surface: Array) -> Array:

@@ -46,6 +46,8 @@ autodoc_type_aliases = {
         "Array",
         "ArrayLike",
         "Indices",
+        "CameraChoice",
+        "NoiseChoice",
         "Choice",
         "Choices",
         "Cloud",
@@ -73,7 +75,7 @@ nitpick_ignore_regex = [
     (
         r"py:class",
         r"TypeAliasForwardRef|ArrayLike|Beginning|Choices?|Cloud|Deviation|Frames|Intrinsics|Measured"
-        r"|OneFrame"
+        r"|OneFrame|CameraChoice|NoiseChoice"
         r"|Reference|Vector|Position|Rotation|FrameCount|Length|Count|regkit\.body\.verdict\.Annotated",
     ),
     (r"py:class", r"Figure|Path|Field|FieldInfo|NoneType|Ge|Gt|Le|\d+\.\d|array|(dict|tuple)\[.*"),
@@ -87,6 +89,7 @@ nitpick_ignore_regex = [
     (r"py:class", r"regkit\.tracking\.(live|recorder|rows)\..*"),
     # Tables of fields describe the content of YAML files.
     (r"py:class", r"(regkit\.(body|skeleton)\..*\.)?\w+Description"),
+    (r"py:class", r"regkit\.sensors\.noise\..*"),
     # Not part of the public interface.
     (r"py:class", r"regkit\.api\.tables\.Summary|regkit\.calibration\.\w+\.\w+"),
     (r"py:class", r"regkit\.body\.proportions\.Proportions"),

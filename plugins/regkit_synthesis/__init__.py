@@ -7,8 +7,7 @@ The rooms, from the ground up:
 - ``motion``: where the motion of a figure comes from, and how it is played.
 - ``hands``: recorded poses of a hand, and gestures that run through them.
 - ``bodies``: rigged bodies and hands, and how they follow a motion.
-- ``cameras``: intrinsics, viewpoints, and what a camera sees of a mesh.
-- ``noise``: what a depth camera makes of that.
+- ``viewpoint``: where the camera of a motion is.
 - ``rooms``: what stands around a body.
 - ``recordings``: takes, scenes, and the depth recordings that are rendered of them.
 - ``templates``: the makers of the templates that ship.

@@ -9,8 +9,9 @@ import pytest
 
 from regkit.geometry.camera import Camera
 from regkit.geometry.rotation import vector_to_matrix
+from regkit.sensors import Sensor
 from regkit_synthesis.recordings.digest import digest
-from regkit_synthesis.recordings.scene import BODY, Sensor
+from regkit_synthesis.recordings.scene import BODY
 from regkit_synthesis.recordings.take import Take
 from regkit_synthesis.rooms import ROOMS, Box, Chair, Person, Region, Table
 

@@ -14,10 +14,9 @@ from places import DATA
 from ruamel.yaml import YAML
 
 from regkit.geometry.camera import Camera
-from regkit.system.errors import DataError, DependencyError
+from regkit.system.errors import DataError
 from regkit_synthesis.__main__ import main
 from regkit_synthesis.assets import ASSETS
-from regkit_synthesis.cameras.raycast import ray_cast
 from regkit_synthesis.recordings.recording import DepthRecording
 from regkit_synthesis.recordings.scene import SR4000
 from regkit_synthesis.samples.depth import hand_gestures, human_walk
@@ -61,30 +60,6 @@ def test_assets_of_others_have_the_licences_beside_them_that_the_table_names():
     # That of DeepMimic, whose clips pybullet ships, is not pybullet's.
     clips = {path.name for path in (ASSETS / "humanoid_pybullet").glob("LICENSE*")}
     assert clips == {"LICENSE.txt", "LICENSE_DeepMimic_MIT"}
-
-
-def test_ray_cast_of_a_slanted_plane_is_exact():
-    # The plane z = 2 + x / 2, larger than the image.
-    corners = np.array([[-9, -9, -2.5], [3, -9, 3.5], [3, 9, 3.5], [-9, 9, -2.5]], dtype=float)
-    depth = ray_cast(corners, np.array([[0, 1, 2], [0, 2, 3]]), SMALL)
-    expected = 2.0 / (1.0 - SMALL.rays()[..., 0] / 2.0)
-    assert np.allclose(depth, expected, atol=1e-12)
-
-
-def test_ray_cast_sees_the_nearest_and_nothing_beside_it():
-    far = np.array([[-9, -9, 4], [9, -9, 4], [0, 9, 4]], dtype=float)
-    near = np.array([[-0.2, -0.2, 1], [0.2, -0.2, 1], [0, 0.2, 1]], dtype=float)
-    both = np.concatenate([far, near])
-    faces = np.arange(6).reshape(2, 3)
-    assert ray_cast(both, faces, SMALL)[7, 10] == pytest.approx(1.0)
-    assert ray_cast(both, faces, SMALL)[15, 0] == pytest.approx(4.0)
-    assert ray_cast(near, faces[:1], SMALL)[15, 0] == 0.0
-
-
-def test_missing_open3d_is_answered_with_the_command_to_install_it(monkeypatch):
-    monkeypatch.setitem(sys.modules, "open3d", None)
-    with pytest.raises(DependencyError, match="pip install open3d"):
-        ray_cast(np.eye(3), np.array([[0, 1, 2]]), SMALL)
 
 
 def test_written_recording_reads_back(tmp_path):

@@ -8,10 +8,9 @@ from pydantic import ValidationError
 
 from regkit.geometry.camera import Camera
 from regkit.geometry.rigid import transformed
-from regkit_synthesis.cameras.raycast import View, nearest
-from regkit_synthesis.cameras.viewpoint import Viewpoint
-from regkit_synthesis.recordings.scene import Sensor
+from regkit.sensors import Sensor
 from regkit_synthesis.recordings.take import Take
+from regkit_synthesis.viewpoint import Viewpoint
 
 SQUARE = Camera(width=80, height=80, fx=100.0, fy=100.0, cx=39.5, cy=39.5)
 WIDE = Camera(width=176, height=144, fx=231.0, fy=220.0, cx=90.0, cy=70.0)
@@ -54,12 +53,3 @@ def test_camera_from_straight_above_looks_down():
     assert np.allclose(T[2, :3], [0.0, 0.0, -1.0])
     with pytest.raises(ValidationError, match="less than or equal to 90"):
         Viewpoint(elevation_deg=91.0)
-
-
-def test_nearest_of_several_views_is_seen():
-    one = View(np.array([[0.0, 2.0, 3.0, 0.0]]), np.array([[1.0, 0.2, 0.3, 1.0]]))
-    two = View(np.array([[4.0, 1.0, 3.0, 0.0]]), np.array([[0.5, 0.6, 0.7, 1.0]]))
-    common, index = nearest([one, two])
-    assert common.depth.tolist() == [[4.0, 1.0, 3.0, 0.0]]
-    assert common.cosines.tolist() == [[0.5, 0.6, 0.3, 1.0]]
-    assert index.tolist() == [[1, 1, 0, -1]]

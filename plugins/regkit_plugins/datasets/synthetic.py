@@ -16,17 +16,17 @@ from regkit.config.model import misplaced
 from regkit.config.quantities import Rate, Seed
 from regkit.interfaces import Dataset, Recording
 from regkit.observation import Frame, Truth
+from regkit.sensors import CameraChoice, Sensor
+from regkit.sensors.noise import NoiseChoice, noise_of
 from regkit.system.errors import DataError, RegkitError
 from regkit_plugins.datasets.depth import DepthFolders
 from regkit_synthesis.bodies.hand import ShippedHand
-from regkit_synthesis.cameras.cameras import CameraChoice, camera_of
 from regkit_synthesis.hands.config import GesturesConfig
-from regkit_synthesis.noise import NOISES, DepthNoise, NoiseChoice, noise_of
 from regkit_synthesis.recordings.cache import RecordingCache
 from regkit_synthesis.recordings.defaults import completed
 from regkit_synthesis.recordings.digest import digest
 from regkit_synthesis.recordings.recording import DepthRecording
-from regkit_synthesis.recordings.scene import Scene, Sensor
+from regkit_synthesis.recordings.scene import Scene
 from regkit_synthesis.recordings.take import Take
 from regkit_synthesis.rooms import RoomChoice
 
@@ -110,13 +110,7 @@ class Synthetic(Dataset):
         Raises:
             DataError: If the camera's file is missing or invalid.
         """
-        given = camera_of(self.camera)
-        return Sensor(given.camera(), self._noise(), given.depth_scale)
-
-    def _noise(self) -> DepthNoise:
-        if self.noise is not None:
-            return noise_of(self.noise)
-        return NOISES[self.camera if isinstance(self.camera, str) else "none"]
+        return Sensor.of(self.camera, self.noise)
 
 
 @dataclass(frozen=True)

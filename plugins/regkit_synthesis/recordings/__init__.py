@@ -2,7 +2,7 @@
 
 from regkit_synthesis.recordings.cache import RecordingCache
 from regkit_synthesis.recordings.recording import DepthRecording
-from regkit_synthesis.recordings.scene import FPS, SR305, SR4000, Scene, Sensor
+from regkit_synthesis.recordings.scene import FPS, SR305, SR4000, Scene
 from regkit_synthesis.recordings.take import Take
 
 __all__ = [
@@ -12,6 +12,5 @@ __all__ = [
     "DepthRecording",
     "RecordingCache",
     "Scene",
-    "Sensor",
     "Take",
 ]

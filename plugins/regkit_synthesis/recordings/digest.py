@@ -8,7 +8,7 @@ from dataclasses import asdict
 
 import numpy as np
 
-from regkit_synthesis.noise import noise_of
+from regkit.sensors.noise import noise_of
 from regkit_synthesis.recordings.scene import Scene
 
 RENDERER = 1

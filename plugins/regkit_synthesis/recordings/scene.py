@@ -8,14 +8,11 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from regkit.geometry.camera import Camera
 from regkit.geometry.skinned_mesh import SkinnedMesh
+from regkit.sensors import CAMERAS, RayCaster, Sensor, View, nearest
 from regkit.system.arrays import Array
 from regkit.system.progress import steps
 from regkit_synthesis.bodies.landmarks import Landmark, placed, some_vertices
-from regkit_synthesis.cameras.cameras import CAMERAS
-from regkit_synthesis.cameras.raycast import RayCaster, View, nearest, stored
-from regkit_synthesis.noise import DepthNoise, noise_of
 from regkit_synthesis.recordings.recording import DepthRecording
 from regkit_synthesis.rooms.surface import Surface
 
@@ -23,21 +20,6 @@ FPS = 30.0
 
 BODY = 1
 """Label of the pixels that show the body."""
-
-
-@dataclass(frozen=True)
-class Sensor:
-    """A depth camera.
-
-    Attributes:
-        camera: Intrinsics.
-        noise: Noise model, or the standard deviation of constant Gaussian noise [m].
-        depth_scale: Stored units per metre.
-    """
-
-    camera: Camera
-    noise: DepthNoise | float
-    depth_scale: float
 
 
 SR4000 = Sensor(CAMERAS["sr4000"].camera(), 0.008, CAMERAS["sr4000"].depth_scale)
@@ -148,16 +130,15 @@ class Scene:
         Raises:
             DependencyError: If Open3D cannot be loaded.
         """
-        noise, scale = noise_of(self.sensor.noise), self.sensor.depth_scale
         what = f"rendering {self.name}"
         images = [
-            stored(noise.applied(view, random(frame)), scale)
+            self.sensor.image(view, random(frame))
             for frame, view in enumerate(steps(self.views(), what, self.frames))
         ]
         return DepthRecording(
             name=self.name,
             fps=self.fps,
-            depth_scale=scale,
+            depth_scale=self.sensor.depth_scale,
             source=self.source,
             licence=self.licence,
             camera=self.sensor.camera,

@@ -10,16 +10,17 @@ from pydantic import Field
 
 from regkit.config.model import Model
 from regkit.geometry.skinned_mesh import SkinnedMesh
+from regkit.sensors import Sensor
+from regkit.sensors.noise import NoiseChoice
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError
 from regkit_synthesis.bodies.bodies import ShippedBody
 from regkit_synthesis.bodies.choice import Body, Motion, chosen_body, chosen_motion
 from regkit_synthesis.bodies.hand import ShippedHand
 from regkit_synthesis.bodies.landmarks import Landmark, some_vertices
-from regkit_synthesis.cameras.viewpoint import Viewpoint
-from regkit_synthesis.noise import NoiseChoice
-from regkit_synthesis.recordings.scene import Scene, Sensor
+from regkit_synthesis.recordings.scene import Scene
 from regkit_synthesis.rooms import Part, Region, RoomChoice, RoomName, Surface, room_of
+from regkit_synthesis.viewpoint import Viewpoint
 
 _SPARSE = 8
 """Stride of the vertices that sample the body's extent, some centimetres apart."""

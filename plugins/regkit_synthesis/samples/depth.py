@@ -7,12 +7,12 @@ from dataclasses import replace
 import numpy as np
 
 from regkit_synthesis.bodies.hand import ShippedHand
-from regkit_synthesis.cameras.viewpoint import Viewpoint
 from regkit_synthesis.hands.config import GesturesConfig, TimedPose
 from regkit_synthesis.motion.config import ClipConfig
 from regkit_synthesis.recordings.recording import DepthRecording
 from regkit_synthesis.recordings.scene import FPS, SR4000
 from regkit_synthesis.recordings.take import Take
+from regkit_synthesis.viewpoint import Viewpoint
 
 _WALK = Take(
     motion=ClipConfig(name="walk", way=0.2, ahead=False, grounded=False),

@@ -13,10 +13,10 @@ import numpy as np
 from regkit.geometry.camera import Camera
 from regkit.geometry.rigid import rigid, transformed
 from regkit.geometry.rotation import vector_to_matrix
+from regkit.sensors.raycast import ray_cast
 from regkit.system.arrays import Array
 from regkit.system.files import write_arrays, write_text
 from regkit_synthesis import assets
-from regkit_synthesis.cameras.raycast import ray_cast
 
 FRAMES, TURN = 8, np.radians(12.0)
 """How many clouds there are, and by how much the figure turns from each to the next [rad]."""

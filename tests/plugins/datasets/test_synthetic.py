@@ -7,10 +7,10 @@ import pytest
 
 from regkit.config.document import Document
 from regkit.geometry.camera import Camera
+from regkit.sensors.cameras import CAMERAS
 from regkit.system.errors import ConfigError, RegkitError
 from regkit.system.files import write_text
 from regkit_plugins.datasets.synthetic import Synthetic
-from regkit_synthesis.cameras.cameras import CAMERAS
 
 TAKES = """\
 kind: synthetic

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
+from regkit.sensors.raycast import View
 from regkit.system.arrays import Array, Indices
-from regkit_synthesis.cameras.raycast import View
 
 _SIDES = ((0, 1), (0, -1), (1, 0), (-1, 0))
 
@@ -16,6 +17,8 @@ def step_across(depth: Array) -> Array:
     The step is infinite next to an invalid pixel, and zero at an invalid pixel. Pixels outside of
     the image are not neighbours.
     """
+    whole, shown = np.zeros(depth.shape), _shown(depth)
+    depth = depth[shown]
     inside = np.where(depth > 0.0, depth, np.inf)
     padded = np.pad(inside, 1, mode="edge")
     rows, columns = depth.shape
@@ -25,7 +28,20 @@ def step_across(depth: Array) -> Array:
             other = padded[1 + down : 1 + down + rows, 1 + right : 1 + right + columns]
             step = other - inside
             largest = np.where(np.abs(step) > np.abs(largest), step, largest)
-    return np.where(depth > 0.0, largest, 0.0)
+    whole[shown] = np.where(depth > 0.0, largest, 0.0)
+    return whole
+
+
+def _shown(depth: Array) -> tuple[slice, slice]:
+    """Returns the rows and columns that hold all valid pixels (H, W) and their neighbours."""
+    seen = depth > 0.0
+    return _around(seen, 1), _around(seen, 0)
+
+
+def _around(seen: NDArray[np.bool_], axis: int) -> slice:
+    """Returns the part of an image's side that holds all true pixels, and one beside them."""
+    places = np.flatnonzero(seen.any(axis=axis))
+    return slice(max(places[0] - 1, 0), places[-1] + 2) if len(places) else slice(0, 1)
 
 
 def displaced(view: View, shifts: Indices) -> View:

@@ -9,9 +9,9 @@ from pydantic import Field
 
 from regkit.config.model import Model
 from regkit.config.quantities import Length
+from regkit.sensors.noise.edges import displaced, step_across
+from regkit.sensors.raycast import View
 from regkit.system.arrays import Array
-from regkit_synthesis.cameras.raycast import View
-from regkit_synthesis.noise.edges import displaced, step_across
 
 NotNegative = Annotated[float, Field(ge=0.0, le=1e4)]
 Share = Annotated[float, Field(ge=0.0, le=1.0)]

@@ -7,8 +7,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag
 
-from regkit_synthesis.noise.model import DepthNoise, plain
-from regkit_synthesis.noise.parts import (
+from regkit.sensors.noise.model import DepthNoise, plain
+from regkit.sensors.noise.parts import (
     AxialNoise,
     FlyingPixels,
     LateralNoise,

@@ -1,4 +1,4 @@
-"""Cameras of synthetic depth images: known models, files, or given intrinsics."""
+"""Depth cameras: known models, files, or given intrinsics."""
 
 from __future__ import annotations
 

@@ -5,17 +5,17 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from regkit_synthesis.cameras.cameras import CAMERAS
-from regkit_synthesis.cameras.raycast import RayCaster, View, stored
-from regkit_synthesis.noise import NOISES, DepthNoise, noise_of
-from regkit_synthesis.noise.edges import step_across
-from regkit_synthesis.noise.model import quantised
-from regkit_synthesis.noise.parts import (
+from regkit.sensors.cameras import CAMERAS
+from regkit.sensors.noise import NOISES, DepthNoise, noise_of
+from regkit.sensors.noise.edges import step_across
+from regkit.sensors.noise.model import quantised
+from regkit.sensors.noise.parts import (
     AxialNoise,
     FlyingPixels,
     LateralNoise,
     MissingPixels,
 )
+from regkit.sensors.raycast import View, stored
 
 SHAPE = (240, 320)
 
@@ -179,21 +179,3 @@ def test_a_part_does_the_same_without_the_others():
 def test_stored_depths_are_whole_units_and_out_of_range_is_missing():
     depth = np.array([0.0, 0.0002, 1.2344, 65.6, 70.0])
     assert stored(depth, 1000.0).tolist() == [0, 0, 1234, 0, 0]
-
-
-def test_view_of_a_slanted_plane_has_its_angle_of_incidence():
-    camera = CAMERAS["sr4000"].camera()
-    corners = np.array([[-9, -9, -2.5], [3, -9, 3.5], [3, 9, 3.5], [-9, 9, -2.5]], dtype=float)
-    view = RayCaster(camera).view(corners, np.array([[0, 1, 2], [0, 2, 3]]))
-    rays = camera.rays() / np.linalg.norm(camera.rays(), axis=2, keepdims=True)
-    normal = np.array([0.5, 0.0, -1.0]) / np.sqrt(1.25)  # The plane is z = 2 + x / 2.
-    assert np.allclose(view.cosines, np.abs(rays @ normal), atol=1e-6)
-
-
-def test_view_is_that_of_the_whole_image_when_a_mesh_is_partly_behind_or_beside():
-    camera = CAMERAS["sr4000"].camera()
-    faces = np.array([[0, 1, 2]])
-    beside = np.array([[5.0, 0, 2], [6, 0, 2], [5, 1, 2]])
-    assert not RayCaster(camera).view(beside, faces).depth.any()
-    through = np.array([[0.0, 0, -1], [0.3, 0.2, 4], [-0.3, 0.2, 4]])
-    assert RayCaster(camera).view(through, faces).depth.any()

@@ -8,14 +8,14 @@ import numpy as np
 from pydantic import Field
 
 from regkit.config.model import Model
-from regkit.system.arrays import Array
-from regkit_synthesis.cameras.raycast import View
-from regkit_synthesis.noise.parts import (
+from regkit.sensors.noise.parts import (
     AxialNoise,
     FlyingPixels,
     LateralNoise,
     MissingPixels,
 )
+from regkit.sensors.raycast import View
+from regkit.system.arrays import Array
 
 
 class DepthNoise(Model):
