@@ -45,11 +45,11 @@ class Proportions:
             for name, segment in template.segments.items()
         }
         shapes = {
-            kind: {
+            key: {
                 name: tuple(one.deformed(stretches[name]) for one in several)
                 for name, several in by_segment.items()
             }
-            for kind, by_segment in template.shapes.items()
+            for key, by_segment in template.shapes.items()
         }
         subject = template.model_copy(update={"segments": segments, "shapes": shapes, "mesh": None})
         size = template.size.value * height(subject) / height(template)

@@ -50,8 +50,8 @@ class UncheckedParameters(ShapeParameters):
     Only the shape model itself can check, deform or fit them.
     """
 
-    kind: str
-    """Kind of the shape model."""
+    key: str
+    """Key of the list in ``shapes``: the shape model's kind, and the name of a named list."""
     reason: str
     """Reason why it cannot be loaded."""
     given: Mapping[str, Any]
@@ -94,7 +94,7 @@ class UncheckedParameters(ShapeParameters):
             ConfigError: Always.
         """
         raise ConfigError(
-            f"parameters of '{self.kind}' cannot be changed or fitted without their shape model "
+            f"parameters of '{self.key}' cannot be changed or fitted without their shape model "
             f"({self.reason}); install it, or remove them from the template",
-            place=f"shapes.{self.kind}",
+            place=f"shapes.{self.key}",
         )

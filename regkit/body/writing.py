@@ -70,8 +70,8 @@ def template_text(body: BodyDescription, opening: str, comments: Mapping[str, st
         lines += [f"  {key(name)}", *_stance(pose)]
     if body.shapes:
         lines += ["", *_comment(_SHAPES), "shapes:"]
-    for kind, by_segment in body.shapes.items():
-        lines.append(f"  {key(kind)} # {sum(map(len, by_segment.values()))} in all")
+    for listed, by_segment in body.shapes.items():
+        lines.append(f"  {key(listed)} # {sum(map(len, by_segment.values()))} in all")
         for name, several in by_segment.items():
             lines.append(f"    {key(name)}")
             lines += [f"      - {one.yaml()}" for one in several]

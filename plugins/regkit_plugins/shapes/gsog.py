@@ -8,13 +8,13 @@ import numpy as np
 
 from regkit.body import Body, EllipsoidParameters, ShapeParameters, ellipsoids
 from regkit.gaussians.surface import Surface, shown
-from regkit.interfaces import ShapeModel
+from regkit.interfaces import ListedShapeModel
 from regkit.primitives import Gaussians, Primitives
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError
 
 
-class GeneralizedSumOfGaussians(ShapeModel):
+class GeneralizedSumOfGaussians(ListedShapeModel):
     """Generalized sum of Gaussians, eqs. 2 and 3.
 
     The Gaussians are those that the template lists. If it lists none, each of its capsules becomes
@@ -32,9 +32,9 @@ class GeneralizedSumOfGaussians(ShapeModel):
         """Returns the template's Gaussians, or those with the moments of its capsules.
 
         Raises:
-            ConfigError: If the template has neither Gaussians nor capsules.
+            ConfigError: If the template has neither Gaussians nor capsules, or lacks a named list.
         """
-        listed = body.shapes.get(self.kind)
+        listed = self.listed(body)
         gaussians = _moments_of(body) if listed is None else Gaussians(*ellipsoids(listed))
         return shown(gaussians, self.surface)
 
