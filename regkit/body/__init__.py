@@ -6,6 +6,7 @@ from regkit.body.deformation import Deformation, Mirror, Scaling, Stretch
 from regkit.body.description import BodyDescription
 from regkit.body.ellipsoids import BallParameters, EllipsoidParameters
 from regkit.body.fit import BodyFit
+from regkit.body.freedoms import Freedom
 from regkit.body.listed import ListedShape, capsules, ellipsoids
 from regkit.body.shape_parameters import ShapeParameters
 from regkit.body.shapes import ParametricShape
@@ -18,6 +19,7 @@ __all__ = [
     "CapsuleParameters",
     "Deformation",
     "EllipsoidParameters",
+    "Freedom",
     "ListedShape",
     "Markers",
     "Mirror",

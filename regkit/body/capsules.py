@@ -7,8 +7,9 @@ from typing import Self, TypeVar
 import numpy as np
 
 from regkit.body.deformation import Deformation
+from regkit.body.freedoms import Freedom
 from regkit.body.shape_parameters import ShapeParameters
-from regkit.body.vectors import rounded
+from regkit.body.vectors import rounded, vector
 from regkit.geometry.capsule_moments import capsule_moments
 from regkit.geometry.principal_axes import principal_axes
 from regkit.skeleton.description import CapsuleDescription
@@ -46,6 +47,25 @@ class CapsuleParameters(CapsuleDescription, ShapeParameters):
         ends = np.array([self.start, self.end])
         centre, axes, deviations = capsule_moments(ends, np.broadcast_to(self.radius, 2))
         return centre, axes * deviations**2 @ axes.T
+
+    def freedoms(self) -> tuple[Freedom, ...]:
+        """Returns both ends, and the one radius or both."""
+        radii = 1 if isinstance(self.radius, float) else 2
+        return *2 * (Freedom.POSITION,), *radii * (Freedom.LOG_SCALE,)
+
+    def moved(self, step: Array) -> Self:
+        """Returns the capsule changed by a step (7,) with one radius, or (8,)."""
+        factors = np.exp(step[6:]).tolist()
+        radius = self.radius
+        return self.model_copy(
+            update={
+                "start": vector(step[:3] + self.start),
+                "end": vector(step[3:6] + self.end),
+                "radius": radius * factors[0]
+                if isinstance(radius, float)
+                else (radius[0] * factors[0], radius[1] * factors[1]),
+            }
+        )
 
     @classmethod
     def fitted(cls, points: Array, like: Self | None = None) -> Self:

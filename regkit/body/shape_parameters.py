@@ -7,11 +7,14 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from typing import Any, Never, Self
 
+import numpy as np
+
 from regkit.body.deformation import Deformation
+from regkit.body.freedoms import MIRROR, Freedom, step_parts
 from regkit.body.rows import fields_row
 from regkit.config.model import Model
 from regkit.system.arrays import Array
-from regkit.system.errors import ConfigError
+from regkit.system.errors import ConfigError, PluginError
 
 
 class ShapeParameters(Model, ABC):
@@ -38,6 +41,44 @@ class ShapeParameters(Model, ABC):
             points: Points in the segment's frame, (N, 3) [m].
             like: Parameters of another template at this place, whose options the result keeps.
         """
+
+    def freedoms(self) -> tuple[Freedom, ...]:
+        """Returns the free parameters by which a primitive is optimised, in the order of a step.
+
+        By default there are none, and an optimisation leaves the primitive as it is.
+        """
+        return ()
+
+    def moved(self, step: Array) -> Self:
+        """Returns the primitive changed by a step in its free parameters, without rounding.
+
+        A class with ``freedoms`` overrides it.
+
+        Args:
+            step: Change of the free parameters, (P,); zero changes nothing.
+
+        Raises:
+            PluginError: If the class has free parameters, and no ``moved``.
+        """
+        if self.freedoms():
+            raise PluginError(f"{type(self).__name__} has free parameters, but does not move them")
+        return self
+
+    def mirrored_step(self, step: Array, reflection: Array = MIRROR) -> Array:
+        """Returns the step (..., P) that the mirror image takes when this primitive takes ``step``.
+
+        ``one.deformed(Mirror()).moved(one.mirrored_step(step))`` is the mirror image of
+        ``one.moved(step)``. The map is linear: steps of both sides of a body can be tied by it.
+
+        Args:
+            step: Changes of the free parameters, (..., P).
+            reflection: Orthogonal matrix of determinant -1 that maps positions in the segment's
+                frame to those of the mirror image in its own, (3, 3); by default the reflection in
+                the plane x = 0, like ``Mirror``.
+        """
+        parts = zip(self.freedoms(), step_parts(self.freedoms(), step), strict=True)
+        mirrored = [freedom.mirrored(part, reflection) for freedom, part in parts]
+        return np.concatenate(mirrored, axis=-1) if mirrored else step
 
     def yaml(self) -> str:
         """Returns a mapping in one line, with four decimals of lengths [m], one of angles [deg]."""
@@ -82,6 +123,14 @@ class UncheckedParameters(ShapeParameters):
         """
         assert like is not None
         like.refuse()
+
+    def freedoms(self) -> tuple[Freedom, ...]:
+        """Refuses, since the shape model is unknown.
+
+        Raises:
+            ConfigError: Always.
+        """
+        self.refuse()
 
     def yaml(self) -> str:
         """Returns the listed parameters unchanged."""
