@@ -15,8 +15,19 @@ from regkit.geometry.principal_axes import principal_axes
 from regkit.skeleton.description import CapsuleDescription
 from regkit.system.arrays import Array
 
-SLIMMEST = 0.1
-"""Least radius of an end of a fitted capsule, as a fraction of its mean radius."""
+SLIMMEST = 0.5
+"""Least radius of an end of a fitted capsule, as a fraction of the mean of both: limbs
+bulge at joints, and are no sharp cones."""
+
+ENDS = (0.15, 0.85)
+"""Shares of the points below and above which they are in the ends of a capsule."""
+
+ROUNDS = 20
+"""Number of rounds in which a fitted capsule's length and radius follow from its moments."""
+
+SPREADING = 0.27
+"""About how much the standard deviation along a capsule grows with its length: 0.25 of a sphere,
+0.29 of a line."""
 
 C = TypeVar("C", bound=CapsuleDescription)
 
@@ -69,11 +80,11 @@ class CapsuleParameters(CapsuleDescription, ShapeParameters):
 
     @classmethod
     def fitted(cls, points: Array, like: Self | None = None) -> Self:
-        """Returns the capsule that fills points (N, 3) [m], of one radius if ``like`` has one.
+        """Returns the capsule with the mean and about the variances of points (N, 3) [m].
 
-        Its axis is the first principal axis. Each half of it gives the radius of a disc with the
-        same mean square distance from the axis; the radii of the ends continue those of the halves.
-        Without ``like``, the capsule starts at the end next to the segment's joint.
+        Its axis is the first principal axis. The radius of one end exceeds the other's as the
+        halves of the points differ in their distances from the axis, unless ``like`` has one
+        radius. Without ``like``, the capsule starts at the end next to the segment's joint.
         """
         centre = points.mean(axis=0)
         axes, deviations = principal_axes(points)
@@ -82,38 +93,56 @@ class CapsuleParameters(CapsuleDescription, ShapeParameters):
         axis = -axis if axis @ onward < 0.0 else axis
         heights = (points - centre) @ axis
         squares = ((points - centre) ** 2).sum(axis=1) - heights**2
-        radius = float(np.sqrt(2.0 * squares.mean()))
-        uniform = like is not None and isinstance(like.radius, float)
-        radii = np.full(2, radius) if uniform else _end_radii(heights, squares, radius)
-        reach = np.array([heights.min() + radii[0], heights.max() - radii[1]])
-        # A solid that is wider than long is a sphere.
-        reach = reach if reach[0] < reach[1] else np.full(2, reach.mean())
+        slope = 0.0 if _is_uniform(like) else _slope(heights, squares)
+        spreads = float(heights.std()), float(np.sqrt(0.5 * squares.mean()))
+        ends, radii = _filling(*spreads, slope)
         found = {
-            "start": rounded(centre + reach[0] * axis),
-            "end": rounded(centre + reach[1] * axis),
-            "radius": _rounded(radius) if uniform else (_rounded(radii[0]), _rounded(radii[1])),
+            "start": rounded(centre + ends[0] * axis),
+            "end": rounded(centre + ends[1] * axis),
+            "radius": radii[0] if _is_uniform(like) else (radii[0], radii[1]),
         }
         return cls.model_validate(found) if like is None else like.model_copy(update=found)
 
 
-def _end_radii(heights: Array, squares: Array, radius: float) -> Array:
-    """Returns the radii (2,) [m] of a capsule's ends.
+def _is_uniform(like: CapsuleParameters | None) -> bool:
+    return like is not None and isinstance(like.radius, float)
+
+
+def _filling(along: float, across: float, slope: float) -> tuple[Array, tuple[float, float]]:
+    """Returns the ends of a capsule on its axis (2,) and their radii [m], about its mean.
+
+    Args:
+        along: Standard deviation along the axis [m].
+        across: Standard deviation across it [m].
+        slope: Change of the radius per length.
+    """
+    length, radius = 0.0, 2.0 * across
+    ends, radii = np.zeros((2, 3)), np.full(2, radius)
+    for _ in range(ROUNDS):
+        ends[:, 1] = -0.5 * length, 0.5 * length
+        widening = np.clip(0.5 * slope * length / radius, SLIMMEST - 1.0, 1.0 - SLIMMEST)
+        radii = radius * np.array([1.0 - widening, 1.0 + widening])
+        mean, _, (wide, long, _) = capsule_moments(ends, radii)
+        ends -= mean
+        radius *= across / wide
+        length = max(length + (along - long) / SPREADING, 0.0)
+    first, second = (round(float(one), 4) for one in radii)
+    return ends[:, 1], (first, second)
+
+
+def _slope(heights: Array, squares: Array) -> float:
+    """Returns the change of the radius along the axis, from those of discs like the two halves.
 
     Args:
         heights: Positions of the points along the axis from their mean, (N,) [m].
         squares: Their squared distances from the axis, (N,) [m^2].
-        radius: Mean radius [m].
     """
-    upper = heights > 0.0
-    halves = [~upper, upper]
-    middles = np.array([heights[half].mean() for half in halves])
-    discs = np.sqrt([2.0 * squares[half].mean() for half in halves])
-    slope = (discs[1] - discs[0]) / (middles[1] - middles[0])
-    # The slope of a cone's radius is less than one, else one sphere contains the other.
-    slope = np.clip(slope, -0.9, 0.9)
-    ends = np.array([heights.min() + radius, heights.max() - radius])
-    return np.asarray(np.maximum(radius + slope * ends, SLIMMEST * radius))
-
-
-def _rounded(length: float) -> float:
-    return round(float(length), 4)
+    # The round ends are narrower than the capsule.
+    first, last = np.quantile(heights, ENDS)
+    middle = np.median(heights)
+    halves = ((first < heights) & (heights <= middle), (middle < heights) & (heights < last))
+    if not all(half.any() for half in halves):
+        return 0.0  # So few points show no cone.
+    low, high = (heights[half].mean() for half in halves)
+    narrow, wide = (np.sqrt(2.0 * squares[half].mean()) for half in halves)
+    return float((wide - narrow) / (high - low))
