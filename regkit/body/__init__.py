@@ -1,11 +1,13 @@
 """Bodies: skeletons with surface, markers and shapes, and their YAML descriptions."""
 
 from regkit.body.body import Body, Markers, Stance
+from regkit.body.capsules import CapsuleParameters
 from regkit.body.deformation import Deformation, Mirror, Scaling, Stretch
 from regkit.body.description import BodyDescription
 from regkit.body.ellipsoids import BallParameters, EllipsoidParameters
 from regkit.body.fit import BodyFit
-from regkit.body.listed import ListedShape, ellipsoids
+from regkit.body.freedoms import Freedom
+from regkit.body.listed import ListedShape, capsules, ellipsoids
 from regkit.body.shape_parameters import ShapeParameters
 from regkit.body.shapes import ParametricShape
 
@@ -14,8 +16,10 @@ __all__ = [
     "Body",
     "BodyDescription",
     "BodyFit",
+    "CapsuleParameters",
     "Deformation",
     "EllipsoidParameters",
+    "Freedom",
     "ListedShape",
     "Markers",
     "Mirror",
@@ -24,5 +28,6 @@ __all__ = [
     "ShapeParameters",
     "Stance",
     "Stretch",
+    "capsules",
     "ellipsoids",
 ]

@@ -69,7 +69,7 @@ class Body(Brief):
         capsules: The surface as capsules, from which shape models without listed parameters make
             their primitives.
         markers: Points that can be compared with measured ones.
-        shapes: Primitives listed in the template, by kind of shape model.
+        shapes: Primitives listed in the template, by kind of shape model, or ``KIND/NAME``.
         stances: Likely poses in the first frame.
         size: Characteristic length, such as a person's height or a hand's length [m].
         upright: Whether y points up in the first frame, with the front towards the camera.

@@ -67,14 +67,15 @@ class BodyDescription(SkeletonDescription):
     line of sight are tried, for the front and the back."""
     shapes: Shapes = Field(default_factory=dict)
     """Parameters of shape models, by kind and then by segment: a list with one entry per primitive.
-    A shape model that is not listed makes its primitives from the capsules."""
+    ``KIND/NAME`` is another list for the same kind, which a shape model takes if ``tuned`` names
+    it. A shape model that is not listed makes its primitives from the capsules."""
     mesh: InputPath | None = None
     """Skinned mesh for shape models that use one: an ``.npz`` file whose bones are named after the
     segments."""
 
     @model_validator(mode="after")
     def _shapes_are_on_segments(self) -> BodyDescription:
-        for kind, by_segment in self.shapes.items():
+        for key, by_segment in self.shapes.items():
             for name in by_segment:
                 if name not in self.segments:
                     raise misplaced(
@@ -82,7 +83,7 @@ class BodyDescription(SkeletonDescription):
                         f"'{name}' is not a segment (there are: {', '.join(self.segments)})"
                         + did_you_mean(name, list(self.segments)),
                         "shapes",
-                        kind,
+                        key,
                         name,
                     )
         return self
@@ -131,9 +132,9 @@ class BodyDescription(SkeletonDescription):
                 scale * np.array([point for _, _, point in markers]).reshape(-1, 3),
             ),
             shapes={
-                kind: _listed(by_segment, order, Scaling(scale))
-                for kind, by_segment in self.shapes.items()
-                if kind not in unchecked
+                key: _listed(by_segment, order, Scaling(scale))
+                for key, by_segment in self.shapes.items()
+                if key not in unchecked
             },
             stances=tuple(stances),
             size=size,
@@ -143,8 +144,8 @@ class BodyDescription(SkeletonDescription):
         )
 
     def unchecked(self) -> dict[str, str]:
-        """Returns the reasons why listed shape models cannot be loaded, by kind."""
-        return {one.kind: one.reason for one in self._unchecked()}
+        """Returns the reasons why listed shape models cannot be loaded, by key."""
+        return {one.key: one.reason for one in self._unchecked()}
 
     def check_shapes(self) -> None:
         """Checks that all listed shapes can be stretched and fitted.

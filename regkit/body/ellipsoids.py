@@ -8,10 +8,17 @@ import numpy as np
 from pydantic import Field
 
 from regkit.body.deformation import Deformation
+from regkit.body.freedoms import Freedom
 from regkit.body.shape_parameters import ShapeParameters
-from regkit.body.vectors import rounded
+from regkit.body.vectors import rounded, vector
 from regkit.geometry.principal_axes import principal_axes
-from regkit.geometry.rotation import from_matrix, to_vector, vector_to_matrix
+from regkit.geometry.rotation import (
+    from_matrix,
+    from_vector,
+    product,
+    to_vector,
+    vector_to_matrix,
+)
 from regkit.skeleton.joints import Position, Rotation
 from regkit.system.arrays import Array
 
@@ -44,6 +51,28 @@ class EllipsoidParameters(ShapeParameters):
         """Returns the mean (3,) [m] and ``R diag(sigma^2) R^T`` (3, 3) [m^2]."""
         axes = vector_to_matrix(np.radians(self.rotation_deg)) * np.broadcast_to(self.sigma, 3)
         return np.array(self.centre), axes @ axes.T
+
+    def freedoms(self) -> tuple[Freedom, ...]:
+        """Returns centre and size of a sphere; else centre, three sizes and rotation."""
+        if isinstance(self.sigma, float):
+            return Freedom.POSITION, Freedom.LOG_SCALE
+        return Freedom.POSITION, *3 * (Freedom.LOG_SCALE,), Freedom.ROTATION
+
+    def moved(self, step: Array) -> Self:
+        """Returns the solid changed by a step (4,) of a sphere, or (9,)."""
+        centre = vector(step[:3] + self.centre)
+        if isinstance(self.sigma, float):
+            return self.model_copy(
+                update={"centre": centre, "sigma": self.sigma * float(np.exp(step[3]))}
+            )
+        rotation = product(from_vector(step[6:]), from_vector(np.radians(self.rotation_deg)))
+        return self.model_copy(
+            update={
+                "centre": centre,
+                "sigma": vector(np.exp(step[3:6]) * self.sigma),
+                "rotation_deg": vector(np.degrees(to_vector(rotation))),
+            }
+        )
 
     @classmethod
     def fitted(cls, points: Array, like: Self | None = None) -> Self:

@@ -7,8 +7,10 @@ from typing import Generic, TypeVar
 
 import numpy as np
 
+from regkit.body.capsules import CapsuleParameters
 from regkit.body.ellipsoids import EllipsoidParameters
 from regkit.body.shape_parameters import ShapeParameters
+from regkit.geometry.capsules import Capsules
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.system.arrays import Array, Indices, read_only
 
@@ -48,4 +50,13 @@ def ellipsoids(
         vector_to_matrix(np.radians([one.rotation_deg for one in solids]).reshape(-1, 3)),
         read_only([np.broadcast_to(one.sigma, 3) for one in solids]).reshape(-1, 3),
         np.ones(len(solids)),
+    )
+
+
+def capsules(listed: ListedShape[CapsuleParameters]) -> Capsules:
+    """Returns listed capsules in the frames of their segments."""
+    return Capsules(
+        listed.segments,
+        read_only([[one.start, one.end] for one in listed.parameters]).reshape(-1, 2, 3),
+        read_only([np.broadcast_to(one.radius, 2) for one in listed.parameters]).reshape(-1, 2),
     )

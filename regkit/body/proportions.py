@@ -7,11 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from regkit.body import BodyDescription
+from regkit.body.capsules import deformed_capsule
 from regkit.body.deformation import Stretch
 from regkit.body.groups import Groups
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.skeleton import SegmentDescription
-from regkit.skeleton.description import CapsuleDescription, parents_first
+from regkit.skeleton.description import parents_first
 from regkit.system.arrays import Array
 
 
@@ -45,11 +46,11 @@ class Proportions:
             for name, segment in template.segments.items()
         }
         shapes = {
-            kind: {
+            key: {
                 name: tuple(one.deformed(stretches[name]) for one in several)
                 for name, several in by_segment.items()
             }
-            for kind, by_segment in template.shapes.items()
+            for key, by_segment in template.shapes.items()
         }
         subject = template.model_copy(update={"segments": segments, "shapes": shapes, "mesh": None})
         size = template.size.value * height(subject) / height(template)
@@ -85,27 +86,13 @@ class Proportions:
 def _stretched(
     segment: SegmentDescription, own: Stretch, parents: Stretch | None
 ) -> SegmentDescription:
-    capsules = tuple(
-        CapsuleDescription.model_construct(
-            start=own.point(capsule.start),
-            end=own.point(capsule.end),
-            radius=_radius(capsule.radius, own),
-        )
-        for capsule in segment.capsules
-    )
     return segment.model_copy(
         update={
             "offset": segment.offset if parents is None else parents.point(segment.offset),
-            "capsules": capsules,
+            "capsules": tuple(deformed_capsule(one, own) for one in segment.capsules),
             "markers": {name: own.point(point) for name, point in segment.markers.items()},
         }
     )
-
-
-def _radius(radius: float | tuple[float, float], stretch: Stretch) -> float | tuple[float, float]:
-    if isinstance(radius, tuple):
-        return (stretch.radius(radius[0]), stretch.radius(radius[1]))
-    return stretch.radius(radius)
 
 
 def height(description: BodyDescription) -> float:

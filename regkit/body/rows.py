@@ -24,7 +24,7 @@ def key(name: str) -> str:
 
 def word(text: str) -> str:
     """Returns a name, quoted if YAML would read it as a number, truth value or structure."""
-    plain = re.fullmatch(r"[A-Za-z_]\w*", text) and text.lower() not in _RESERVED
+    plain = re.fullmatch(r"[A-Za-z_]\w*(/[\w.-]+)?", text) and text.lower() not in _RESERVED
     return text if plain else json.dumps(text)
 
 

@@ -7,11 +7,14 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from typing import Any, Never, Self
 
+import numpy as np
+
 from regkit.body.deformation import Deformation
+from regkit.body.freedoms import MIRROR, Freedom, step_parts
 from regkit.body.rows import fields_row
 from regkit.config.model import Model
 from regkit.system.arrays import Array
-from regkit.system.errors import ConfigError
+from regkit.system.errors import ConfigError, PluginError
 
 
 class ShapeParameters(Model, ABC):
@@ -39,6 +42,44 @@ class ShapeParameters(Model, ABC):
             like: Parameters of another template at this place, whose options the result keeps.
         """
 
+    def freedoms(self) -> tuple[Freedom, ...]:
+        """Returns the free parameters by which a primitive is optimised, in the order of a step.
+
+        By default there are none, and an optimisation leaves the primitive as it is.
+        """
+        return ()
+
+    def moved(self, step: Array) -> Self:
+        """Returns the primitive changed by a step in its free parameters, without rounding.
+
+        A class with ``freedoms`` overrides it.
+
+        Args:
+            step: Change of the free parameters, (P,); zero changes nothing.
+
+        Raises:
+            PluginError: If the class has free parameters, and no ``moved``.
+        """
+        if self.freedoms():
+            raise PluginError(f"{type(self).__name__} has free parameters, but does not move them")
+        return self
+
+    def mirrored_step(self, step: Array, reflection: Array = MIRROR) -> Array:
+        """Returns the step (..., P) that the mirror image takes when this primitive takes ``step``.
+
+        ``one.deformed(Mirror()).moved(one.mirrored_step(step))`` is the mirror image of
+        ``one.moved(step)``. The map is linear: steps of both sides of a body can be tied by it.
+
+        Args:
+            step: Changes of the free parameters, (..., P).
+            reflection: Orthogonal matrix of determinant -1 that maps positions in the segment's
+                frame to those of the mirror image in its own, (3, 3); by default the reflection in
+                the plane x = 0, like ``Mirror``.
+        """
+        parts = zip(self.freedoms(), step_parts(self.freedoms(), step), strict=True)
+        mirrored = [freedom.mirrored(part, reflection) for freedom, part in parts]
+        return np.concatenate(mirrored, axis=-1) if mirrored else step
+
     def yaml(self) -> str:
         """Returns a mapping in one line, with four decimals of lengths [m], one of angles [deg]."""
         return fields_row(self)
@@ -50,8 +91,8 @@ class UncheckedParameters(ShapeParameters):
     Only the shape model itself can check, deform or fit them.
     """
 
-    kind: str
-    """Kind of the shape model."""
+    key: str
+    """Key of the list in ``shapes``: the shape model's kind, and the name of a named list."""
     reason: str
     """Reason why it cannot be loaded."""
     given: Mapping[str, Any]
@@ -83,6 +124,14 @@ class UncheckedParameters(ShapeParameters):
         assert like is not None
         like.refuse()
 
+    def freedoms(self) -> tuple[Freedom, ...]:
+        """Refuses, since the shape model is unknown.
+
+        Raises:
+            ConfigError: Always.
+        """
+        self.refuse()
+
     def yaml(self) -> str:
         """Returns the listed parameters unchanged."""
         return json.dumps(self.given, ensure_ascii=False)
@@ -94,7 +143,7 @@ class UncheckedParameters(ShapeParameters):
             ConfigError: Always.
         """
         raise ConfigError(
-            f"parameters of '{self.kind}' cannot be changed or fitted without their shape model "
+            f"parameters of '{self.key}' cannot be changed or fitted without their shape model "
             f"({self.reason}); install it, or remove them from the template",
-            place=f"shapes.{self.kind}",
+            place=f"shapes.{self.key}",
         )

@@ -1,4 +1,4 @@
-"""Validation of a template's ``shapes``, by kind of shape model and by segment."""
+"""Validation of a template's ``shapes``, by list of primitives and by segment."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from pydantic.errors import PydanticInvalidForJsonSchema
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, SchemaValidator, core_schema
 
+from regkit.body.shape_keys import KEY, kind_of, named_keys
 from regkit.body.shape_parameters import ShapeParameters, UncheckedParameters
 from regkit.config.model import misplaced
 from regkit.config.plugin import Plugin
@@ -55,7 +56,7 @@ class _ByKind:
     @classmethod
     def _json_schema(cls, _: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
         """Returns a schema of the installed shape models and of unknown ones; skips broken ones."""
-        properties = {}
+        properties, named = {}, {}
         for kind in ParametricShape.available():
             try:
                 parameters = ParametricShape.parameters_of(kind)
@@ -63,48 +64,58 @@ class _ByKind:
                     listed = handler(_schema(parameters))
                     description = f"Primitives of the shape model '{kind}', by segment."
                     properties[kind] = {"description": description, **listed}
+                    description = f"A named list of primitives of '{kind}', by segment."
+                    named[named_keys(kind)] = {"description": description, **listed}
             except (PluginError, PydanticInvalidForJsonSchema):
                 continue
         other = handler(_schema(dict[str, Any]))
-        return {"type": "object", "properties": properties, "additionalProperties": other}
+        return {
+            "type": "object",
+            "properties": properties,
+            "patternProperties": named,
+            "additionalProperties": other,
+            "propertyNames": {"pattern": KEY},
+        }
 
 
 Shapes = Annotated[dict[str, dict[str, tuple[ShapeParameters, ...]]], _ByKind]
-"""The primitives of each kind of shape model on each segment."""
+"""The primitives of each list, by ``KIND`` of shape model or ``KIND/NAME``, on each segment."""
 
 
 def _schema(parameters: Any) -> CoreSchema:
-    """Returns the schema of one kind: by segment, the parameters of each primitive."""
+    """Returns the schema of one list: by segment, the parameters of each primitive."""
     return TypeAdapter(dict[str, tuple[parameters, ...]]).core_schema
 
 
 def _validated(value: Any) -> dict[str, dict[str, tuple[ShapeParameters, ...]]]:
-    """Returns the shapes, each kind validated by the class of its shape model."""
+    """Returns the shapes, each list validated by the class of its shape model."""
     fields = {
-        kind: core_schema.typed_dict_field(_schema(_listed_of(kind)))
-        for kind in (value if isinstance(value, Mapping) else ())
+        key: core_schema.typed_dict_field(_schema(_listed_of(key)))
+        for key in (value if isinstance(value, Mapping) else ())
     }
     validator = SchemaValidator(core_schema.typed_dict_schema(fields))
     listed: dict[str, dict[str, tuple[ShapeParameters, ...]]] = validator.validate_python(value)
     return listed
 
 
-def _listed_of(kind: str) -> Any:
-    """Returns the type of a kind's parameters, unchecked if its shape model cannot be loaded."""
+def _listed_of(key: str) -> Any:
+    """Returns the type of a list's parameters, unchecked if its shape model cannot be loaded."""
+    try:
+        kind = kind_of(key)
+    except ValueError as error:
+        raise misplaced(ParametricShape, str(error), key) from None
     try:
         parameters = ParametricShape.parameters_of(kind)
     except PluginError as error:
-        return Annotated[
-            UncheckedParameters, BeforeValidator(partial(_unchecked, kind, str(error)))
-        ]
+        return Annotated[UncheckedParameters, BeforeValidator(partial(_unchecked, key, str(error)))]
     if parameters is None:
-        raise misplaced(ParametricShape, f"the shape model '{kind}' has no parameters", kind)
+        raise misplaced(ParametricShape, f"the shape model '{kind}' has no parameters", key)
     return parameters
 
 
-def _unchecked(kind: str, reason: str, value: Any) -> UncheckedParameters:
+def _unchecked(key: str, reason: str, value: Any) -> UncheckedParameters:
     if isinstance(value, UncheckedParameters):
         return value
     if not isinstance(value, Mapping):
         raise ValueError("a primitive is a mapping of its parameters")
-    return UncheckedParameters(kind=kind, reason=reason, given=value)
+    return UncheckedParameters(key=key, reason=reason, given=value)

@@ -8,9 +8,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from regkit.body.description import BodyDescription, SizeDescription
-from regkit.body.rows import key, number, row, word
+from regkit.body.rows import fields_row, key, number, row, word
 from regkit.skeleton import PoseDescription, SegmentDescription
-from regkit.skeleton.description import CapsuleDescription
 from regkit.skeleton.joints import (
     BallJoint,
     CouplingDescription,
@@ -70,8 +69,8 @@ def template_text(body: BodyDescription, opening: str, comments: Mapping[str, st
         lines += [f"  {key(name)}", *_stance(pose)]
     if body.shapes:
         lines += ["", *_comment(_SHAPES), "shapes:"]
-    for kind, by_segment in body.shapes.items():
-        lines.append(f"  {key(kind)} # {sum(map(len, by_segment.values()))} in all")
+    for listed, by_segment in body.shapes.items():
+        lines.append(f"  {key(listed)} # {sum(map(len, by_segment.values()))} in all")
         for name, several in by_segment.items():
             lines.append(f"    {key(name)}")
             lines += [f"      - {one.yaml()}" for one in several]
@@ -111,7 +110,7 @@ def _segment(segment: SegmentDescription, comment: str) -> list[str]:
     lines.append(f"    joint: {_joint(segment.joint or FixedJoint())}")
     if segment.capsules:
         lines.append("    capsules:")
-        lines += [f"      - {_capsule(one)}" for one in segment.capsules]
+        lines += [f"      - {fields_row(one)}" for one in segment.capsules]
     if segment.markers:
         width = max(len(key(name)) for name in segment.markers)
         lines.append("    markers:")
@@ -158,12 +157,6 @@ def _axes_at_right_angles(joint: BallJoint) -> tuple[str, str]:
         return _axis(joint.twist_axis), _axis(joint.swing_axis)
     first, second = (f"[{', '.join(map(repr, axis))}]" for axis in axes)
     return first, second
-
-
-def _capsule(capsule: CapsuleDescription) -> str:
-    radius = capsule.radius
-    text = f"{radius:.4f}" if isinstance(radius, float) else f"[{radius[0]:.4f}, {radius[1]:.4f}]"
-    return f"{{start: {row(capsule.start)}, end: {row(capsule.end)}, radius: {text}}}"
 
 
 def _axis(axis: Sequence[float]) -> str:

@@ -118,13 +118,13 @@ def _named(description: BodyDescription, mesh: str) -> BodyDescription:
 def _print_summary(fitted: FittedTemplate) -> None:
     """Prints a summary of the fit."""
     description = fitted.description
-    kinds = list(description.shapes)
+    keys = list(description.shapes)
     table = Table("segment", "bones")
-    for kind in kinds:
-        table.add_column(escape(kind), justify="right")
+    for key in keys:
+        table.add_column(escape(key), justify="right")
     for name in description.segments:
         own = [label for label, owner in fitted.owners.items() if owner == name]
-        counts = [str(len(description.shapes[kind].get(name, ()))) for kind in kinds]
+        counts = [str(len(description.shapes[key].get(name, ()))) for key in keys]
         table.add_row(escape(name), escape(", ".join(own)), *counts)
     output.print(table)
     output.print(

@@ -53,8 +53,8 @@ def _checked(file: Path) -> str:
     if {"title", "size", "shapes", "stances"} & document.data.keys():
         description = document.validated(BodyDescription)
         description.body(file.stem, 1.0)
-        for kind, reason in description.unchecked().items():
-            place = document.place(("shapes", kind))
+        for key, reason in description.unchecked().items():
+            place = document.place(("shapes", key))
             errors.print(
                 f"warning: {place} is not checked: {reason}",
                 style="yellow",

@@ -46,10 +46,10 @@ class MeshShape:
 
     @cached_property
     def shapes(self) -> dict[str, dict[str, tuple[ShapeParameters, ...]]]:
-        """Fitted primitives by kind of shape model and by segment."""
+        """Fitted primitives by list and by segment."""
         listed = {
-            kind: {name: self._fitted(kind, name, own) for name, own in by_segment.items()}
-            for kind, by_segment in self.template.shapes.items()
+            key: {name: self._fitted(key, name, own) for name, own in by_segment.items()}
+            for key, by_segment in self.template.shapes.items()
         }
         return listed | {
             kind: {
@@ -74,11 +74,11 @@ class MeshShape:
 
     def _factors(self, name: str, bone: Array) -> tuple[float, float]:
         """Returns a segment's length factor along its bone and girth factor across it."""
-        kinds = [kind for kind, own in self.template.shapes.items() if own.get(name)]
-        if not kinds:
+        keys = [key for key, own in self.template.shapes.items() if own.get(name)]
+        if not keys:
             return 1.0, 1.0
-        before = _mixture(self.template.shapes[kinds[0]][name])
-        after = _mixture(self.shapes[kinds[0]][name])
+        before = _mixture(self.template.shapes[keys[0]][name])
+        after = _mixture(self.shapes[keys[0]][name])
         across = np.eye(3) - np.outer(bone, bone)
         girth = float(np.sqrt(np.sum(across * after) / np.sum(across * before)))
         children = [own for own, one in self.template.segments.items() if one.parent == name]
@@ -102,7 +102,7 @@ class MeshShape:
         return stretched.model_copy(update={"offset": offset, "markers": markers})
 
     def _fitted(
-        self, kind: str, name: str, before: tuple[ShapeParameters, ...]
+        self, key: str, name: str, before: tuple[ShapeParameters, ...]
     ) -> tuple[ShapeParameters, ...]:
         """Returns one fitted primitive for each of the template's.
 
@@ -111,7 +111,7 @@ class MeshShape:
         """
         if not before:
             return ()
-        points = self._points(kind, name)
+        points = self._points(key, name)
         centres = np.array([one.moments()[0] for one in before])
         spread_ratio = points.std(axis=0) / np.sqrt(np.diag(_mixture(before)))
         guess = points.mean(axis=0) + spread_ratio * (centres - centres.mean(axis=0))
@@ -120,15 +120,15 @@ class MeshShape:
             type(one).fitted(points[owners == index], one) for index, one in enumerate(before)
         )
 
-    def _points(self, kind: str, name: str) -> Array:
+    def _points(self, key: str, name: str) -> Array:
         """Returns points inside a segment and inside fixed segments without primitives."""
         frame = self.layout.frames[name]
         return np.concatenate(
-            [frame.local(self.parts[one].interior) for one in self._rigidly_attached(kind, name)]
+            [frame.local(self.parts[one].interior) for one in self._rigidly_attached(key, name)]
         )
 
-    def _rigidly_attached(self, kind: str, name: str) -> list[str]:
-        """Returns a segment and the segments fixed to it that lack primitives of this kind."""
+    def _rigidly_attached(self, key: str, name: str) -> list[str]:
+        """Returns a segment and the segments fixed to it that lack primitives of this list."""
         names = [name]
         for parent in names:
             names += [
@@ -136,7 +136,7 @@ class MeshShape:
                 for own, one in self.template.segments.items()
                 if one.parent == parent
                 and isinstance(one.joint or FixedJoint(), FixedJoint)
-                and not self.template.shapes[kind].get(own)
+                and not self.template.shapes[key].get(own)
             ]
         return names
 

@@ -19,7 +19,7 @@ from regkit.interfaces.segmenter import (
     Segmenter,
     each_body,
 )
-from regkit.interfaces.shape import ShapeModel
+from regkit.interfaces.shape import ListedShapeModel, ShapeModel
 from regkit.interfaces.solver import (
     Constraints,
     LimitKeeping,
@@ -71,6 +71,7 @@ __all__ = [
     "JointResponse",
     "Kernel",
     "LimitKeeping",
+    "ListedShapeModel",
     "Method",
     "Multipliers",
     "Past",

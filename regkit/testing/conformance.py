@@ -21,6 +21,7 @@ from regkit.testing.shape_laws import ShapeLaws
 from regkit.testing.solver_laws import SolverLaws
 from regkit.testing.source_laws import SourceLaws
 from regkit.testing.start_laws import StartLaws
+from regkit.testing.step_laws import StepLaws
 from regkit.testing.template_laws import TemplateLaws
 from regkit.testing.term_laws import TermLaws
 from regkit.testing.tracker_laws import TrackerLaws
@@ -32,7 +33,7 @@ LAWS: Mapping[str, tuple[type[Laws], ...]] = {
     "template": (TemplateLaws,),
     "segmenter": (SegmenterLaws,),
     "preprocessor": (PreprocessorLaws,),
-    "shape": (ShapeLaws, ParameterLaws, ShapePartnerLaws),
+    "shape": (ShapeLaws, ParameterLaws, StepLaws, ShapePartnerLaws),
     "kernel": (KernelPartnerLaws,),
     "pair": (KernelLaws,),
     "term_pair": (TermLaws,),

@@ -149,7 +149,7 @@ def test_a_shape_model_that_the_template_does_not_list_is_fitted_as_one_that_it_
 
 @pytest.mark.parametrize(
     ("kind", "complaint"),
-    [("sphere", "--shape sphere: "), ("gsg", "did you mean 'gsog'?")],
+    [("mesh", "--shape mesh: "), ("gsg", "did you mean 'gsog'?")],
 )
 def test_a_shape_model_that_cannot_be_fitted_is_refused(regkit, out, kind, complaint):
     ended = regkit("fit", FOLDER / "human_mesh.npz", "--shape", kind, "--out", out)

@@ -344,6 +344,26 @@ class Twice(Solver):
 # What an editor is told.
 
 
+@pytest.mark.parametrize(
+    ("key", "sigma", "right"),
+    [
+        ("sog", 0.1, True), ("sog/paper", 0.1, True), ("sog/best-2.0", 0.1, True),
+        ("sog", "wide", False), ("sog/paper", "wide", False), ("unheard/paper", "wide", True),
+        ("sog/", 0.1, False), ("sog/a/b", 0.1, False), ("sog/-a", 0.1, False),
+    ],
+)  # fmt: skip
+def test_list_of_primitives_is_right_or_wrong_for_both(key, sigma, right):
+    listed = {"foot": [{"centre": [0, 0, 0], "sigma": sigma}]}
+    data = {
+        "title": "A lamp",
+        "size": {"name": "height", "value": 1, "range": [1, 2]},
+        "segments": {"foot": {"joint": {"type": "free"}}},
+        "shapes": {key: listed},
+    }
+    assert validator("template").is_valid(data) is right
+    assert (not complaints(BodyDescription, data)) is right
+
+
 def test_fields_have_descriptions_and_no_titles():
     """A title would only repeat the field's name; what is referred to describes itself."""
 

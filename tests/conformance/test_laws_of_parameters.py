@@ -98,4 +98,4 @@ def test_a_shape_that_ignores_what_is_listed_breaks_the_law(random):
 
 def test_a_shape_without_parameters_is_skipped(random):
     with pytest.raises(pytest.skip.Exception):
-        check(ShapeModel.load("sphere"), LAWS[0], random)
+        check(ShapeModel.load("mesh"), LAWS[0], random)

@@ -9,11 +9,11 @@ import numpy as np
 from regkit.body import BallParameters, Body, ShapeParameters, ellipsoids
 from regkit.gaussians.surface import Surface, shown
 from regkit.geometry.capsules import Capsules
-from regkit.interfaces import ShapeModel
+from regkit.interfaces import ListedShapeModel
 from regkit.primitives import Gaussians, Primitives
 
 
-class SumOfGaussians(ShapeModel):
+class SumOfGaussians(ListedShapeModel):
     """Sum of isotropic Gaussians, eqs. 1 and 2.
 
     The Gaussians are those that the template lists. If it lists none, they are placed along its
@@ -32,9 +32,9 @@ class SumOfGaussians(ShapeModel):
         """Returns the template's isotropic Gaussians, or Gaussians along its capsules.
 
         Raises:
-            ConfigError: If the template has neither Gaussians nor capsules.
+            ConfigError: If the template has neither Gaussians nor capsules, or lacks a named list.
         """
-        listed = body.shapes.get(self.kind)
+        listed = self.listed(body)
         if listed is None:
             return shown(_strung_along(self.capsules_of(body)), self.surface)
         return shown(Gaussians(*ellipsoids(listed)), self.surface)

@@ -7,14 +7,17 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 from pydantic import Field
 
-from regkit.body import Body
+from regkit.body import Body, CapsuleParameters, ShapeParameters, capsules
 from regkit.geometry.capsules import Capsules
-from regkit.interfaces import ShapeModel
+from regkit.interfaces import ListedShapeModel
 from regkit.primitives import Primitives, TaperedCapsules
 
 
-class SphereMesh(ShapeModel):
-    """The template's capsules, or spheres along them.
+class SphereMesh(ListedShapeModel):
+    """Capsules, or spheres along them.
+
+    The capsules are those that the template lists for this shape; if it lists none, those of its
+    segments.
 
     The variant ``capsules`` is the sphere-mesh of Tkach, Pauly and Tagliasacchi (Sphere-meshes for
     real-time hand modeling and tracking, 2016), with pills only and no wedges. The variant
@@ -24,6 +27,7 @@ class SphereMesh(ShapeModel):
 
     kind: Literal["sphere"] = "sphere"
     makes: ClassVar[type[Primitives]] = TaperedCapsules
+    parameters: ClassVar[type[ShapeParameters] | None] = CapsuleParameters
 
     variant: Literal["capsules", "spheres"] = "capsules"
     """Whether the primitives are tapered capsules, or spheres along their axes."""
@@ -34,12 +38,11 @@ class SphereMesh(ShapeModel):
         """Returns the template's capsules, or spheres on their axes.
 
         Raises:
-            ConfigError: If the template has no capsules.
+            ConfigError: If the template has no capsules, or lacks a named list.
         """
-        capsules = self.capsules_of(body)
-        if self.variant == "spheres":
-            return _joined(_strung_along(capsules, self.spacing))
-        return _joined(capsules)
+        listed = self.listed(body)
+        own = self.capsules_of(body) if listed is None else capsules(listed)
+        return _joined(_strung_along(own, self.spacing) if self.variant == "spheres" else own)
 
 
 def _strung_along(capsules: Capsules, spacing: float) -> Capsules:

@@ -8,6 +8,7 @@ from pydantic import Field
 
 from regkit.body import BodyDescription
 from regkit.body.reading import description_in
+from regkit.body.shape_keys import kind_of
 from regkit.interfaces.template import Template
 from regkit_plugins.templates import FOLDER
 
@@ -42,8 +43,14 @@ class Hand(Template):
 
 
 def with_forearm(hand: BodyDescription) -> BodyDescription:
-    """Returns the template of a hand with the forearm in ``forearm.yaml``."""
+    """Returns the template of a hand with the forearm in ``forearm.yaml``.
+
+    To a named list of the hand that the forearm lacks, it adds the primitives of the same kind.
+    """
     part = description_in(FOLDER / "forearm.yaml")
-    shapes = {kind: {**own, **part.shapes[kind]} for kind, own in hand.shapes.items()}
+    shapes = {
+        key: {**own, **(part.shapes.get(key) or part.shapes[kind_of(key)])}
+        for key, own in hand.shapes.items()
+    }
     segments = {**hand.segments, "forearm": part.segments["forearm"]}
     return hand.model_copy(update={"segments": segments, "shapes": shapes})

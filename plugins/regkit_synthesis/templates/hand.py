@@ -75,8 +75,8 @@ def left_hand(right: BodyDescription) -> BodyDescription:
         segments={name: mirror.segment(one, str) for name, one in right.segments.items()},
         stances=right.stances,
         shapes={
-            kind: {name: tuple(map(mirror.primitive, several)) for name, several in own.items()}
-            for kind, own in right.shapes.items()
+            key: {name: tuple(map(mirror.primitive, several)) for name, several in own.items()}
+            for key, own in right.shapes.items()
         },
     )
 

@@ -9,9 +9,9 @@ from typing import TypeVar
 import numpy as np
 
 from regkit.body import Mirror, ShapeParameters
+from regkit.body.capsules import deformed_capsule
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.skeleton import SegmentDescription
-from regkit.skeleton.description import CapsuleDescription
 from regkit.skeleton.joints import BallJoint, HingeJoint, Joint, UniversalJoint
 
 _MIRROR = Mirror()
@@ -24,11 +24,6 @@ P = TypeVar("P", bound=ShapeParameters)
 def primitive(value: P) -> P:
     """The mirror image of a primitive of a shape model."""
     return value.deformed(_MIRROR)
-
-
-def capsule(value: CapsuleDescription) -> CapsuleDescription:
-    """The mirror image of a capsule."""
-    return CapsuleDescription(start=point(value.start), end=point(value.end), radius=value.radius)
 
 
 def joint(value: Joint, rename: Callable[[str], str]) -> Joint:
@@ -67,7 +62,7 @@ def segment(value: SegmentDescription, rename: Callable[[str], str]) -> SegmentD
         parent=None if value.parent is None else rename(value.parent),
         offset=point(value.offset),
         joint=None if value.joint is None else joint(value.joint, rename),
-        capsules=tuple(capsule(one) for one in value.capsules),
+        capsules=tuple(deformed_capsule(one, _MIRROR) for one in value.capsules),
         markers={rename(name): point(marker) for name, marker in value.markers.items()},
         optional=value.optional,
     )

@@ -15,7 +15,7 @@ from regkit.search.exemplars.model import Spheres
 from regkit.search.exemplars.rendering import disagreements
 from regkit.skeleton import Pose
 from regkit.start import Scan
-from regkit_plugins.templates.hand import Hand
+from regkit_plugins.templates.hand import Hand, with_forearm
 
 CAMERA = Camera(160, 120, 200.0, 200.0, 79.5, 59.5)
 BEFORE = np.array([[1.0, 0, 0, 0], [0, -1, 0, 0], [0, 0, -1, 0.5], [0, 0, 0, 1]])
@@ -57,6 +57,14 @@ def test_forearm_leaves_the_hand_as_it_is(side):
     assert longer.markers.names == hand.markers.names
     np.testing.assert_array_equal(longer.required.ends, hand.capsules.ends)
     assert set(longer.shapes) == set(hand.shapes)
+
+
+def test_forearm_joins_the_named_lists_of_the_hand():
+    hand = Hand().description()
+    shapes = {"gsog": hand.shapes["gsog"], "gsog/paper": hand.shapes["gsog"]}
+    longer = with_forearm(hand.model_copy(update={"shapes": shapes}))
+    assert set(longer.shapes) == {"gsog", "gsog/paper"}
+    assert longer.shapes["gsog/paper"] == longer.shapes["gsog"]
 
 
 def test_forearm_costs_nothing_where_there_are_no_data(hands):

@@ -10,7 +10,7 @@ from pydantic import Field
 from scipy.special import beta, gamma
 
 from regkit.body import Body, EllipsoidParameters, ListedShape, ShapeParameters, ellipsoids
-from regkit.interfaces import Kernel, ShapeModel
+from regkit.interfaces import Kernel, ListedShapeModel
 from regkit.observation import Observation
 from regkit.primitives import SPHERE, Placed, Primitives, Volumes
 from regkit.registration import Residuals, ResidualSimilarity, Robust
@@ -56,7 +56,7 @@ class SuperellipsoidParameters(EllipsoidParameters):
     """Two for an ellipsoid; the larger, the more it is a cylinder about its second axis."""
 
 
-class Superquadric(ShapeModel):
+class Superquadric(ListedShapeModel):
     """The template's superellipsoids, or one for each capsule, of the same length and volume."""
 
     kind: Literal["superquadric"] = "superquadric"
@@ -68,7 +68,7 @@ class Superquadric(ShapeModel):
 
     def bind(self, body: Body) -> Superellipsoids:
         """The superellipsoids that the template lists, or one about each capsule's axis."""
-        listed = body.shapes.get(self.kind)
+        listed = self.listed(body)
         solids = self._of_capsules(body) if listed is None else _of_moments(listed)
         return replace(solids, scales=solids.scales * [self.girth, 1.0, self.girth])
 
