@@ -108,7 +108,20 @@ def surface_in(path: Path, segments: Sequence[str]) -> SkinnedSurface:
 
 @lru_cache(maxsize=8)
 def _read(path: Path, changed: int, segments: tuple[str, ...]) -> SkinnedSurface:
-    mesh = SkinnedMesh.read(path)
+    return surface_on(SkinnedMesh.read(path), segments, place=str(path))
+
+
+def surface_on(mesh: SkinnedMesh, segments: Sequence[str], *, place: str) -> SkinnedSurface:
+    """Returns the surface of a skinned mesh whose bones are named like the segments.
+
+    Args:
+        mesh: The mesh.
+        segments: Names of the segments, in the order of the skeleton.
+        place: Where the mesh is from, for messages.
+
+    Raises:
+        DataError: If it skins a vertex to a bone that has no segment of its name.
+    """
     order = np.zeros(len(mesh.labels), dtype=np.intp)
     used = np.unique(mesh.indices[mesh.weights > 0.0])
     for bone in used:
@@ -117,7 +130,7 @@ def _read(path: Path, changed: int, segments: tuple[str, ...]) -> SkinnedSurface
             raise DataError(
                 f"the mesh's bone '{label}' is not a segment (there are: {', '.join(segments)})"
                 + did_you_mean(label, list(segments)),
-                place=str(path),
+                place=place,
             )
         order[bone] = segments.index(label)
     surface = SkinnedSurface.of(mesh)

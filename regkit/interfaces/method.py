@@ -7,6 +7,7 @@ from abc import ABC, abstractmethod
 from regkit.body import Body
 from regkit.config.plugin import Plugin
 from regkit.interfaces.registrar import Registrar
+from regkit.interfaces.shape import ShapeModel
 from regkit.interfaces.tracker import Tracker
 
 
@@ -17,6 +18,10 @@ class Method(Plugin, ABC):
 
     tracker: Tracker | None = None
     """Tracker for this method; the experiment's tracker by default."""
+
+    def shape_model(self) -> ShapeModel | None:
+        """Returns the shape model whose primitives are registered; None if there is no choice."""
+        return None
 
     @abstractmethod
     def bind(self, body: Body) -> Registrar:

@@ -15,6 +15,7 @@ from regkit.primitives import Primitives
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit.system.brief import Brief
+from regkit.system.errors import ConfigError
 
 
 @dataclass(frozen=True)
@@ -122,3 +123,21 @@ class Registrar(Brief, ABC):
     @abstractmethod
     def evaluate(self, observation: Observation, pose: Pose) -> Evaluation:
         """Returns the quality of a pose for a frame without changing the pose."""
+
+    def gradient(self, observation: Observation, pose: Pose) -> Array:
+        """Returns the derivative of the energy to a step of ``Skeleton.retract``, (n,).
+
+        Everything is bound to the frame at this pose, which is the prior too: where it vanishes, a
+        registration that starts there ends there. A method without such an energy need not have it.
+
+        Args:
+            observation: The frame's data.
+            pose: The pose.
+
+        Raises:
+            ConfigError: If the method has no energy with a derivative.
+        """
+        raise ConfigError(
+            f"{type(self).__name__} has no energy with a derivative to the pose, by which shapes "
+            "are tuned; take a method of the kind that has, such as the default one"
+        )

@@ -7,6 +7,7 @@ these types, numbers, tuples of both, and named tuples with such fields.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 import numpy as np
@@ -66,6 +67,7 @@ def machine_type(annotation: Any) -> Any:
     return None
 
 
+@cache
 def machine_signature(function: Any) -> Any:
     """Returns Numba's signature of a function; None if its annotations do not fix one."""
     hints = get_type_hints(function, include_extras=True)

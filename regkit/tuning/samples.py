@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -46,6 +48,26 @@ class Sample(Brief):
     markers: Array
 
 
+class _View(NamedTuple):
+    """A motion before the camera.
+
+    Attributes:
+        moved: Poses of the tuned body, (L,).
+        shown: Poses of the rendered body, (L,).
+        placed: T_body_segment of the rendered body, (L, S, 4, 4).
+        T_camera_body: Where the body is, (4, 4).
+        vertices: Vertices of the rendered surface in the camera frame, (L, V, 3) [m].
+        noises: Source of the noise of each frame, (L,).
+    """
+
+    moved: list[Pose]
+    shown: list[Pose]
+    placed: Array
+    T_camera_body: Array
+    vertices: Array
+    noises: list[np.random.Generator]
+
+
 @dataclass(frozen=True)
 class Sampler:
     """Renders samples of a body that moves at random before a depth camera.
@@ -54,7 +76,7 @@ class Sampler:
 
     Attributes:
         body: The body to tune, which has the joint limits and stances of the motion.
-        preprocessor: What makes observations of frames.
+        preprocessor: What makes observations of frames; without one there are frames only.
         rendered: The body that the camera sees, by default the same one; another one has the same
             joints, but other lengths, another surface, or another size.
         camera: The camera.
@@ -66,7 +88,7 @@ class Sampler:
     """
 
     body: Body
-    preprocessor: Preprocessor
+    preprocessor: Preprocessor | None = None
     rendered: Body | None = None
     camera: CameraChoice = "sr4000"
     noise: NoiseChoice | None = None
@@ -114,29 +136,42 @@ class Sampler:
             DataError: If an image shows too little of the body for the preprocessor.
             DependencyError: If Open3D cannot be loaded.
         """
+        assert self.preprocessor is not None
+        view = self._view(index)
+        own = self._shown.markers
+        rows = [own.names.index(name) for name in self.names]
+        return Sample(
+            tuple(self.preprocessor.preprocess(frame) for frame in self._frames(view)),
+            _moved(view.T_camera_body, view.shown),
+            _moved(view.T_camera_body, view.moved),
+            self.names,
+            own.place(view.T_camera_body @ view.placed)[:, rows],
+        )
+
+    def frame(self, index: int) -> Frame:
+        """Returns the first frame of a sample."""
+        return next(self._frames(self._view(index)))
+
+    def _view(self, index: int) -> _View:
+        """Returns a motion, and where the camera is."""
         motion, view, *noises = np.random.default_rng([self.seed, index]).spawn(2 + self.frames)
         moved = self._movement.sampled(motion, self.frames)
         shown = [self._transfer.pose(pose) for pose in moved]
         placed = np.array([self._shown.place(pose).transforms for pose in shown])
         vertices = np.array([self._surface.place(transforms) for transforms in placed])
-        camera = self._sensor.camera
-        T_camera_body = self.views.sampled(view, camera, vertices, self._shown, self._opening)
-        seen = transformed(T_camera_body, vertices.reshape(-1, 3)).reshape(vertices.shape)
-        own = self._shown.markers
-        rows = [own.names.index(name) for name in self.names]
-        return Sample(
-            tuple(self._observed(*each) for each in zip(seen, noises, strict=True)),
-            _moved(T_camera_body, shown),
-            _moved(T_camera_body, moved),
-            self.names,
-            own.place(T_camera_body @ placed)[:, rows],
+        T_camera_body = self.views.sampled(
+            view, self._sensor.camera, vertices, self._shown, self._opening
         )
+        seen = transformed(T_camera_body, vertices.reshape(-1, 3)).reshape(vertices.shape)
+        return _View(moved, shown, placed, T_camera_body, seen, noises)
 
-    def _observed(self, vertices: Array, random: np.random.Generator) -> Observation:
-        """Returns the observation of a frame, stored and read back as a camera's."""
-        view = self._caster.view(vertices, self._surface.faces)
-        depth = self._sensor.image(view, random) / self._sensor.depth_scale
-        return self.preprocessor.preprocess(Frame.of_image(depth, Lens(self._sensor.camera)))
+    def _frames(self, view: _View) -> Iterator[Frame]:
+        """Yields frames, each stored and read back as a camera's."""
+        sensor = self._sensor
+        for vertices, noise in zip(view.vertices, view.noises, strict=True):
+            seen = self._caster.view(vertices, self._surface.faces)
+            depth = sensor.image(seen, noise) / sensor.depth_scale
+            yield Frame.of_image(depth, Lens(sensor.camera))
 
     @property
     def _shown(self) -> Body:

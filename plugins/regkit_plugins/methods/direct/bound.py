@@ -24,6 +24,7 @@ from regkit.observation import Observation
 from regkit.primitives import Primitives
 from regkit.registration import COORDINATES, FrameEnergy, Plan, PlannedEnergy, SummedEnergy
 from regkit.skeleton import Pose
+from regkit.system.arrays import Array
 from regkit.system.errors import DataError, PluginError
 
 if TYPE_CHECKING:
@@ -41,13 +42,15 @@ class BoundDirect(Registrar):
         method: The method.
         body: The body.
         primitives: Primitives of its shape model.
-        plan: The same by compiled functions, if all parts offer them.
+        plan: The same by compiled functions, if all parts offer them, and the solver takes them.
+        derivatives: The same, whether or not the solver takes it.
     """
 
     method: Direct
     body: Body
     primitives: Primitives
     plan: Plan | None = None
+    derivatives: Plan | None = None
 
     def register(
         self,
@@ -64,13 +67,13 @@ class BoundDirect(Registrar):
         """
         annealing = self.method.annealing
         prior = prior or candidates[0]
-        energy, pose = self._best(observation, candidates, prior, annealing[0])
+        energy, pose = self._best(observation, candidates, prior, annealing[0], self.plan)
         evaluations = len(candidates) if len(candidates) > 1 else 0
         iterations = 0
         multipliers = None if warm_start is None else warm_start.multipliers
         for index, smoothing in enumerate(annealing):
             if index:
-                energy, _ = self._best(observation, [pose], prior, smoothing)
+                energy, _ = self._best(observation, [pose], prior, smoothing, self.plan)
             # A pose within the bounds is within the limits only if the start is.
             start = self.body.skeleton.limits.hinged(pose)
             coordinates = COORDINATES[self.method.coordinates](self.body.skeleton, start)
@@ -98,13 +101,14 @@ class BoundDirect(Registrar):
         candidates: Sequence[Pose],
         prior: Pose,
         smoothing: float,
+        plan: Plan | None,
     ) -> tuple[FrameEnergy, Pose]:
         """Returns the energy bound to the candidate of least kernel energy, and that candidate.
 
         All candidates are compared with the kernel bound to the first one.
         """
-        if self.plan is not None:
-            planned = PlannedEnergy.of(self.plan, observation, candidates, prior, smoothing)
+        if plan is not None:
+            planned = PlannedEnergy.of(plan, observation, candidates, prior, smoothing)
             if planned is not None:
                 return planned
         first = candidates[0]
@@ -130,8 +134,14 @@ class BoundDirect(Registrar):
 
     def evaluate(self, observation: Observation, pose: Pose) -> Evaluation:
         """Returns the energy of a pose, with everything bound to the frame at this pose."""
-        energy, _ = self._best(observation, [pose], pose, 0.0)
+        energy, _ = self._best(observation, [pose], pose, 0.0, self.plan)
         return Evaluation(energy.total(pose), energy.inlier_probability(pose))
+
+    def gradient(self, observation: Observation, pose: Pose) -> Array:
+        """Returns the derivative of the energy to a step of ``Skeleton.retract``, (n,)."""
+        energy, _ = self._best(observation, [pose], pose, 0.0, self.derivatives)
+        coordinates = COORDINATES["tangent"](self.body.skeleton, pose)
+        return energy.problem(coordinates, None).value_and_force(pose)[1]
 
     def _summed(
         self, observation: Observation, pose: Pose, prior: Pose, smoothing: float

@@ -76,6 +76,10 @@ class Direct(Method):
                 )
         return self
 
+    def shape_model(self) -> ShapeModel:
+        """Returns the shape model."""
+        return self.shape
+
     def bind(self, body: Body) -> BoundDirect:
         """Binds the method to a body: makes the primitives and checks the terms.
 
@@ -85,7 +89,6 @@ class Direct(Method):
         for term in self.terms:
             term.check(body)
         primitives = self.shape.bind(body)
-        plan = None
-        if self.compiled and self.solver.minimizes_plans and self.coordinates == "tangent":
-            plan = Plan.of(body, primitives, self.kernel, self.terms)
-        return BoundDirect(self, body, primitives, plan)
+        plan = Plan.of(body, primitives, self.kernel, self.terms) if self.compiled else None
+        solvable = self.solver.minimizes_plans and self.coordinates == "tangent"
+        return BoundDirect(self, body, primitives, plan if solvable else None, plan)

@@ -1,0 +1,176 @@
+"""Processes that share samples: each renders its own and keeps them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from regkit.system.arrays import Array
+from regkit.system.errors import RegkitError
+from regkit.system.processes import broken_pool, deaf_children, pool_of_one
+from regkit.tuning.rollouts import NormalEquations, Rollouts, errors_of
+from regkit.tuning.samples import Sample, Sampler
+from regkit.tuning.tunable import Tunable
+
+_KEPT: dict[str, Rollouts] = {}
+"""The samples of this process, by the names of their sets."""
+
+
+@dataclass(frozen=True)
+class SampleSet:
+    """A set of samples.
+
+    Attributes:
+        name: Its name.
+        samplers: Sources of the samples, in turn.
+        count: Number of samples.
+    """
+
+    name: str
+    samplers: tuple[Sampler, ...]
+    count: int
+
+
+@dataclass(frozen=True)
+class Share:
+    """The samples of a set that one process has.
+
+    Attributes:
+        whole: The set.
+        first: Number of its first sample.
+        every: Number of processes.
+    """
+
+    whole: SampleSet
+    first: int
+    every: int
+
+    def samples(self) -> Iterator[Sample]:
+        """Renders the samples.
+
+        Raises:
+            RegkitError: If a sample cannot be rendered.
+        """
+        samplers = self.whole.samplers
+        count = len(samplers)
+        for number in range(self.first, self.whole.count, self.every):
+            yield samplers[number % count].sample(number // count)
+
+
+@dataclass(frozen=True)
+class Crew:
+    """Some processes, each of which has a share of every set of samples.
+
+    Attributes:
+        tunable: What is tuned.
+        pools: A pool of one process for each worker, so that its samples stay with it.
+        sets: The sets that the processes keep.
+    """
+
+    tunable: Tunable
+    pools: Sequence[Any]
+    sets: Mapping[str, SampleSet]
+
+    def render(self) -> None:
+        """Renders the sets that are kept.
+
+        Raises:
+            RegkitError: If a sample cannot be rendered.
+        """
+        # One task renders all: a process whose memory grows after its first task is replaced.
+        shares = zip(*(self._shares(one) for one in self.sets.values()), strict=True)
+        self._each(_render, [(self.tunable, own) for own in shares])
+
+    def errors(self, name: str, parameters: Array) -> Array:
+        """Returns the errors of ``Rollouts.errors`` for a kept set, in its order."""
+        shares = self._shares(self.sets[name])
+        return self._joined(
+            self._each(_errors, [(self.tunable, own, parameters) for own in shares])
+        )
+
+    def normal_equations(self, name: str, parameters: Array) -> NormalEquations:
+        """Returns the sum of ``Rollouts.normal_equations`` over a kept set."""
+        shares = self._shares(self.sets[name])
+        first, *others = self._each(
+            _normal_equations, [(self.tunable, own, parameters) for own in shares]
+        )
+        total: NormalEquations = sum(others, first)
+        return total
+
+    def tried(self, trial: SampleSet, each: Sequence[Array]) -> list[Array]:
+        """Returns the errors for several parameters on a set that is rendered, and not kept.
+
+        Raises:
+            RegkitError: If a sample cannot be rendered.
+        """
+        parts = self._each(_tried, [(self.tunable, own, each) for own in self._shares(trial)])
+        return [self._joined(of_one) for of_one in zip(*parts, strict=True)]
+
+    def _shares(self, one: SampleSet) -> list[Share]:
+        return [Share(one, first, len(self.pools)) for first in range(len(self.pools))]
+
+    def _joined(self, parts: Sequence[Array]) -> Array:
+        """Returns the errors of a whole set, from those of each share."""
+        whole = np.empty((sum(map(len, parts)), *parts[0].shape[1:]))
+        for first, part in enumerate(parts):
+            whole[first :: len(parts)] = part
+        return whole
+
+    def _each(self, function: Any, arguments: Sequence[tuple[Any, ...]]) -> list[Any]:
+        with deaf_children():
+            futures = [
+                pool.submit(function, *own) for pool, own in zip(self.pools, arguments, strict=True)
+            ]
+        try:
+            return [future.result() for future in futures]
+        except broken_pool():
+            raise RegkitError(
+                "a process died, perhaps for lack of memory; use fewer processes"
+            ) from None
+
+
+@contextmanager
+def crew(tunable: Tunable, sets: Sequence[SampleSet], jobs: int) -> Iterator[Crew]:
+    """Starts the processes of a crew, and ends them.
+
+    Args:
+        tunable: What is tuned.
+        sets: The sets that the processes keep.
+        jobs: Number of processes.
+    """
+    pools = [pool_of_one() for _ in range(jobs)]
+    try:
+        yield Crew(tunable, pools, {one.name: one for one in sets})
+    finally:
+        for pool in pools:
+            pool.shutdown(wait=True, kill_workers=True)
+
+
+def _render(tunable: Tunable, shares: Sequence[Share]) -> None:
+    """Runs on a worker: renders its shares."""
+    for share in shares:
+        _KEPT[share.whole.name] = Rollouts(tunable, list(share.samples()))
+
+
+def _kept(tunable: Tunable, share: Share) -> Rollouts:
+    """Returns a share; a process that replaces another one renders it again."""
+    if share.whole.name not in _KEPT:
+        _render(tunable, [share])
+    return _KEPT[share.whole.name]
+
+
+def _errors(tunable: Tunable, share: Share, parameters: Array) -> Array:
+    return _kept(tunable, share).errors(parameters)
+
+
+def _normal_equations(tunable: Tunable, share: Share, parameters: Array) -> NormalEquations:
+    return _kept(tunable, share).normal_equations(parameters)
+
+
+def _tried(tunable: Tunable, share: Share, each: Sequence[Array]) -> list[Array]:
+    # A process whose memory grows is replaced, so that no sample is kept.
+    return errors_of(tunable, share.samples(), each)
