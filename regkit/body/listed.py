@@ -9,6 +9,7 @@ import numpy as np
 
 from regkit.body.capsules import CapsuleParameters
 from regkit.body.ellipsoids import EllipsoidParameters
+from regkit.body.gaussians import GaussianParameters
 from regkit.body.shape_parameters import ShapeParameters
 from regkit.geometry.capsules import Capsules
 from regkit.geometry.rotation import vector_to_matrix
@@ -37,7 +38,7 @@ class ListedShape(Generic[P_co]):
 def ellipsoids(
     listed: ListedShape[EllipsoidParameters],
 ) -> tuple[Indices, Array, Array, Array, Array]:
-    """Returns the arrays of K Gaussians: segments, centres, axes, scales and weights.
+    """Returns the arrays of K solids: segments, centres, axes, scales and weights.
 
     Returns:
         Segments (K,), centres (K, 3) [m], R_segment_primitive (K, 3, 3), standard deviations
@@ -51,6 +52,14 @@ def ellipsoids(
         read_only([np.broadcast_to(one.sigma, 3) for one in solids]).reshape(-1, 3),
         np.ones(len(solids)),
     )
+
+
+def gaussians(
+    listed: ListedShape[GaussianParameters],
+) -> tuple[Indices, Array, Array, Array, Array]:
+    """Returns the arrays of K Gaussians, like ``ellipsoids``, with their own weights (K,)."""
+    weights = np.array([one.weight for one in listed.parameters])
+    return *ellipsoids(listed)[:4], weights
 
 
 def capsules(listed: ListedShape[CapsuleParameters]) -> Capsules:

@@ -98,7 +98,7 @@ class ParameterLaws(Laws):
         made = made_by(shape)
         listed = {name: made.fitted(points) for name, points in flesh_in(body, random).items()}
         own, larger = (
-            shape.bind(_listing(body, shape.kind, {
+            shape.bind(listing(body, shape.kind, {
                 name: one.deformed(Scaling(factor)) for name, one in listed.items()
             }))
             for factor in (1.0, 1.5)
@@ -140,7 +140,7 @@ def flesh_in(body: Body, random: np.random.Generator) -> dict[str, Array]:
     return found
 
 
-def _listing(body: Body, kind: str, listed: dict[str, Any]) -> Body:
+def listing(body: Body, kind: str, listed: dict[str, Any]) -> Body:
     """Returns the body with one primitive of a kind on each of some segments."""
     segments = np.array([body.skeleton.names.index(name) for name in listed], dtype=np.intp)
     return replace(body, shapes={kind: ListedShape(segments, tuple(listed.values()))})

@@ -6,7 +6,7 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from regkit.body import Body, EllipsoidParameters, ShapeParameters, ellipsoids
+from regkit.body import Body, GaussianParameters, ShapeParameters, gaussians
 from regkit.gaussians.surface import Surface, shown
 from regkit.geometry.capsule_moments import capsule_moments
 from regkit.interfaces import ListedShapeModel
@@ -23,7 +23,7 @@ class GeneralizedSumOfGaussians(ListedShapeModel):
 
     kind: Literal["gsog"] = "gsog"
     makes: ClassVar[type[Primitives]] = Gaussians
-    parameters: ClassVar[type[ShapeParameters] | None] = EllipsoidParameters
+    parameters: ClassVar[type[ShapeParameters] | None] = GaussianParameters
 
     surface: Surface = "volume"
     """Whether kernels compare data with the whole Gaussian, or with its visible surface."""
@@ -35,8 +35,8 @@ class GeneralizedSumOfGaussians(ListedShapeModel):
             ConfigError: If the template has neither Gaussians nor capsules, or lacks a named list.
         """
         listed = self.listed(body)
-        gaussians = _moments_of(body) if listed is None else Gaussians(*ellipsoids(listed))
-        return shown(gaussians, self.surface)
+        own = _moments_of(body) if listed is None else Gaussians(*gaussians(listed))
+        return shown(own, self.surface)
 
 
 def _moments_of(body: Body) -> Gaussians:
