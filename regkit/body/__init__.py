@@ -8,7 +8,7 @@ from regkit.body.ellipsoids import BallParameters, EllipsoidParameters
 from regkit.body.fit import BodyFit
 from regkit.body.freedoms import Freedom
 from regkit.body.gaussians import GaussianParameters, IsotropicGaussianParameters
-from regkit.body.listed import ListedShape, capsules, ellipsoids, gaussians
+from regkit.body.listed import ListedShape, capsules, ellipsoids, gaussians, of_capsules
 from regkit.body.shape_parameters import ShapeParameters
 from regkit.body.shapes import ParametricShape
 
@@ -34,4 +34,5 @@ __all__ = [
     "capsules",
     "ellipsoids",
     "gaussians",
+    "of_capsules",
 ]

@@ -15,6 +15,7 @@ from regkit.geometry.capsules import Capsules
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.system.arrays import Array, Indices, read_only
 
+P = TypeVar("P", bound=ShapeParameters)
 P_co = TypeVar("P_co", bound=ShapeParameters, covariant=True)
 
 
@@ -33,6 +34,12 @@ class ListedShape(Generic[P_co]):
     def __len__(self) -> int:
         """Number K of primitives."""
         return len(self.parameters)
+
+
+def of_capsules(capsules: Capsules, made: type[P]) -> ListedShape[P]:
+    """Returns one primitive of a class of parameters for each capsule (K)."""
+    each = zip(capsules.ends, capsules.radii, strict=True)
+    return ListedShape(capsules.segments, tuple(made.of_capsule(*one) for one in each))
 
 
 def ellipsoids(
