@@ -22,9 +22,10 @@ class Division:
     """A cluster in two, or in one on each side.
 
     Attributes:
-        parts: The clusters; none if there are too few points.
+        parts: The clusters.
         cost: Number of primitives that are added.
-        gain: Reduction of the points' squared distances to their mean, for each of those [m^5].
+        gain: Reduction of the points' squared distances to their means times their mass, for each
+            of those.
     """
 
     parts: tuple[Cluster, ...]
@@ -39,7 +40,7 @@ class Cluster:
     Attributes:
         segment: The segment.
         points: Points in its frame, (N, 3) [m]; of a cluster in the middle those on the first side.
-        volume: Volume for which a point stands [m^3].
+        mass: How much a point counts, such as the volume for which it stands [m^3].
         twin: Segment that carries the mirror image of the primitive, which may be the same; None if
             there is no mirror image.
         reflection: Matrix that maps positions in the segment's frame to those of the mirror image
@@ -49,7 +50,7 @@ class Cluster:
 
     segment: int
     points: Array
-    volume: float
+    mass: float
     twin: int | None
     reflection: Array
     middle: bool = False
@@ -64,33 +65,35 @@ class Cluster:
         """The mirror images of the points in the twin's frame, (N, 3) [m]."""
         return np.asarray(self.points @ self.reflection.T)
 
-    def halved(self) -> Cluster:
-        """Returns the cluster in the middle that has this one's points of the first side."""
+    def with_twin(self, twin: int, reflection: Array) -> Cluster:
+        """Returns the cluster with a mirror image in another segment, or in the same."""
+        return replace(self, twin=twin, reflection=reflection)
+
+    def in_the_middle(self) -> Cluster:
+        """Returns the cluster that is its own mirror image, of the points on the first side."""
         return replace(self, points=self.points[self._heights > 0.0], middle=True)
 
     @cached_property
-    def division(self) -> Division:
-        """The division by which the squared distances fall the most."""
+    def divisions(self) -> tuple[Division, ...]:
+        """The possible divisions: by two means, and of a cluster in the middle by the plane."""
         if not self.middle:
-            return self._in_two(self.points, self.primitives)
-        # Two in the middle differ in the positions on the plane alone.
+            return self._by_means(self.points, self.primitives, 1.0)
         heights = self._heights
-        flat = self._in_two(self.points - heights[:, None] * self._normal, 1)
-        gain = 2.0 * self.volume * len(heights) * float(heights.mean()) ** 2
-        if 2.0 * flat.gain >= gain or len(heights) < FEWEST:
-            return replace(flat, gain=2.0 * flat.gain)
-        return Division((replace(self, middle=False),), 1, gain)
+        gain = 2.0 * self.mass * len(heights) * float(heights.mean()) ** 2
+        sides = Division((replace(self, middle=False),), 1, gain)
+        # Two in the middle differ in the positions on the plane alone; all points are there twice.
+        return *self._by_means(self.points - heights[:, None] * self._normal, 1, 2.0), sides
 
-    def _in_two(self, places: Array, cost: int) -> Division:
-        """Returns the division by the two means of the places (N, 3) [m] of the points."""
+    def _by_means(self, places: Array, cost: int, times: float) -> tuple[Division, ...]:
+        """Returns the division by two means of the places (N, 3) [m] of the points, if possible."""
         chosen = _halves(places)
         sizes = int(chosen.sum()), int((~chosen).sum())
         if min(sizes) < FEWEST:
-            return Division((), 0, 0.0)
+            return ()
         apart = places[chosen].mean(axis=0) - places[~chosen].mean(axis=0)
         parts = tuple(replace(self, points=self.points[own]) for own in (chosen, ~chosen))
-        gain = self.volume * sizes[0] * sizes[1] / len(places) * float(apart @ apart)
-        return Division(parts, cost, gain)
+        gain = times * self.mass * sizes[0] * sizes[1] / len(places) * float(apart @ apart)
+        return (Division(parts, cost, gain),)
 
     @cached_property
     def _normal(self) -> Array:
