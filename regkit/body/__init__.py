@@ -7,7 +7,8 @@ from regkit.body.description import BodyDescription
 from regkit.body.ellipsoids import BallParameters, EllipsoidParameters
 from regkit.body.fit import BodyFit
 from regkit.body.freedoms import Freedom
-from regkit.body.listed import ListedShape, capsules, ellipsoids
+from regkit.body.gaussians import GaussianParameters, IsotropicGaussianParameters
+from regkit.body.listed import ListedShape, capsules, ellipsoids, gaussians, of_capsules
 from regkit.body.shape_parameters import ShapeParameters
 from regkit.body.shapes import ParametricShape
 
@@ -20,6 +21,8 @@ __all__ = [
     "Deformation",
     "EllipsoidParameters",
     "Freedom",
+    "GaussianParameters",
+    "IsotropicGaussianParameters",
     "ListedShape",
     "Markers",
     "Mirror",
@@ -30,4 +33,6 @@ __all__ = [
     "Stretch",
     "capsules",
     "ellipsoids",
+    "gaussians",
+    "of_capsules",
 ]

@@ -79,6 +79,13 @@ class CapsuleParameters(CapsuleDescription, ShapeParameters):
         )
 
     @classmethod
+    def of_capsule(cls, ends: Array, radii: Array) -> Self:
+        """Returns the capsule itself, with one radius if both are equal."""
+        first, second = radii.tolist()
+        radius = first if first == second else (first, second)
+        return cls(start=vector(ends[0]), end=vector(ends[1]), radius=radius)
+
+    @classmethod
     def fitted(cls, points: Array, like: Self | None = None) -> Self:
         """Returns the capsule with the mean and about the variances of points (N, 3) [m].
 

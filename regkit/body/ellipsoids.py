@@ -11,11 +11,13 @@ from regkit.body.deformation import Deformation
 from regkit.body.freedoms import Freedom
 from regkit.body.shape_parameters import ShapeParameters
 from regkit.body.vectors import rounded, vector
+from regkit.geometry.capsule_moments import capsule_moments
 from regkit.geometry.principal_axes import principal_axes
 from regkit.geometry.rotation import (
     from_matrix,
     from_vector,
     product,
+    rotation_between,
     to_vector,
     vector_to_matrix,
 )
@@ -75,6 +77,22 @@ class EllipsoidParameters(ShapeParameters):
         )
 
     @classmethod
+    def of_capsule(cls, ends: Array, radii: Array) -> Self:
+        """Returns the solid with the moments of a solid capsule.
+
+        The axis next to the capsule's points along it, by the smallest rotation, so that mirror
+        images of capsules have mirrored parameters.
+        """
+        centre, axes, (across, along, _) = capsule_moments(ends, radii)
+        nearest = int(np.abs(axes[:, 1]).argmax())
+        axis = np.sign(axes[nearest, 1]) * np.eye(3)[nearest]
+        sigma = np.where(np.arange(3) == nearest, along, across)
+        rotation = to_vector(from_matrix(rotation_between(axis, axes[:, 1])))
+        return cls(
+            centre=vector(centre), sigma=vector(sigma), rotation_deg=vector(np.degrees(rotation))
+        )
+
+    @classmethod
     def fitted(cls, points: Array, like: Self | None = None) -> Self:
         """Returns the solid with the moments of points (N, 3) [m], a sphere if ``like`` is one.
 
@@ -97,6 +115,12 @@ class BallParameters(EllipsoidParameters):
 
     sigma: Deviation
     """Standard deviation [m]."""
+
+    @classmethod
+    def of_capsule(cls, ends: Array, radii: Array) -> Self:
+        """Returns the ball with the mean and total variance of a solid capsule."""
+        centre, _, deviations = capsule_moments(ends, radii)
+        return cls(centre=vector(centre), sigma=float(np.sqrt(np.mean(deviations**2))))
 
     @classmethod
     def fitted(cls, points: Array, like: Self | None = None) -> Self:

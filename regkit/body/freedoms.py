@@ -21,14 +21,17 @@ class Freedom(Enum):
     """A position (3,): the step [m] is added."""
     LOG_SCALE = "log_scale"
     """The logarithm of a length: the length is multiplied by the exponential of the step."""
+    LOG_WEIGHT = "log_weight"
+    """The logarithm of a weight: the weight is multiplied by the exponential of the step, and the
+    moments stay."""
     ROTATION = "rotation"
     """The rotation of the primitive's own axes (3,): ``R_new = exp(step) R`` for a rotation vector
     [rad] in the segment's frame."""
 
     @property
     def size(self) -> int:
-        """Number of the step's coordinates: 3, or 1 for the logarithm of a length."""
-        return 1 if self is Freedom.LOG_SCALE else 3
+        """Number of the step's coordinates: 3, or 1 for a logarithm."""
+        return 3 if self in (Freedom.POSITION, Freedom.ROTATION) else 1
 
     def mirrored(self, step: Array, reflection: Array) -> Array:
         """Returns the part (..., size) of the step of a mirror image.
@@ -40,7 +43,7 @@ class Freedom(Enum):
         match self:
             case Freedom.POSITION:
                 return np.asarray(step @ reflection.T)
-            case Freedom.LOG_SCALE:
+            case Freedom.LOG_SCALE | Freedom.LOG_WEIGHT:
                 return step
             case Freedom.ROTATION:
                 # The sense of a rotation reverses in the mirror.

@@ -9,11 +9,13 @@ import numpy as np
 
 from regkit.body.capsules import CapsuleParameters
 from regkit.body.ellipsoids import EllipsoidParameters
+from regkit.body.gaussians import GaussianParameters
 from regkit.body.shape_parameters import ShapeParameters
 from regkit.geometry.capsules import Capsules
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.system.arrays import Array, Indices, read_only
 
+P = TypeVar("P", bound=ShapeParameters)
 P_co = TypeVar("P_co", bound=ShapeParameters, covariant=True)
 
 
@@ -34,10 +36,16 @@ class ListedShape(Generic[P_co]):
         return len(self.parameters)
 
 
+def of_capsules(capsules: Capsules, made: type[P]) -> ListedShape[P]:
+    """Returns one primitive of a class of parameters for each capsule (K)."""
+    each = zip(capsules.ends, capsules.radii, strict=True)
+    return ListedShape(capsules.segments, tuple(made.of_capsule(*one) for one in each))
+
+
 def ellipsoids(
     listed: ListedShape[EllipsoidParameters],
 ) -> tuple[Indices, Array, Array, Array, Array]:
-    """Returns the arrays of K Gaussians: segments, centres, axes, scales and weights.
+    """Returns the arrays of K solids: segments, centres, axes, scales and weights.
 
     Returns:
         Segments (K,), centres (K, 3) [m], R_segment_primitive (K, 3, 3), standard deviations
@@ -51,6 +59,14 @@ def ellipsoids(
         read_only([np.broadcast_to(one.sigma, 3) for one in solids]).reshape(-1, 3),
         np.ones(len(solids)),
     )
+
+
+def gaussians(
+    listed: ListedShape[GaussianParameters],
+) -> tuple[Indices, Array, Array, Array, Array]:
+    """Returns the arrays of K Gaussians, like ``ellipsoids``, with their own weights (K,)."""
+    weights = np.array([one.weight for one in listed.parameters])
+    return *ellipsoids(listed)[:4], weights
 
 
 def capsules(listed: ListedShape[CapsuleParameters]) -> Capsules:

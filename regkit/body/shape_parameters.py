@@ -13,8 +13,12 @@ from regkit.body.deformation import Deformation
 from regkit.body.freedoms import MIRROR, Freedom, step_parts
 from regkit.body.rows import fields_row
 from regkit.config.model import Model
+from regkit.geometry.capsule_points import capsule_points
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError, PluginError
+
+SAMPLES = 2000
+"""About the number of points inside a capsule to which a primitive is fitted."""
 
 
 class ShapeParameters(Model, ABC):
@@ -41,6 +45,18 @@ class ShapeParameters(Model, ABC):
             points: Points in the segment's frame, (N, 3) [m].
             like: Parameters of another template at this place, whose options the result keeps.
         """
+
+    @classmethod
+    def of_capsule(cls, ends: Array, radii: Array) -> Self:
+        """Returns the primitive that stands for a solid tapered capsule, without rounding.
+
+        By default it is fitted to points inside.
+
+        Args:
+            ends: Centres of the two spheres in the segment's frame, (2, 3) [m].
+            radii: Their radii, (2,) [m].
+        """
+        return cls.fitted(capsule_points(ends, radii, SAMPLES))
 
     def freedoms(self) -> tuple[Freedom, ...]:
         """Returns the free parameters by which a primitive is optimised, in the order of a step.

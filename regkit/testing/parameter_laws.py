@@ -10,6 +10,7 @@ import pytest
 
 from regkit.body import Body, ListedShape, Mirror, Scaling, ShapeParameters, Stretch
 from regkit.config.yaml import yaml_data
+from regkit.geometry.capsule_moments import capsule_moments
 from regkit.interfaces import ShapeModel
 from regkit.system.arrays import Array
 from regkit.testing.laws import Laws
@@ -46,6 +47,29 @@ class ParameterLaws(Laws):
                 off < 0.5 * size and 0.5 < ratio < 2.0, shape, f"fits parameters {off:.2g} m from "
                 f"the points and {ratio:.2g} times as large; both must match the points",
                 look_at=made.fitted,
+            )  # fmt: skip
+
+    def test_shape_stands_for_a_capsule(
+        self, shape: ShapeModel, body: Body, random: np.random.Generator
+    ) -> None:
+        """The primitive of a capsule has about its mean and spread, and is the same each time."""
+        made = made_by(shape)
+        for ends, radii in zip(body.capsules.ends, body.capsules.radii, strict=True):
+            one = made.of_capsule(ends, radii)
+            mean, covariance = one.moments()
+            centre, _, deviations = capsule_moments(ends, radii)
+            size = float(np.linalg.norm(deviations))
+            off = float(np.linalg.norm(mean - centre))
+            ratio = float(np.sqrt(np.trace(covariance))) / size
+            require(
+                off < 0.5 * size and 0.5 < ratio < 2.0, shape, f"has parameters {off:.2g} m from "
+                f"the capsule they stand for and {ratio:.2g} times as large; both must match it",
+                look_at=made.of_capsule,
+            )  # fmt: skip
+            require(
+                made.of_capsule(ends, radii) == one, shape,
+                "has other parameters when they stand for the same capsule again",
+                look_at=made.of_capsule,
             )  # fmt: skip
 
     def test_shape_parameters_follow_the_segment(
@@ -98,7 +122,7 @@ class ParameterLaws(Laws):
         made = made_by(shape)
         listed = {name: made.fitted(points) for name, points in flesh_in(body, random).items()}
         own, larger = (
-            shape.bind(_listing(body, shape.kind, {
+            shape.bind(listing(body, shape.kind, {
                 name: one.deformed(Scaling(factor)) for name, one in listed.items()
             }))
             for factor in (1.0, 1.5)
@@ -140,7 +164,7 @@ def flesh_in(body: Body, random: np.random.Generator) -> dict[str, Array]:
     return found
 
 
-def _listing(body: Body, kind: str, listed: dict[str, Any]) -> Body:
+def listing(body: Body, kind: str, listed: dict[str, Any]) -> Body:
     """Returns the body with one primitive of a kind on each of some segments."""
     segments = np.array([body.skeleton.names.index(name) for name in listed], dtype=np.intp)
     return replace(body, shapes={kind: ListedShape(segments, tuple(listed.values()))})

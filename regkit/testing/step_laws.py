@@ -13,10 +13,15 @@ from regkit.geometry.rotation import vector_to_matrix
 from regkit.interfaces import ShapeModel
 from regkit.system.arrays import Array
 from regkit.testing.laws import Laws
-from regkit.testing.parameter_laws import flesh_in, made_by
+from regkit.testing.parameter_laws import flesh_in, listing, made_by
 from regkit.testing.verdict import require
 
-STEPS = {Freedom.POSITION: 0.1, Freedom.LOG_SCALE: 0.2, Freedom.ROTATION: 0.5}
+STEPS = {
+    Freedom.POSITION: 0.1,
+    Freedom.LOG_SCALE: 0.2,
+    Freedom.ROTATION: 0.5,
+    Freedom.LOG_WEIGHT: 0.5,
+}
 """Standard deviation of the steps: relative to the primitive's own, and [rad]."""
 
 EXACT = 1e-9
@@ -83,6 +88,13 @@ class StepLaws(Laws):
                     by < EXACT, shape, f"has parameters whose moments are off by {by:.2g} of their "
                     f"size after a step of {kind.name}", look_at=at,
                 )  # fmt: skip
+            if Freedom.LOG_WEIGHT in freedoms:
+                heavier = one.moved(_only(freedoms, {Freedom.LOG_WEIGHT: np.full(1, 0.5)}))
+                by = _difference(one, heavier)
+                require(
+                    by < EXACT, shape, f"has parameters whose moments are off by {by:.2g} of their "
+                    "size after a step of the weight alone", look_at=at,
+                )  # fmt: skip
             if Freedom.LOG_SCALE in freedoms:
                 larger = one.moved(_only(freedoms, {Freedom.LOG_SCALE: np.full(1, 0.1)}))
                 ratio = float(np.sqrt(np.trace(larger.moments()[1]))) / size
@@ -90,6 +102,25 @@ class StepLaws(Laws):
                     1.0 < ratio < np.exp(0.1) + EXACT, shape, "has parameters whose lengths, times "
                     f"{np.exp(0.1):.3f}, make the primitive {ratio:.3g} times as large", look_at=at,
                 )  # fmt: skip
+
+    def test_shape_weights_are_those_of_its_primitives(
+        self, shape: ShapeModel, body: Body, random: np.random.Generator
+    ) -> None:
+        """A step of a weight multiplies the weights of the primitives that are made of it."""
+        made = made_by(shape)
+        listed = {name: made.fitted(points) for name, points in flesh_in(body, random).items()}
+        if not any(Freedom.LOG_WEIGHT in one.freedoms() for one in listed.values()):
+            pytest.skip("its parameters have no free weights")
+        change = {Freedom.LOG_WEIGHT: np.full(1, 0.5)}
+        heavier = {name: one.moved(_only(one.freedoms(), change)) for name, one in listed.items()}
+        before, after = (
+            shape.bind(listing(body, shape.kind, each)).weights for each in (listed, heavier)
+        )
+        by = float(np.abs(after / (before * np.exp(0.5)) - 1.0).max())
+        require(
+            by < EXACT, shape, f"makes primitives whose weights are off by {by:.2g}, relatively, "
+            f"after all weights were multiplied by {np.exp(0.5):.3f}", look_at=type(shape).bind,
+        )  # fmt: skip
 
     def test_shape_steps_are_mirrored(
         self, shape: ShapeModel, body: Body, random: np.random.Generator

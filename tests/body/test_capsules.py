@@ -3,7 +3,14 @@
 import numpy as np
 import pytest
 
-from regkit.body import Body, CapsuleParameters, ListedShape
+from regkit.body import (
+    BallParameters,
+    Body,
+    CapsuleParameters,
+    GaussianParameters,
+    ListedShape,
+    Mirror,
+)
 from regkit.geometry.capsules import Capsules
 from regkit.interfaces import ShapeModel
 from regkit.testing.samples import linkage
@@ -69,6 +76,30 @@ def test_flat_points_give_a_sphere_and_those_of_a_cone_no_capsule_within_a_spher
     found = CapsuleParameters.fitted(cone)
     length = np.linalg.norm(np.subtract(found.end, found.start))
     assert 0.0 < found.radius[1] - found.radius[0] < length
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_primitive_of_a_capsule_is_the_capsule_or_has_its_moments(name):
+    one = CASES[name]
+    ends, radii = np.array([one.start, one.end]), np.broadcast_to(one.radius, 2)
+    assert CapsuleParameters.of_capsule(ends, radii) == one
+    mean, covariance = one.moments()
+    solid, ball = (made.of_capsule(ends, radii) for made in (GaussianParameters, BallParameters))
+    np.testing.assert_allclose(solid.moments()[0], mean, atol=1e-12)
+    np.testing.assert_allclose(solid.moments()[1], covariance, atol=1e-12)
+    np.testing.assert_allclose(ball.moments()[0], mean, atol=1e-12)
+    np.testing.assert_allclose(3.0 * ball.sigma**2, np.trace(covariance))
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_mirror_image_of_a_capsule_has_the_mirrored_parameters(name):
+    one = CASES[name]
+    ends, radii = np.array([one.start, one.end]), np.broadcast_to(one.radius, 2)
+    for made in (GaussianParameters, BallParameters, CapsuleParameters):
+        image = made.of_capsule(ends * [-1.0, 1.0, 1.0], radii)
+        expected = made.of_capsule(ends, radii).deformed(Mirror())
+        for field, value in expected.model_dump().items():
+            np.testing.assert_allclose(getattr(image, field), value, atol=1e-12)
 
 
 def test_sphere_mesh_takes_the_capsules_that_are_listed():

@@ -8,7 +8,10 @@ from regkit.body import (
     CapsuleParameters,
     EllipsoidParameters,
     Freedom,
+    GaussianParameters,
+    IsotropicGaussianParameters,
     Mirror,
+    Scaling,
     ShapeParameters,
 )
 from regkit.body.freedoms import step_size
@@ -25,6 +28,12 @@ SOLIDS: dict[str, tuple[ShapeParameters, int]] = {
         EllipsoidParameters(centre=CENTRE, sigma=(0.1, 0.2, 0.05), rotation_deg=(10, -30, 300)), 9
     ),
     "sphere": (EllipsoidParameters(centre=CENTRE, sigma=0.1), 4),
+    "gaussian": (
+        GaussianParameters(
+            centre=CENTRE, sigma=(0.1, 0.2, 0.05), rotation_deg=(10, -30, 50), weight=0.5
+        ), 10
+    ),
+    "isotropic": (IsotropicGaussianParameters(centre=CENTRE, sigma=0.1, weight=2.0), 5),
     "ball": (BallParameters(centre=CENTRE, sigma=0.1), 4),
     "tapered": (CapsuleParameters(start=CENTRE, end=(0.2, 0.1, 0.3), radius=(0.1, 0.05)), 8),
     "capsule": (CapsuleParameters(start=CENTRE, end=(0.2, 0.1, 0.3), radius=0.1), 7),
@@ -60,6 +69,17 @@ def test_lengths_are_multiplied_and_positions_and_rotations_added_exactly():
     np.testing.assert_allclose(after.sigma, [0.1 * np.exp(1e-7), 0.2, 0.1], rtol=1e-15)
     turned, before = (vector_to_matrix(np.radians(a.rotation_deg)) for a in (after, one))
     np.testing.assert_allclose(turned, vector_to_matrix(step[6:]) @ before, atol=1e-15)
+
+
+@pytest.mark.parametrize("name", ["gaussian", "isotropic"])
+def test_step_multiplies_the_weight_alone(name):
+    one, count = SOLIDS[name]
+    step = np.zeros(count)
+    step[-1] = np.log(3.0)
+    after = one.moved(step)
+    same(after, one)
+    assert after.weight == pytest.approx(3.0 * one.weight)
+    assert after.deformed(Scaling(2.0)).weight == after.weight
 
 
 @pytest.mark.parametrize("name", SOLIDS)

@@ -14,7 +14,9 @@ from regkit.body import (
     CapsuleParameters,
     Deformation,
     EllipsoidParameters,
+    GaussianParameters,
     Mirror,
+    ParametricShape,
     Scaling,
     ShapeParameters,
     Stretch,
@@ -26,6 +28,7 @@ from regkit.body.writing import template_text
 from regkit.calibration.shape import Shape
 from regkit.config.document import Document
 from regkit.config.plugin import register
+from regkit.config.yaml import yaml_data
 from regkit.fitting.template import parameters_of
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.interfaces import ShapeModel
@@ -300,6 +303,25 @@ def test_listed_ellipsoids_are_arrays_of_their_moments(read):
     assert gaussians.segments == body.skeleton.names.index("arm")
     covariance = gaussians.place(np.tile(np.eye(4), (6, 1, 1))).covariances()[0]
     np.testing.assert_allclose(covariance, np.diag([0.2, 0.1, 0.3]) ** 2, atol=1e-12)
+
+
+@pytest.mark.parametrize("kind", ["gsog", "sog"])
+def test_weights_are_listed_read_and_written_unless_they_are_one(kind, read):
+    plain, heavy = "centre: [0, 0.1, 0], sigma: 0.1", "centre: [0, 0.2, 0], sigma: 0.2"
+    listed = f"{{{plain}}}, {{{heavy}, weight: 2.5}}"
+    description = read(f"shapes: {{{kind}: {{arm: [{listed}]}}}}\n")
+    one, two = description.shapes[kind]["arm"]
+    assert "weight" not in one.yaml()
+    assert "weight: 2.5000" in two.yaml()
+    assert type(two).model_validate(yaml_data(two.yaml(), "solid")) == two
+    bound = ParametricShape.load(kind)().bind(description.body("thing", 2.0))
+    np.testing.assert_array_equal(bound.weights, [1.0, 2.5])
+
+
+@pytest.mark.parametrize("weight", [0.0, -1.0, 1e5, float("nan")])
+def test_a_weight_is_positive_and_bounded(weight):
+    with pytest.raises(ValidationError, match="weight"):
+        GaussianParameters(centre=(0.0, 0.0, 0.0), sigma=0.1, weight=weight)
 
 
 def test_a_solid_without_extent_is_refused():

@@ -45,6 +45,14 @@ class Elsewhere(EllipsoidParameters):
         return super().fitted(points + 1.0, like)
 
 
+class Astray(EllipsoidParameters):
+    """Stands for another capsule."""
+
+    @classmethod
+    def of_capsule(cls, ends: np.ndarray, radii: np.ndarray) -> Self:
+        return super().of_capsule(ends + 1.0, radii)
+
+
 class Terse(EllipsoidParameters):
     """Writes its middle alone."""
 
@@ -81,6 +89,7 @@ def test_parameters_without_a_fault_keep_the_law(law, random):
         (Rigid, "test_shape_parameters_follow_the_segment", "after a Scaling"),
         (Upright, "test_shape_parameters_follow_the_segment", "covariance.*after a Mirror"),
         (Elsewhere, "test_shape_fits_its_parameters", "from the points"),
+        (Astray, "test_shape_stands_for_a_capsule", "from the capsule"),
         (Terse, "test_shape_parameters_are_written_as_they_are_read", "sigma: 0.1}"),
         (Rigid, "test_shape_takes_the_parameters_of_the_body", "scaled"),
     ],

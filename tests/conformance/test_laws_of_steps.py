@@ -5,9 +5,17 @@ from typing import ClassVar, Literal, Self
 import numpy as np
 import pytest
 
-from regkit.body import Body, EllipsoidParameters, Freedom, ShapeParameters, ellipsoids
+from regkit.body import (
+    Body,
+    EllipsoidParameters,
+    Freedom,
+    GaussianParameters,
+    ShapeParameters,
+    ellipsoids,
+    gaussians,
+)
 from regkit.body.freedoms import MIRROR
-from regkit.body.vectors import rounded
+from regkit.body.vectors import rounded, vector
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.interfaces import ListedShapeModel, ShapeModel
 from regkit.primitives import Gaussians, Primitives
@@ -27,6 +35,32 @@ class Faultless(ListedShapeModel):
         listed = self.listed(body)
         assert listed is not None
         return Gaussians(*ellipsoids(listed))
+
+
+class Weighted(Faultless):
+    """Weighted Gaussians that a template lists."""
+
+    parameters: ClassVar[type[ShapeParameters] | None] = GaussianParameters
+
+    def bind(self, body: Body) -> Gaussians:
+        listed = self.listed(body)
+        assert listed is not None
+        return Gaussians(*gaussians(listed))
+
+
+class Weightless(Weighted):
+    """Forgets the weights."""
+
+    bind = Faultless.bind
+
+
+class Swelling(GaussianParameters):
+    """Grows with its weight."""
+
+    def moved(self, step: Array) -> Self:
+        moved = super().moved(step)
+        size = float(np.exp(step[-1]))
+        return moved.model_copy(update={"sigma": vector(size * np.array(moved.sigma))})
 
 
 class Shifted(EllipsoidParameters):
@@ -82,7 +116,12 @@ def check(shape: type[ShapeModel], law: str, random: np.random.Generator) -> Non
 
 @pytest.mark.parametrize("law", LAWS)
 def test_steps_without_a_fault_keep_the_law(law, random):
-    check(Faultless, law, random)
+    check(Weighted, law, random)
+
+
+def test_forgotten_weight_breaks_the_law(random):
+    with pytest.raises(pytest.fail.Exception, match="weights are off"):
+        check(Weightless, "test_shape_weights_are_those_of_its_primitives", random)
 
 
 @pytest.mark.parametrize(
@@ -91,6 +130,7 @@ def test_steps_without_a_fault_keep_the_law(law, random):
         (Shifted, "test_shape_step_of_zero_changes_nothing", "step of zero"),
         (Rounded, "test_shape_steps_are_smooth", "smoothly"),
         (Spun, "test_shape_steps_move_enlarge_and_rotate", "ROTATION"),
+        (Swelling, "test_shape_steps_move_enlarge_and_rotate", "weight alone"),
         (Shrinking, "test_shape_steps_move_enlarge_and_rotate", "0.9.* times as large"),
         (OneSided, "test_shape_steps_are_mirrored", "mirror image"),
     ],

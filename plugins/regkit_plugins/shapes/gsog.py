@@ -4,14 +4,10 @@ from __future__ import annotations
 
 from typing import ClassVar, Literal
 
-import numpy as np
-
-from regkit.body import Body, EllipsoidParameters, ShapeParameters, ellipsoids
+from regkit.body import Body, GaussianParameters, ShapeParameters, gaussians, of_capsules
 from regkit.gaussians.surface import Surface, shown
-from regkit.geometry.capsule_moments import capsule_moments
 from regkit.interfaces import ListedShapeModel
 from regkit.primitives import Gaussians, Primitives
-from regkit.system.errors import ConfigError
 
 
 class GeneralizedSumOfGaussians(ListedShapeModel):
@@ -23,7 +19,7 @@ class GeneralizedSumOfGaussians(ListedShapeModel):
 
     kind: Literal["gsog"] = "gsog"
     makes: ClassVar[type[Primitives]] = Gaussians
-    parameters: ClassVar[type[ShapeParameters] | None] = EllipsoidParameters
+    parameters: ClassVar[type[ShapeParameters] | None] = GaussianParameters
 
     surface: Surface = "volume"
     """Whether kernels compare data with the whole Gaussian, or with its visible surface."""
@@ -35,25 +31,6 @@ class GeneralizedSumOfGaussians(ListedShapeModel):
             ConfigError: If the template has neither Gaussians nor capsules, or lacks a named list.
         """
         listed = self.listed(body)
-        gaussians = _moments_of(body) if listed is None else Gaussians(*ellipsoids(listed))
-        return shown(gaussians, self.surface)
-
-
-def _moments_of(body: Body) -> Gaussians:
-    capsules = body.capsules
-    if not len(capsules):
-        raise ConfigError(
-            f"the template '{body.name}' has neither shapes.gsog nor capsules, which shape 'gsog' "
-            "needs"
-        )
-    moments = [
-        capsule_moments(ends, radii)
-        for ends, radii in zip(capsules.ends, capsules.radii, strict=True)
-    ]
-    return Gaussians(
-        segments=capsules.segments,
-        centres=np.array([centre for centre, _, _ in moments]),
-        axes=np.array([axes for _, axes, _ in moments]),
-        scales=np.array([scales for _, _, scales in moments]),
-        weights=np.ones(len(moments)),
-    )
+        if listed is None:
+            listed = of_capsules(self.capsules_of(body), GaussianParameters)
+        return shown(Gaussians(*gaussians(listed)), self.surface)

@@ -6,7 +6,7 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from regkit.body import BallParameters, Body, ShapeParameters, ellipsoids
+from regkit.body import Body, IsotropicGaussianParameters, ShapeParameters, gaussians
 from regkit.gaussians.surface import Surface, shown
 from regkit.geometry.capsules import Capsules
 from regkit.interfaces import ListedShapeModel
@@ -23,7 +23,7 @@ class SumOfGaussians(ListedShapeModel):
 
     kind: Literal["sog"] = "sog"
     makes: ClassVar[type[Primitives]] = Gaussians
-    parameters: ClassVar[type[ShapeParameters] | None] = BallParameters
+    parameters: ClassVar[type[ShapeParameters] | None] = IsotropicGaussianParameters
 
     surface: Surface = "volume"
     """Whether kernels compare data with the whole Gaussian, or with its visible surface."""
@@ -37,7 +37,7 @@ class SumOfGaussians(ListedShapeModel):
         listed = self.listed(body)
         if listed is None:
             return shown(_strung_along(self.capsules_of(body)), self.surface)
-        return shown(Gaussians(*ellipsoids(listed)), self.surface)
+        return shown(Gaussians(*gaussians(listed)), self.surface)
 
 
 def _strung_along(capsules: Capsules) -> Gaussians:

@@ -4,22 +4,24 @@ from __future__ import annotations
 
 import numpy as np
 
-from regkit.body import BallParameters, EllipsoidParameters
+from regkit.body import GaussianParameters, IsotropicGaussianParameters
 from regkit.body.deformation import REFLECT
 from regkit.fitting.clusters import clusters, spread
 from regkit.system.arrays import Array
 
-gaussian, ball = EllipsoidParameters.fitted, BallParameters.fitted
+gaussian, ball = GaussianParameters.fitted, IsotropicGaussianParameters.fitted
 """The Gaussian with the moments of points (N, 3) [m], and the isotropic one."""
 
 
-def balls(points: Array, count: int) -> tuple[BallParameters, ...]:
+def balls(points: Array, count: int) -> tuple[IsotropicGaussianParameters, ...]:
     """Returns ``count`` isotropic Gaussians of clusters of ``points`` (N, 3) [m]."""
     owners = clusters(points, points[spread(points, count)])
     return tuple(ball(points[owners == index]) for index in range(count))
 
 
-def symmetric_balls(points: Array, pairs: int, middle: int) -> tuple[BallParameters, ...]:
+def symmetric_balls(
+    points: Array, pairs: int, middle: int
+) -> tuple[IsotropicGaussianParameters, ...]:
     """Returns isotropic Gaussians that are symmetric about the plane x = 0.
 
     Args:
@@ -31,7 +33,7 @@ def symmetric_balls(points: Array, pairs: int, middle: int) -> tuple[BallParamet
     start = half[spread(half, pairs + middle)]
     start = start[np.argsort(-start[:, 0], kind="stable")]
     owners = clusters(half, start, in_plane=middle)
-    found: list[BallParameters] = []
+    found: list[IsotropicGaussianParameters] = []
     for index in range(pairs):
         own = half[owners == index]
         found += [ball(own), ball(own * REFLECT)]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from regkit.body import BodyDescription, EllipsoidParameters
+from regkit.body import BodyDescription, GaussianParameters
 from regkit.body.description import SizeDescription
 from regkit.body.vectors import rounded
 from regkit.fitting.clusters import clusters
@@ -120,7 +120,7 @@ def _pieces(name: str, layout: HandLayout) -> tuple[Piece, ...]:
     )
 
 
-def _palm(points: Array) -> tuple[EllipsoidParameters, ...]:
+def _palm(points: Array) -> tuple[GaussianParameters, ...]:
     """Three Gaussians: two below the four fingers, one at the wrist."""
     across = np.quantile(points[:, 0], [5.0 / 6.0, 0.5, 1.0 / 6.0])
     centres = np.tile(points.mean(axis=0), (3, 1))

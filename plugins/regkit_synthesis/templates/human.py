@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from regkit.body import BodyDescription, EllipsoidParameters
+from regkit.body import BodyDescription, GaussianParameters
 from regkit.body.deformation import REFLECT
 from regkit.body.description import SizeDescription
 from regkit.body.vectors import rounded
@@ -58,7 +58,7 @@ def human(
     heights = layout.neutral(mesh)[:, 1]
     left = {name: _segment(name, mesh, layout, flesh[name]) for name in BONES}
     sog = {name: _balls(name, flesh[name]) for name in BONES}
-    gsog: dict[str, tuple[EllipsoidParameters, ...]] = {
+    gsog: dict[str, tuple[GaussianParameters, ...]] = {
         name: (gaussian(flesh[name].interior),) for name in BONES if name != "left_hand"
     }
     # The hand is fixed to the forearm, and one Gaussian stands for both.
@@ -113,7 +113,7 @@ def _segment(name: str, mesh: SkinnedMesh, layout: Layout, flesh: Flesh) -> Segm
     )
 
 
-def _balls(name: str, flesh: Flesh) -> tuple[EllipsoidParameters, ...]:
+def _balls(name: str, flesh: Flesh) -> tuple[GaussianParameters, ...]:
     pairs, single = BALLS[name]
     if name.startswith("left_"):
         return balls(flesh.interior, single)
@@ -136,8 +136,8 @@ def _both_segments(left: dict[str, SegmentDescription]) -> dict[str, SegmentDesc
 
 
 def _both_gaussians(
-    left: dict[str, tuple[EllipsoidParameters, ...]],
-) -> dict[str, tuple[EllipsoidParameters, ...]]:
+    left: dict[str, tuple[GaussianParameters, ...]],
+) -> dict[str, tuple[GaussianParameters, ...]]:
     both = {}
     for name, several in left.items():
         both[name] = several
