@@ -14,6 +14,7 @@ from regkit.primitives import Placed, Primitives
 from regkit.registration.coordinates import Coordinates
 from regkit.registration.pose_problem import PoseProblem
 from regkit.registration.problem import RegistrationProblem
+from regkit.registration.tangent import TangentCoordinates
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 
@@ -32,6 +33,10 @@ class FrameEnergy(ABC):
     @abstractmethod
     def problem(self, coordinates: Coordinates, multipliers: Multipliers | None) -> PoseProblem:
         """Returns the registration problem in given coordinates of the pose."""
+
+    @abstractmethod
+    def force(self, pose: Pose) -> Array:
+        """Returns the derivative of the energy to a step of ``Skeleton.retract``, (n,)."""
 
 
 @dataclass(frozen=True)
@@ -78,6 +83,11 @@ class SummedEnergy(FrameEnergy):
             self.joints,
             multipliers,
         )
+
+    def force(self, pose: Pose) -> Array:
+        """Returns the derivative of the energy to a step of ``Skeleton.retract``, (n,)."""
+        coordinates = TangentCoordinates(self.body.skeleton, pose)
+        return self.problem(coordinates, None).value_and_force(pose)[1]
 
     def _placed(self, pose: Pose) -> Placed[Primitives]:
         return self.primitives.place(self.body.place(pose).transforms)

@@ -119,6 +119,10 @@ class PlannedEnergy(FrameEnergy):
         )
         return energy, force, matrix
 
+    def force(self, pose: Pose) -> Array:
+        """Returns the derivative of the energy to a step of ``Skeleton.retract``, (n,)."""
+        return self.derivatives(pose, 1)[1]
+
     def problem(self, coordinates: Coordinates, multipliers: Multipliers | None) -> CompiledProblem:
         """Returns the registration problem in given coordinates of the pose."""
         return CompiledProblem(self, coordinates, multipliers)

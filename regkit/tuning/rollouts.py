@@ -17,8 +17,8 @@ from regkit.tuning.tunable import Tunable
 VARIED = 0.05
 """Variation of the independent parameters in differences, in their units."""
 
-LIMB = 1.3
-"""Error from which a marker counts less, since its limb is lost, in radii of a typical limb."""
+LIMB = 0.5
+"""Error from which a marker counts less, in radii of a typical limb: lost limbs do not decide."""
 
 STEEP = 10.0
 """Largest displacement of a marker per unit parameter that counts, in the unit of positions."""

@@ -13,7 +13,7 @@ from regkit.system.arrays import Array
 POSITION = 0.2
 """A position's unit as a fraction of a typical limb's radius: 1 cm of a person, 2 mm of a hand."""
 
-UNITS = {Freedom.LOG_SCALE: 0.1, Freedom.ROTATION: 0.1}
+UNITS = {Freedom.LOG_SCALE: 0.1, Freedom.ROTATION: 0.1, Freedom.LOG_WEIGHT: 0.2}
 """Units of the other free parameters: steps that change an energy about as much."""
 
 APART = 0.5

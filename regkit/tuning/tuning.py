@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from regkit.body import Body, BodyDescription, ShapeParameters
+from regkit.body import BodyDescription, ShapeParameters
 from regkit.body.shape_keys import list_key
 from regkit.interfaces import ListedShapeModel, Method, Tracker
 from regkit.system.errors import ConfigError
 from regkit.system.progress import steps, working
 from regkit.tuning.crew import SampleSet, crew
 from regkit.tuning.descent import HELD_OUT, TRAINING, Descent, Step
+from regkit.tuning.layout import divided, one_per_capsule
 from regkit.tuning.sets import HELD, SampleSets
 from regkit.tuning.trials import Comparison
 from regkit.tuning.tunable import Tunable
@@ -53,6 +54,7 @@ def tuned(
     tracker: Tracker,
     *,
     name: str | None = None,
+    primitives: int | None = None,
     samples: int = 240,
     iterations: int = 12,
     jobs: int = 1,
@@ -66,6 +68,8 @@ def tuned(
         tracker: What leads the method from frame to frame.
         name: Name of the tuned list, which the template holds as ``KIND/NAME``; by default the list
             that the method takes is replaced.
+        primitives: Number of primitives to begin with, which fill the body evenly; by default those
+            that the template lists, or one for each of its capsules.
         samples: Number of training samples.
         iterations: Maximum number of steps.
         jobs: Number of processes.
@@ -76,7 +80,7 @@ def tuned(
             derivative.
         RegkitError: If samples cannot be rendered.
     """
-    tunable = _tunable(sets.body, method, tracker)
+    tunable = _tunable(sets, method, tracker, primitives)
     trials = sets.trials()
     taken: list[Step] = []
 
@@ -101,35 +105,43 @@ def tuned(
             comparisons.append(Comparison.of(trial.name, before, then, sets.body.size))
     kind, _, old = tunable.key.partition("/")
     key = list_key(kind, (old or None) if name is None else name)
-    description = sets.template.description()
     listed: dict[str, tuple[ShapeParameters, ...]] = {}
     for segment, one in zip(after.segments.tolist(), after.parameters, strict=True):
         at = sets.body.skeleton.names[segment]
         listed[at] = (*listed.get(at, ()), one)
-    shapes = {**description.shapes, key: listed}
-    return Tuned(
-        description.model_copy(update={"shapes": shapes}), key, tuple(taken), tuple(comparisons)
-    )
+    return Tuned(_with_list(sets, key, listed), key, tuple(taken), tuple(comparisons))
 
 
-def _tunable(body: Body, method: Method, tracker: Tracker) -> Tunable:
+def _tunable(sets: SampleSets, method: Method, tracker: Tracker, primitives: int | None) -> Tunable:
     """Returns what is tuned.
 
     Raises:
         ConfigError: If the method has no shape model whose primitives can be tuned.
     """
     shape = method.shape_model()
-    if not isinstance(shape, ListedShapeModel):
+    if not isinstance(shape, ListedShapeModel) or shape.parameters is None:
         takes = "has no shape model" if shape is None else f"takes the shape '{shape.kind}'"
         raise ConfigError(
             f"the method '{method.kind}' {takes}, of which no template lists primitives; tuning "
             "needs a shape with parameters, such as that of the default method"
         )
-    listed = shape.listed(body)
-    if listed is None or not len(listed):
-        raise ConfigError(
-            f"the template '{body.name}' lists no primitives of the shape '{shape.kind}'"
+    body = sets.body
+    key = list_key(shape.kind, shape.tuned)
+    if primitives is not None or not shape.listed(body):
+        made = shape.parameters
+        by_name = (
+            one_per_capsule(body, made) if primitives is None else divided(body, made, primitives)
         )
+        body = _with_list(sets, key, by_name).body(body.name, body.size)
+    listed = body.shapes[key]
     if not any(one.freedoms() for one in listed.parameters):
         raise ConfigError(f"the primitives of the shape '{shape.kind}' have no free parameters")
-    return Tunable(method, tracker, body, list_key(shape.kind, shape.tuned), listed)
+    return Tunable(method, tracker, body, key, listed)
+
+
+def _with_list(
+    sets: SampleSets, key: str, by_name: Mapping[str, tuple[ShapeParameters, ...]]
+) -> BodyDescription:
+    """Returns the template with a list of primitives."""
+    description = sets.template.description()
+    return description.model_copy(update={"shapes": {**description.shapes, key: dict(by_name)}})

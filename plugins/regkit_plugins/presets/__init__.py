@@ -7,6 +7,7 @@ _FOLDER = Path(__file__).parent
 BEST = _FOLDER / "best.yaml"
 ICP = _FOLDER / "icp.yaml"
 PAPER = _FOLDER / "paper.yaml"
+PAPER_EXACT = _FOLDER / "paper_exact.yaml"
 RIGID = _FOLDER / "rigid.yaml"
 SPHERES = _FOLDER / "spheres.yaml"
 

@@ -140,8 +140,7 @@ class BoundDirect(Registrar):
     def gradient(self, observation: Observation, pose: Pose) -> Array:
         """Returns the derivative of the energy to a step of ``Skeleton.retract``, (n,)."""
         energy, _ = self._best(observation, [pose], pose, 0.0, self.derivatives)
-        coordinates = COORDINATES["tangent"](self.body.skeleton, pose)
-        return energy.problem(coordinates, None).value_and_force(pose)[1]
+        return energy.force(pose)
 
     def _summed(
         self, observation: Observation, pose: Pose, prior: Pose, smoothing: float
