@@ -130,7 +130,9 @@ def _tunable(sets: SampleSets, method: Method, tracker: Tracker, primitives: int
     if primitives is not None or not shape.listed(body):
         made = shape.parameters
         by_name = (
-            one_per_capsule(body, made) if primitives is None else divided(body, made, primitives)
+            one_per_capsule(body, made)
+            if primitives is None
+            else divided(body, made, primitives, alike=True)
         )
         body = _with_list(sets, key, by_name).body(body.name, body.size)
     listed = body.shapes[key]
