@@ -9,6 +9,7 @@ import numpy as np
 
 from regkit.body.description import BodyDescription, SizeDescription
 from regkit.body.rows import fields_row, key, number, row, word
+from regkit.body.shape_parameters import ShapeParameters
 from regkit.skeleton import PoseDescription, SegmentDescription
 from regkit.skeleton.joints import (
     BallJoint,
@@ -46,12 +47,12 @@ def template_text(body: BodyDescription, opening: str, comments: Mapping[str, st
         opening: Comment at the top.
         comments: Comments on the joints of segments, by the segment's name.
     """
-    lines = [*_comment(opening), "", f"title: {json.dumps(body.title)}"]
+    lines = [*comment_lines(opening), "", f"title: {json.dumps(body.title)}"]
     if body.sources:
         lines += ["", "sources:", *(f"  - {json.dumps(source)}" for source in body.sources)]
     lines += ["", f"size: {_size(body.size)}"]
     if body.upright:
-        lines += ["", *_comment(_UPRIGHT), "upright: true"]
+        lines += ["", *comment_lines(_UPRIGHT), "upright: true"]
     lines += [
         "",
         "# Each segment's origin is its joint; `offset` is where that lies in the parent's frame.",
@@ -68,15 +69,26 @@ def template_text(body: BodyDescription, opening: str, comments: Mapping[str, st
     for name, pose in body.stances.items():
         lines += [f"  {key(name)}", *_stance(pose)]
     if body.shapes:
-        lines += ["", *_comment(_SHAPES), "shapes:"]
-    for listed, by_segment in body.shapes.items():
+        lines += ["", *comment_lines(_SHAPES), *shape_lines(body.shapes)]
+    if body.mesh is not None:
+        lines += ["", *comment_lines(_BESIDE), f"mesh: {json.dumps(body.mesh.name)}"]
+    return "\n".join(lines) + "\n"
+
+
+def shape_lines(shapes: Mapping[str, Mapping[str, Sequence[ShapeParameters]]]) -> list[str]:
+    """Returns the lines of ``shapes``: the primitives of each list, by segment."""
+    lines = ["shapes:"]
+    for listed, by_segment in shapes.items():
         lines.append(f"  {key(listed)} # {sum(map(len, by_segment.values()))} in all")
         for name, several in by_segment.items():
             lines.append(f"    {key(name)}")
             lines += [f"      - {one.yaml()}" for one in several]
-    if body.mesh is not None:
-        lines += ["", *_comment(_BESIDE), f"mesh: {json.dumps(body.mesh.name)}"]
-    return "\n".join(lines) + "\n"
+    return lines
+
+
+def comment_lines(text: str, indent: str = "") -> list[str]:
+    """Returns a text as the lines of a comment."""
+    return [f"{indent}# {line}".rstrip() for line in text.strip().splitlines()]
 
 
 def _size(size: SizeDescription) -> str:
@@ -98,7 +110,7 @@ def _stance(pose: PoseDescription) -> list[str]:
 
 
 def _segment(segment: SegmentDescription, comment: str) -> list[str]:
-    lines = _comment(comment, "    ")
+    lines = comment_lines(comment, "    ")
     if segment.parent is not None:
         lines.append(f"    parent: {word(segment.parent)}")
     if segment.parent is not None or any(segment.offset):
@@ -162,7 +174,3 @@ def _axes_at_right_angles(joint: BallJoint) -> tuple[str, str]:
 def _axis(axis: Sequence[float]) -> str:
     """Returns a letter for a coordinate axis, else the unit vector with four decimals."""
     return _LETTERS.get(tuple(axis)) or row(axis)
-
-
-def _comment(text: str, indent: str = "") -> list[str]:
-    return [f"{indent}# {line}".rstrip() for line in text.strip().splitlines()]

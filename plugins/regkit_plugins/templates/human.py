@@ -9,6 +9,7 @@ from pydantic import Field
 
 from regkit.body import BodyDescription
 from regkit.body.reading import description_in
+from regkit.body.tuned_lists import tuned_lists_in
 from regkit.interfaces.template import Template
 from regkit_plugins.templates import FOLDER
 
@@ -38,8 +39,9 @@ class Human(Template):
     """Standing height [m]; by default it is estimated in the first frame."""
 
     def description(self) -> BodyDescription:
-        """Returns the description in the file of the build."""
-        return description_in(FOLDER / FILES[self.build])
+        """Returns the description in the file of the build, with the tuned lists beside it."""
+        file = FILES[self.build]
+        return tuned_lists_in(FOLDER / "tuned" / file).added_to(description_in(FOLDER / file))
 
     def given_size(self) -> float | None:
         """Returns the height [m], if it is set."""
