@@ -90,6 +90,7 @@ def tuned(
     )
     with crew(tunable, kept, jobs) as workers:
         with working("rendering samples"):
+            _check_derivative(tunable, kept[0])
             workers.render()
         with working("tuning"):
             descent = Descent(workers, sets.body.limb_radius, PRIOR, iterations)
@@ -133,3 +134,14 @@ def _tunable(body: Body, method: Method, tracker: Tracker) -> Tunable:
     if not any(one.freedoms() for one in listed.parameters):
         raise ConfigError(f"the primitives of the shape '{shape.kind}' have no free parameters")
     return Tunable(method, tracker, body, list_key(shape.kind, shape.tuned), listed)
+
+
+def _check_derivative(tunable: Tunable, whole: SampleSet) -> None:
+    """Checks with one sample, before all are rendered, that the method can be tuned to.
+
+    Raises:
+        ConfigError: If the method has no derivative.
+    """
+    sample = whole.samplers[0].sample(0)
+    registrar = tunable.registrar(tunable.start())
+    registrar.gradient(sample.observations[0], sample.starts[0])
