@@ -121,10 +121,12 @@ def _tunable(body: Body, method: Method, tracker: Tracker) -> Tunable:
     """
     shape = method.shape_model()
     if not isinstance(shape, ListedShapeModel):
-        takes = "has no shape model" if shape is None else f"takes the shape '{shape.kind}'"
+        takes = "has no shape model"
+        if shape is not None:
+            takes = f"takes the shape '{shape.kind}', whose primitives no template lists"
         raise ConfigError(
-            f"the method '{method.kind}' {takes}, of which no template lists primitives; tuning "
-            "needs a shape with parameters, such as that of the default method"
+            f"the method '{method.kind}' {takes}; tuning needs a shape with parameters, such as "
+            "that of the default method"
         )
     listed = shape.listed(body)
     if listed is None or not len(listed):

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
+from regkit.interfaces import Template
 from regkit.testing.samples import linkage
 from regkit_plugins.templates.hand import Hand
 from regkit_plugins.templates.human import Human
@@ -24,3 +27,26 @@ def body(request):
     if request.param == "linkage":
         return linkage()
     return request.getfixturevalue(request.param)
+
+
+KITE = Path(__file__).with_name("kite.yaml")
+"""A trunk with two arms, and lists of Gaussians and capsules that are mirror images."""
+
+
+@pytest.fixture(scope="session")
+def kite():
+    return KITE
+
+
+@pytest.fixture(scope="session")
+def kite_template():
+    return Template.parse(KITE, place="tests", field="template")
+
+
+@pytest.fixture
+def few(monkeypatch):
+    """Held-out samples and trials that take a second, not a minute."""
+    monkeypatch.setattr("regkit.tuning.tuning.HELD", 6)
+    monkeypatch.setattr("regkit.tuning.sets.TRIED", 10)
+    monkeypatch.setattr("regkit.tuning.sets.LONG", 4)
+    monkeypatch.setattr("regkit.tuning.sets.PROPORTIONS", 2)
