@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from few_samples import make_few
 
 from regkit.interfaces import Template
 from regkit.testing.samples import linkage
@@ -45,8 +46,5 @@ def kite_template():
 
 @pytest.fixture
 def few(monkeypatch):
-    """Held-out samples and trials that take a second, not a minute."""
-    monkeypatch.setattr("regkit.tuning.tuning.HELD", 6)
-    monkeypatch.setattr("regkit.tuning.sets.TRIED", 10)
-    monkeypatch.setattr("regkit.tuning.sets.LONG", 4)
-    monkeypatch.setattr("regkit.tuning.sets.PROPORTIONS", 2)
+    """Few steps, held-out samples and trials: a second of work, not a minute."""
+    make_few(monkeypatch)
