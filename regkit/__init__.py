@@ -22,6 +22,7 @@ if TYPE_CHECKING:
         Tracking,
         TrackingError,
         Truth,
+        Tuned,
         Verdict,
         align,
         examples_folder,
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
         track,
         track_each,
         track_live,
+        tune,
     )
 
 __version__ = "0.2.0"
@@ -50,6 +52,7 @@ __all__ = [
     "Tracking",
     "TrackingError",
     "Truth",
+    "Tuned",
     "Verdict",
     "__version__",
     "align",
@@ -63,6 +66,7 @@ __all__ = [
     "track",
     "track_each",
     "track_live",
+    "tune",
 ]
 
 

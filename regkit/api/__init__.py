@@ -13,6 +13,7 @@ from regkit.api.registration import Registration
 from regkit.api.several import track_each
 from regkit.api.sources import open_source
 from regkit.api.tracking import Tracking, TrackingError
+from regkit.api.tuning import Tuned, tune
 from regkit.geometry.camera import Camera
 from regkit.observation import Truth
 from regkit.system.errors import RegkitError
@@ -32,6 +33,7 @@ __all__ = [
     "Tracking",
     "TrackingError",
     "Truth",
+    "Tuned",
     "Verdict",
     "align",
     "examples_folder",
@@ -44,4 +46,5 @@ __all__ = [
     "track",
     "track_each",
     "track_live",
+    "tune",
 ]

@@ -96,7 +96,7 @@ class Pipeline:
             method_name=name_of(method),
             tracker=follows,
             segmentation=segmenters_of(segmentation, place=place),
-            preprocessor=preprocessor or _preprocessor_for,
+            preprocessor=preprocessor or preprocessor_for,
             start=_search(start, place),
         )
 
@@ -140,7 +140,7 @@ def _search(start: Beginning | None, place: str) -> StartSearch | Pose:
     return StartSearch.parse(start or StartSearch.default(), place=place, field="start")
 
 
-def _preprocessor_for(frame: Frame) -> Preprocessor:
+def preprocessor_for(frame: Frame) -> Preprocessor:
     """Returns a preprocessor that downsamples to about ``POINTS``, each half a voxel wide."""
     voxel = voxel_for(frame.points, POINTS)
     data = Preprocessor.default(voxel=voxel, sigma=WIDTH * (voxel or spacing(frame.points)))

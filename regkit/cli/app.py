@@ -40,6 +40,8 @@ COMMANDS = {
     "calibrate": "Create a template with the body proportions of the person or hand in a "
     "recording.",
     "fit": "Create a template with the shape of a skinned mesh.",
+    "tune": "Fit a template's shape to a method, on rendered frames, so that it tracks with less "
+    "error.",
     "import": "Create a template from another program's skeleton: BVH, or URDF with its limits.",
     "validate": "Check YAML files and report each mistake with its line.",
     "plugins": "List the installed plug-ins, or the fields of one of them.",

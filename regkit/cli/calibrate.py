@@ -9,13 +9,13 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
+from regkit.body.template_file import check_replaceable, write_template
 from regkit.calibration import Subject
 from regkit.cli.calibration_source import Source
 from regkit.cli.choices import segmentation_named
 from regkit.cli.completion import plugin_names
 from regkit.cli.console import errors, output
 from regkit.cli.options import PluginFiles, Segmentation, Strict, default_of, run_plugin_files
-from regkit.cli.template_file import check_replaceable, write_template
 from regkit.cli.verdicts import conclude
 from regkit.tracking import Verdict
 

@@ -10,11 +10,11 @@ from rich.markup import escape
 from rich.table import Table
 
 from regkit.body import BodyDescription
+from regkit.body.template_file import check_replaceable, write_template
 from regkit.cli.choices import template_named
 from regkit.cli.completion import plugin_names
 from regkit.cli.console import output
 from regkit.cli.options import PluginFiles, default_of, options, run_plugin_files
-from regkit.cli.template_file import check_replaceable, write_template
 from regkit.fitting.bones import read_bone_map
 from regkit.fitting.template import FittedTemplate, parameters_of
 from regkit.interchange.meshes import read_mesh

@@ -7,9 +7,9 @@ from typing import Annotated
 
 import typer
 
+from regkit.body.template_file import check_replaceable, write_template
 from regkit.cli.console import output, print_warning
 from regkit.cli.options import options
-from regkit.cli.template_file import check_replaceable, write_template
 from regkit.interchange.bones import THICKNESS
 from regkit.interchange.imported import ImportedSkeleton
 from regkit.interchange.skeletons import read_skeleton

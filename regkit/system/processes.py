@@ -7,7 +7,7 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from multiprocessing import resource_tracker
 from typing import Any
@@ -20,10 +20,14 @@ ONE_THREAD = {
 }
 
 
-def pool_of_one() -> Any:
-    """Returns an executor of one process, which starts on first use and ends with this one."""
+def pool_of_one(prepare: Callable[[], None] | None = None) -> Any:
+    """Returns an executor of one process, which starts on first use and ends with this one.
+
+    Args:
+        prepare: Called in the process before its first task, and in each that replaces it.
+    """
     return _loky().ProcessPoolExecutor(
-        max_workers=1, env=ONE_THREAD, initializer=_follow_parent, initargs=(os.getpid(),)
+        max_workers=1, env=ONE_THREAD, initializer=_begin, initargs=(os.getpid(), prepare)
     )
 
 
@@ -53,6 +57,13 @@ def deaf_children() -> Iterator[None]:
 
 def _loky() -> Any:
     return load_library("joblib.externals.loky")
+
+
+def _begin(parent: int, prepare: Callable[[], None] | None) -> None:
+    """Runs on a worker when it starts."""
+    _follow_parent(parent)
+    if prepare is not None:
+        prepare()
 
 
 def _follow_parent(parent: int) -> None:

@@ -1,23 +1,31 @@
-"""Processes that share samples: each renders its own and keeps them."""
+"""Workers that share samples: each renders its own and keeps them."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from threading import local
 from typing import Any
 
 import numpy as np
 
 from regkit.system.arrays import Array
-from regkit.system.errors import RegkitError
-from regkit.system.processes import broken_pool, deaf_children, pool_of_one
+from regkit.system.optional import one_thread
 from regkit.tuning.rollouts import NormalEquations, Rollouts, errors_of
 from regkit.tuning.samples import Sample, Sampler
 from regkit.tuning.tunable import Tunable
+from regkit.tuning.workers import OtherProcess, ThisProcess, Worker
 
-_KEPT: dict[str, Rollouts] = {}
-"""The samples of this process, by the names of their sets."""
+
+class _Kept(local):
+    """The samples that this thread keeps, by the names of their sets."""
+
+    def __init__(self) -> None:
+        self.sets: dict[str, Rollouts] = {}
+
+
+_KEPT = _Kept()
 
 
 @dataclass(frozen=True)
@@ -37,12 +45,12 @@ class SampleSet:
 
 @dataclass(frozen=True)
 class Share:
-    """The samples of a set that one process has.
+    """The samples of a set that one worker has.
 
     Attributes:
         whole: The set.
         first: Number of its first sample.
-        every: Number of processes.
+        every: Number of workers.
     """
 
     whole: SampleSet
@@ -63,16 +71,16 @@ class Share:
 
 @dataclass(frozen=True)
 class Crew:
-    """Some processes, each of which has a share of every set of samples.
+    """Some workers, each of which has a share of every set of samples.
 
     Attributes:
         tunable: What is tuned.
-        pools: A pool of one process for each worker, so that its samples stay with it.
-        sets: The sets that the processes keep.
+        workers: The workers, with which their samples stay.
+        sets: The sets that they keep.
     """
 
     tunable: Tunable
-    pools: Sequence[Any]
+    workers: Sequence[Worker]
     sets: Mapping[str, SampleSet]
 
     def render(self) -> None:
@@ -93,11 +101,14 @@ class Crew:
         )
 
     def normal_equations(self, name: str, parameters: Array) -> NormalEquations:
-        """Returns the sum of ``Rollouts.normal_equations`` over a kept set."""
+        """Returns the sum of ``Rollouts.normal_equations`` over a kept set.
+
+        It is added up in the set's order, so that it is the same for any number of workers.
+        """
         shares = self._shares(self.sets[name])
-        first, *others = self._each(
-            _normal_equations, [(self.tunable, own, parameters) for own in shares]
-        )
+        parts = self._each(_normal_equations, [(self.tunable, own, parameters) for own in shares])
+        count = len(parts)
+        first, *others = [parts[at % count][at // count] for at in range(self.sets[name].count)]
         total: NormalEquations = sum(others, first)
         return total
 
@@ -111,63 +122,63 @@ class Crew:
         return [self._joined(of_one) for of_one in zip(*parts, strict=True)]
 
     def _shares(self, one: SampleSet) -> list[Share]:
-        return [Share(one, first, len(self.pools)) for first in range(len(self.pools))]
+        return [Share(one, first, len(self.workers)) for first in range(len(self.workers))]
 
     def _joined(self, parts: Sequence[Array]) -> Array:
         """Returns the errors of a whole set, from those of each share."""
         whole = np.empty((sum(map(len, parts)), *parts[0].shape[1:]))
         for first, part in enumerate(parts):
-            whole[first :: len(parts)] = part
+            if len(part):
+                whole[first :: len(parts)] = part
         return whole
 
     def _each(self, function: Any, arguments: Sequence[tuple[Any, ...]]) -> list[Any]:
-        with deaf_children():
-            futures = [
-                pool.submit(function, *own) for pool, own in zip(self.pools, arguments, strict=True)
-            ]
-        try:
-            return [future.result() for future in futures]
-        except broken_pool():
-            raise RegkitError(
-                "a process died, perhaps for lack of memory; use fewer processes"
-            ) from None
+        results = [
+            worker.begin(function, *own)
+            for worker, own in zip(self.workers, arguments, strict=True)
+        ]
+        return [result() for result in results]
 
 
 @contextmanager
 def crew(tunable: Tunable, sets: Sequence[SampleSet], jobs: int) -> Iterator[Crew]:
-    """Starts the processes of a crew, and ends them.
+    """Starts the workers of a crew, and ends them.
 
     Args:
         tunable: What is tuned.
-        sets: The sets that the processes keep.
-        jobs: Number of processes.
+        sets: The sets that the workers keep.
+        jobs: Number of processes; one is this process.
     """
-    pools = [pool_of_one() for _ in range(jobs)]
+    workers: list[Worker] = [ThisProcess(_KEPT.sets.clear)]
+    if jobs > 1:
+        workers = [OtherProcess() for _ in range(jobs)]
     try:
-        yield Crew(tunable, pools, {one.name: one for one in sets})
+        # The last bits of matrix products depend on the number of their threads.
+        with one_thread():
+            yield Crew(tunable, workers, {one.name: one for one in sets})
     finally:
-        for pool in pools:
-            pool.shutdown(wait=True, kill_workers=True)
+        for worker in workers:
+            worker.end()
 
 
 def _render(tunable: Tunable, shares: Sequence[Share]) -> None:
     """Runs on a worker: renders its shares."""
     for share in shares:
-        _KEPT[share.whole.name] = Rollouts(tunable, list(share.samples()))
+        _KEPT.sets[share.whole.name] = Rollouts(tunable, list(share.samples()))
 
 
 def _kept(tunable: Tunable, share: Share) -> Rollouts:
     """Returns a share; a process that replaces another one renders it again."""
-    if share.whole.name not in _KEPT:
+    if share.whole.name not in _KEPT.sets:
         _render(tunable, [share])
-    return _KEPT[share.whole.name]
+    return _KEPT.sets[share.whole.name]
 
 
 def _errors(tunable: Tunable, share: Share, parameters: Array) -> Array:
     return _kept(tunable, share).errors(parameters)
 
 
-def _normal_equations(tunable: Tunable, share: Share, parameters: Array) -> NormalEquations:
+def _normal_equations(tunable: Tunable, share: Share, parameters: Array) -> list[NormalEquations]:
     return _kept(tunable, share).normal_equations(parameters)
 
 

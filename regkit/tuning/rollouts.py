@@ -65,17 +65,16 @@ class Rollouts:
         """
         return errors_of(self.tunable, self.samples, [parameters])[0]
 
-    def normal_equations(self, parameters: Array) -> NormalEquations:
-        """Returns the Gauss-Newton equations of the errors in the last frame of each sample.
+    def normal_equations(self, parameters: Array) -> list[NormalEquations]:
+        """Returns the Gauss-Newton equations of the errors in the last frame of each sample, (K,).
 
         Args:
             parameters: Independent parameters of the primitives, (F,).
         """
         registrar = self.tunable.registrar(parameters)
         varied = self.tunable.varied(parameters, VARIED)
-        count = len(parameters)
         radius = registrar.body.limb_radius
-        matrix, gradient = np.zeros((count, count)), np.zeros(count)
+        each = []
         for sample in self.samples:
             pose = _followed(registrar, self.tunable.tracker, sample)[-1]
             markers = _markers(self.tunable, sample)
@@ -85,9 +84,10 @@ class Rollouts:
             ) / radius  # fmt: skip
             rows *= min(1.0, STEEP / max(float(np.abs(rows).max()), 1e-12))
             weights = np.repeat(robust_weights(error, radius), 3)
-            matrix += rows.T @ (weights[:, None] * rows)
-            gradient += rows.T @ (weights * error.ravel() / radius)
-        return NormalEquations(matrix, gradient, len(self.samples))
+            matrix = rows.T @ (weights[:, None] * rows)
+            gradient = rows.T @ (weights * error.ravel() / radius)
+            each.append(NormalEquations(matrix, gradient, 1))
+        return each
 
 
 def errors_of(tunable: Tunable, samples: Iterable[Sample], each: Sequence[Array]) -> list[Array]:

@@ -14,6 +14,7 @@ from regkit.interfaces import Preprocessor, Template
 from regkit.observation import Frame
 from regkit.sensors import CameraChoice
 from regkit.sensors.noise import NoiseChoice
+from regkit.system.errors import ConfigError
 from regkit.tuning.bodies import other_body
 from regkit.tuning.crew import SampleSet
 from regkit.tuning.samples import Sampler
@@ -36,6 +37,9 @@ SPREAD = 0.05
 
 ALL_ROUND = Views(frontal=0.0, elevation=(float(np.radians(-30.0)), float(np.radians(60.0))))
 """Views from anywhere around a body, and from above."""
+
+FEWEST = 30
+"""Number of pixels of the body from which on a preprocessor can be chosen."""
 
 _TRAINING, _HELD_OUT, _TRIALS = 0, 1, 2
 """Parts of the seed, so that no set has a sample of another."""
@@ -78,7 +82,13 @@ class SampleSets:
         """The preprocessor; one to choose is chosen for the first image of the body."""
         if isinstance(self.choice, Preprocessor):
             return self.choice
-        return self.choice(Sampler(self.body, None, None, self.camera, self.noise).frame(0))
+        frame = Sampler(self.body, None, None, self.camera, self.noise).frame(0)
+        if len(frame.points) < FEWEST:
+            raise ConfigError(
+                f"the first image shows the body in {len(frame.points)} pixels, too few to choose "
+                "a preprocessor; take a camera with more pixels, or less noise"
+            )
+        return self.choice(frame)
 
     def training(self) -> tuple[Sampler, ...]:
         """Returns the sources of the training samples."""

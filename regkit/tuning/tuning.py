@@ -94,6 +94,7 @@ def tuned(
     )
     with crew(tunable, kept, jobs) as workers:
         with working("rendering samples"):
+            _check_derivative(tunable, kept[0])
             workers.render()
         with working("tuning"):
             descent = Descent(workers, sets.body.limb_radius, PRIOR, iterations)
@@ -120,10 +121,12 @@ def _tunable(sets: SampleSets, method: Method, tracker: Tracker, primitives: int
     """
     shape = method.shape_model()
     if not isinstance(shape, ListedShapeModel) or shape.parameters is None:
-        takes = "has no shape model" if shape is None else f"takes the shape '{shape.kind}'"
+        takes = "has no shape model"
+        if shape is not None:
+            takes = f"takes the shape '{shape.kind}', whose primitives no template lists"
         raise ConfigError(
-            f"the method '{method.kind}' {takes}, of which no template lists primitives; tuning "
-            "needs a shape with parameters, such as that of the default method"
+            f"the method '{method.kind}' {takes}; tuning needs a shape with parameters, such as "
+            "that of the default method"
         )
     body = sets.body
     key = list_key(shape.kind, shape.tuned)
@@ -147,3 +150,14 @@ def _with_list(
     """Returns the template with a list of primitives."""
     description = sets.template.description()
     return description.model_copy(update={"shapes": {**description.shapes, key: dict(by_name)}})
+
+
+def _check_derivative(tunable: Tunable, whole: SampleSet) -> None:
+    """Checks with one sample, before all are rendered, that the method can be tuned to.
+
+    Raises:
+        ConfigError: If the method has no derivative.
+    """
+    sample = whole.samplers[0].sample(0)
+    registrar = tunable.registrar(tunable.start())
+    registrar.gradient(sample.observations[0], sample.starts[0])

@@ -19,7 +19,7 @@ from pydantic import BaseModel, TypeAdapter, ValidationError
 import regkit.config.installed
 import regkit.config.registry
 from regkit.body import BodyDescription
-from regkit.cli.template_file import write_template
+from regkit.body.template_file import write_template
 from regkit.config.document import Document
 from regkit.config.plugin import register
 from regkit.config.schema_line import MARK, schema_line

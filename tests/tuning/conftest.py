@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
-import pytest
+from pathlib import Path
 
+import pytest
+from few_samples import make_few
+
+from regkit.interfaces import Template
 from regkit.testing.samples import linkage
 from regkit_plugins.templates.hand import Hand
 from regkit_plugins.templates.human import Human
@@ -24,3 +28,23 @@ def body(request):
     if request.param == "linkage":
         return linkage()
     return request.getfixturevalue(request.param)
+
+
+KITE = Path(__file__).with_name("kite.yaml")
+"""A trunk with two arms, and lists of Gaussians and capsules that are mirror images."""
+
+
+@pytest.fixture(scope="session")
+def kite():
+    return KITE
+
+
+@pytest.fixture(scope="session")
+def kite_template():
+    return Template.parse(KITE, place="tests", field="template")
+
+
+@pytest.fixture
+def few(monkeypatch):
+    """Few steps, held-out samples and trials: a second of work, not a minute."""
+    make_few(monkeypatch)

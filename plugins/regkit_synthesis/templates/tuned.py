@@ -1,6 +1,6 @@
 """Tunes the shipped templates: ``python -m regkit_synthesis.templates.tuned OUT``.
 
-Each list is tuned as ``regkit tune`` does it. That of one build takes some three minutes on two cores.
+Each list is tuned as ``regkit tune`` does it, in some three minutes on two cores.
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from regkit.body import BodyDescription
 from regkit.body.tuned_lists import TunedLists
 from regkit.interfaces import Method, Preprocessor, Template, Tracker
 from regkit.system.errors import RegkitError
@@ -62,8 +61,8 @@ BUILDS = {"average": "human.yaml", "small": "human_small.yaml", "tall": "human_t
 """File of each build."""
 
 OPENING = """\
-Primitives of the template {file} that are tuned to methods, on rendered frames. This file is made by
-`python -m regkit_synthesis.templates.tuned`."""
+Primitives of the template {file} that are tuned to methods, on rendered frames. This file is made
+by `python -m regkit_synthesis.templates.tuned`."""
 
 
 def tuned_by(recipe: Recipe, template: Template) -> Tuned:

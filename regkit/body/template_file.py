@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from regkit.body import BodyDescription
+from regkit.body.description import BodyDescription
 from regkit.body.writing import template_text
 from regkit.config.document import Document
 from regkit.config.schema_line import schema_line
@@ -14,8 +14,12 @@ from regkit.system.errors import ConfigError, RegkitError
 from regkit.system.files import write_text
 
 
-def check_replaceable(out: Path) -> None:
+def check_replaceable(out: Path, *, place: str = "--out") -> None:
     """Refuses to overwrite a file that is not a template, before any work is done.
+
+    Args:
+        out: The file to write.
+        place: Name of the argument or option, for messages.
 
     Raises:
         ConfigError: If the file exists and is not a template.
@@ -26,7 +30,7 @@ def check_replaceable(out: Path) -> None:
         Document.read(out).validated(BodyDescription)
     except RegkitError:
         raise ConfigError(
-            f"{out} exists and is not a template; give another name", place="--out"
+            f"{out} exists and is not a template; give another name", place=place
         ) from None
 
 
