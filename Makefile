@@ -4,7 +4,7 @@ PYTHON ?= python3
 ready := .venv/.ready
 bin := .venv/bin
 
-.PHONY: help demo test test-long fuzz lint loops docs notebook pictures samples templates schemas lock benchmarks clean
+.PHONY: help demo test test-long fuzz lint loops docs notebook pictures samples templates tuned schemas lock benchmarks clean
 
 help: ## Show this help
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -55,6 +55,9 @@ samples: $(ready) ## Regenerate the sample recordings
 
 templates: $(ready) ## Fit the shipped templates to their meshes again
 	@$(bin)/python -m regkit_synthesis.templates plugins/regkit_plugins/templates
+
+tuned: $(ready) loops ## Tune the shipped people's primitives to methods again (most of an hour)
+	@$(bin)/python -m regkit_synthesis.templates.tuned plugins/regkit_plugins/templates/tuned
 
 schemas: $(ready) ## Regenerate the JSON Schemas
 	@$(bin)/regkit schema --built-in
