@@ -13,6 +13,7 @@
 - ``bodies``, ``sets``, ``trials``: what is trained with, and the errors before and after.
 """
 
+from regkit.tuning.crew import SampleSet
 from regkit.tuning.descent import Step
 from regkit.tuning.motion import Movement
 from regkit.tuning.samples import Sample, Sampler
@@ -26,6 +27,7 @@ __all__ = [
     "Errors",
     "Movement",
     "Sample",
+    "SampleSet",
     "SampleSets",
     "Sampler",
     "Step",
