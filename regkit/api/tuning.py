@@ -117,6 +117,7 @@ def tune(
     camera: Camera | str | Path | dict[str, Any] = "sr4000",
     noise: str | float | dict[str, Any] | None = None,
     preprocessor: Choice[Preprocessor] | None = None,
+    primitives: int | None = None,
     samples: int = 240,
     seed: int = 0,
     jobs: int = 1,
@@ -138,6 +139,8 @@ def tune(
         noise: Noise of a known camera by its name, ``"none"``, a standard deviation [m], or its
             parts; by default that of a known camera, and none of any other.
         preprocessor: Preprocessing of frames; by default they are downsampled to about 900 points.
+        primitives: Number of primitives to begin with, which fill the body; by default those that
+            the template lists, or one for each of its capsules.
         samples: Number of training samples.
         seed: Seed of all samples.
         jobs: Number of processes; one is this process.
@@ -159,6 +162,7 @@ def tune(
         "camera": camera,
         "noise": noise,
         "preprocessor": preprocessor,
+        "primitives": primitives,
         "samples": samples,
         "seed": seed,
     }
@@ -186,6 +190,7 @@ def tuned_as(chosen: TuningChoices, method: str, jobs: int, tell: Callable[[Step
         chosen.method,
         chosen.tracker(),
         name=chosen.name,
+        primitives=chosen.primitives,
         samples=chosen.samples,
         jobs=jobs,
         tell=tell,

@@ -45,6 +45,8 @@ class TuningChoices(Model):
     """Its noise; by default that of a known camera, and none of any other."""
     preprocessor: Preprocessor | None = None
     """Preprocessing of frames; by default they are downsampled to about 900 points."""
+    primitives: Annotated[int, Field(ge=1, le=10_000)] | None = None
+    """Number of primitives to begin with; by default those that the template lists."""
     samples: Annotated[int, Field(ge=1, le=1_000_000)] = 240
     """Number of training samples."""
     seed: Seed = 0
@@ -85,20 +87,11 @@ class TuningChoices(Model):
         return Tracker.parse(Tracker.default(), place="tuning", field="tracker")
 
     def sets(self) -> SampleSets:
-        """Returns the sets of samples.
-
-        Raises:
-            ConfigError: If two of the bodies have the same name.
-        """
+        """Returns the sets of samples; bodies of the same name are numbered."""
         others: dict[str, Template] = {}
         for body in self.bodies:
-            if body.name() in others:
-                raise ConfigError(
-                    f"two of the bodies are called '{body.name()}', and both have the size of the "
-                    "template; name each once",
-                    place="bodies",
-                )
-            others[body.name()] = body
+            same = sum(one.name() == body.name() for one in self.bodies)
+            others[f"{body.name()} {len(others) + 1}" if same > 1 else body.name()] = body
         return SampleSets(
             self.template,
             self.preprocessor or preprocessor_for,

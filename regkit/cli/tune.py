@@ -83,6 +83,16 @@ def tune(
         ),
     ] = None,
     preprocessor: PreprocessorName = None,
+    primitives: Annotated[
+        int | None,
+        typer.Option(
+            min=1,
+            metavar="N",
+            help="Number of primitives to begin with, which fill the body. (default: those that "
+            "the template lists, or one for each of its capsules)",
+            show_default=False,
+        ),
+    ] = None,
     samples: Annotated[
         int, typer.Option(min=1, metavar="N", help="Number of training samples.")
     ] = 240,
@@ -113,6 +123,7 @@ def tune(
         "camera": parsed(camera, "--camera"),
         "noise": None if noise is None else _number(parsed(noise, "--noise")),
         "preprocessor": None if preprocessor is None else parsed(preprocessor, "--preprocessor"),
+        "primitives": primitives,
         "samples": samples,
         "seed": seed,
     }
@@ -124,6 +135,7 @@ def tune(
         ("camera",): f"--camera {camera}",
         ("noise",): f"--noise {noise}",
         ("preprocessor",): f"--preprocessor {preprocessor}",
+        ("primitives",): f"--primitives {primitives}",
         **{("bodies", at): f"--body {one}" for at, one in enumerate(body or ())},
     }
     with options(camera="--camera", bodies="--body"):

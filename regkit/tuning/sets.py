@@ -18,7 +18,7 @@ from regkit.system.errors import ConfigError
 from regkit.tuning.bodies import other_body
 from regkit.tuning.crew import SampleSet
 from regkit.tuning.samples import Sampler
-from regkit.tuning.views import Views
+from regkit.tuning.samples.views import Views
 
 HELD = 100
 """Number of held-out samples that stop the descent."""

@@ -22,8 +22,8 @@ PRIOR = 4e-4
 
 
 @dataclass(frozen=True)
-class Tuned:
-    """A template with tuned primitives.
+class TunedList:
+    """A template with a tuned list of primitives.
 
     Attributes:
         description: The template.
@@ -37,16 +37,6 @@ class Tuned:
     steps: tuple[Step, ...]
     comparisons: tuple[Comparison, ...]
 
-    @property
-    def worse(self) -> tuple[str, ...]:
-        """Names of the trials in which tuning has done harm."""
-        return tuple(one.name for one in self.comparisons if one.worse)
-
-    @property
-    def better(self) -> bool:
-        """Whether tuning has helped in some trial, and done harm in none."""
-        return not self.worse and any(one.better for one in self.comparisons)
-
 
 def tuned(
     sets: SampleSets,
@@ -59,7 +49,7 @@ def tuned(
     iterations: int = 12,
     jobs: int = 1,
     tell: Callable[[Step], None] = lambda _: None,
-) -> Tuned:
+) -> TunedList:
     """Tunes the primitives of a template to a method.
 
     Args:
@@ -110,7 +100,7 @@ def tuned(
     for segment, one in zip(after.segments.tolist(), after.parameters, strict=True):
         at = sets.body.skeleton.names[segment]
         listed[at] = (*listed.get(at, ()), one)
-    return Tuned(_with_list(sets, key, listed), key, tuple(taken), tuple(comparisons))
+    return TunedList(_with_list(sets, key, listed), key, tuple(taken), tuple(comparisons))
 
 
 def _tunable(sets: SampleSets, method: Method, tracker: Tracker, primitives: int | None) -> Tunable:

@@ -85,7 +85,7 @@ def test_mesh_is_written_beside_a_tuned_template(regkit, out, monkeypatch):
         ((KITE, "--noise", "loud"), "--noise loud: noise", "'loud'"),
         ((KITE, "--name", "a/b"), "--name a/b: name", "'a/b'"),
         ((KITE, "--body", "hand"), "", "joint by joint"),
-        ((KITE, "--body", KITE, "--body", KITE), "--body", "two of the bodies"),
+        ((KITE, "--primitives", "1"), "", "primitives"),
         ((KITE, "--body", "nobody"), "--body nobody", "no plug-in 'nobody'"),
         ((KITE, "--preprocessor", "none"), "--preprocessor none", "no plug-in 'none'"),
         ((KITE, "--plugin", "none.py"), "none.py", "no such Python file"),

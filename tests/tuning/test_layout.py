@@ -21,7 +21,7 @@ from regkit.body.writing import template_text
 from regkit.primitives import Gaussians
 from regkit.system.errors import ConfigError
 from regkit.testing.samples import linkage
-from regkit.tuning import divided, one_per_capsule, segment_clusters
+from regkit.tuning.layout import divided, one_per_capsule, segment_clusters
 from regkit_plugins.templates.human import Human
 
 

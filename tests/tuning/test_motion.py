@@ -10,8 +10,8 @@ from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.skeleton import Pose
 from regkit.system.errors import ConfigError
-from regkit.tuning.motion import Movement
-from regkit.tuning.overlap import SelfOverlap
+from regkit.tuning.samples.motion import Movement
+from regkit.tuning.samples.overlap import SelfOverlap
 
 FASTEST = 0.07
 

@@ -12,7 +12,7 @@ from regkit.sensors import CAMERAS
 from regkit.system.errors import ConfigError
 from regkit.testing.samples import lump
 from regkit.tuning import Sampler, Views
-from regkit.tuning.surface import rendered_surface
+from regkit.tuning.samples.surface import rendered_surface
 from regkit_plugins.preprocessors.points import PointsPreprocessor
 from regkit_plugins.templates.human import Human
 

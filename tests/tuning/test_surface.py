@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from regkit.geometry.capsules import Capsules
-from regkit.tuning.holes import closed, opening
-from regkit.tuning.surface import capsule_surface, rendered_surface
+from regkit.tuning.samples.holes import closed, opening
+from regkit.tuning.samples.surface import capsule_surface, rendered_surface
 
 SHAPES = {
     "cylinder": ([[0, 0, 0], [0.1, 0.4, 0]], [0.1, 0.1]),

@@ -239,11 +239,6 @@ def test_invalid_arguments_are_refused_by_name(kite, options, told):
         regkit.tune(kite, **options)
 
 
-def test_same_body_twice_is_refused(kite):
-    with pytest.raises(regkit.RegkitError, match="two of the bodies"):
-        regkit.tune(kite, bodies=[kite, kite])
-
-
 def test_other_bodies_and_proportions_are_trained_with_and_tried(kite, tmp_path):
     slim = read(kite)
     arm = slim.segments["left_arm"]

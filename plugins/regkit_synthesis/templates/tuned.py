@@ -16,7 +16,7 @@ from regkit.body.tuned_lists import TunedLists
 from regkit.interfaces import Method, Preprocessor, Template, Tracker
 from regkit.system.errors import RegkitError
 from regkit.system.files import write_text
-from regkit.tuning import SampleSets, Tuned, tuned
+from regkit.tuning import SampleSets, TunedList, tuned
 
 SAMPLES = 160
 """Number of training samples of each list."""
@@ -65,7 +65,7 @@ Primitives of the template {file} that are tuned to methods, on rendered frames.
 by `python -m regkit_synthesis.templates.tuned`."""
 
 
-def tuned_by(recipe: Recipe, template: Template) -> Tuned:
+def tuned_by(recipe: Recipe, template: Template) -> TunedList:
     """Returns a template with a tuned list.
 
     Raises:
@@ -86,7 +86,7 @@ def tuned_by(recipe: Recipe, template: Template) -> Tuned:
     )
 
 
-def lists(found: Sequence[Tuned]) -> TunedLists:
+def lists(found: Sequence[TunedList]) -> TunedLists:
     """Returns tuned lists, with what they change as their sources."""
     return TunedLists(
         sources=tuple(map(_source, found)),
@@ -94,7 +94,7 @@ def lists(found: Sequence[Tuned]) -> TunedLists:
     )
 
 
-def _source(one: Tuned) -> str:
+def _source(one: TunedList) -> str:
     changes = ", ".join(
         f"{each.name} {100.0 * each.before.mean:.2f} to {100.0 * each.after.mean:.2f} cm"
         for each in one.comparisons

@@ -10,7 +10,7 @@ from regkit.body import Body
 from regkit.geometry.capsules import Capsules
 from regkit.geometry.surface import SkinnedSurface
 from regkit.system.arrays import Array, Indices
-from regkit.tuning.holes import closed
+from regkit.tuning.samples.holes import closed
 
 AROUND = 16
 """Vertices around a capsule: between them the surface is up to 2 % of the radius too near."""

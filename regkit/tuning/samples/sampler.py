@@ -21,11 +21,11 @@ from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit.system.brief import Brief
 from regkit.system.errors import ConfigError
-from regkit.tuning.holes import opening
-from regkit.tuning.motion import Movement
-from regkit.tuning.surface import rendered_surface
-from regkit.tuning.transfer import PoseTransfer
-from regkit.tuning.views import Views
+from regkit.tuning.samples.holes import opening
+from regkit.tuning.samples.motion import Movement
+from regkit.tuning.samples.surface import rendered_surface
+from regkit.tuning.samples.transfer import PoseTransfer
+from regkit.tuning.samples.views import Views
 
 
 @dataclass(frozen=True)

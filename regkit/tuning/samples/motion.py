@@ -22,8 +22,8 @@ from regkit.search.limbs import limbs_of
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array, Indices
 from regkit.system.errors import ConfigError
-from regkit.tuning.overlap import SelfOverlap
-from regkit.tuning.pace import Pace
+from regkit.tuning.samples.overlap import SelfOverlap
+from regkit.tuning.samples.pace import Pace
 
 TRIES = 300
 """Number of motions that are drawn until one does not intersect itself."""

@@ -12,7 +12,7 @@ from regkit.geometry.rigid import inverse, transformed
 from regkit.skeleton import Mirroring
 from regkit.system.arrays import Array, Indices
 from regkit.system.errors import ConfigError
-from regkit.tuning.clusters import Cluster
+from regkit.tuning.layout.clusters import Cluster
 
 POINTS = 8000
 """About the number of points that fill the capsules of a segment."""

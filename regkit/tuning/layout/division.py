@@ -10,8 +10,8 @@ import numpy as np
 from regkit.body import Body, Mirror, ShapeParameters, of_capsules
 from regkit.body.freedoms import MIRROR
 from regkit.system.errors import ConfigError
-from regkit.tuning.clusters import Cluster, Division
-from regkit.tuning.segment_clusters import segment_clusters
+from regkit.tuning.layout.clusters import Cluster, Division
+from regkit.tuning.layout.segment_clusters import segment_clusters
 
 P = TypeVar("P", bound=ShapeParameters)
 
