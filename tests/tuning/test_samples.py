@@ -156,3 +156,8 @@ def test_body_without_a_common_marker_is_refused(human):
 def test_body_without_capsules_is_refused():
     with pytest.raises(ConfigError, match="'lump' has no capsules"):
         Sampler(lump(), POINTS)
+
+
+def test_place_of_the_camera_is_found_where_corrections_swing(kite_template):
+    sampler = Sampler(kite_template.body(0.6), POINTS, frames=2, seed=3141116543)
+    assert len(sampler.frame(51).points)

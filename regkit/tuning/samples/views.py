@@ -20,6 +20,9 @@ FACING = np.diag([1.0, -1.0, -1.0])
 STEPS = 60
 """Number of corrections of the camera's place, of which a few are usually enough."""
 
+SWINGING = 20
+"""Number of corrections after which they are halved: whole ones may swing about the place."""
+
 INTO = 0.5
 """Sine of the angle by which a camera may look into the opening of a surface: what would go on
 there, such as a forearm, hides the body from farther behind."""
@@ -108,7 +111,8 @@ class Views:
         extent, front = np.ptp(points, axis=(0, 1)), -float(points[..., 2].min())
         place = np.array([0.0, 0.0, extent[2] + (extent[:2] * focal / size).max()])
         axes = np.ascontiguousarray(np.moveaxis(points, -1, 0))
-        for _ in range(STEPS):
+        for step in range(STEPS):
+            share = 1.0 if step < SWINGING else 0.5
             lows, highs = _bounds(camera, axes, place)
             low, high = lows.min(axis=0), highs.max(axis=0)
             filled = float(((high - low) / size).max())
@@ -120,8 +124,8 @@ class Views:
             depth = front + max((place[2] - front) * filled / wanted, nearest)
             if abs(depth / place[2] - 1.0) < 1e-3 and np.abs(error).max() < 0.1:
                 return place
-            place[:2] += error * place[2] / focal
-            place *= depth / place[2]
+            place[:2] += share * error * place[2] / focal
+            place *= 1.0 + share * (depth / place[2] - 1.0)
         raise ConfigError(
             f"there is no place from which a camera of {camera.width} x {camera.height} px, with "
             f"the principal point ({camera.cx:g}, {camera.cy:g}), sees the whole body filling "
