@@ -42,7 +42,6 @@ def test_people_have_lists_for_the_methods_of_the_comparison(build):
         ("paper_exact", {"kind": "gsog", "tuned": "paper_exact"}),
         ("paper_exact", {"kind": "sog", "tuned": "paper_exact"}),
         ("best", {"tuned": "best"}),
-        ("best", {"tuned": "best_41"}),
     ):
         method = Method.parse({"preset": name, "shape": shape}, place="test", field="method")
         plain = Method.parse({"preset": name}, place="test", field="method")

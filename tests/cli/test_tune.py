@@ -54,12 +54,12 @@ def test_tune_refuses_what_is_not_better(regkit, out, monkeypatch):
 def test_mesh_is_written_beside_a_tuned_template(regkit, out, monkeypatch):
     # A person's own samples take too long here; all that matters is what is written.
     def pretended(sets, *_: object, **__: object):
+        from regkit.tuning import TunedList
         from regkit.tuning.trials import Comparison, Errors
-        from regkit.tuning.tuning import Tuned
 
         errors = Errors(0.02, 0.02, 0.0), Errors(0.01, 0.01, 0.0)
         comparison = Comparison("frames", 60, 1, *errors, -0.01, 0.001)
-        return Tuned(sets.template.description(), "gsog", (), (comparison,))
+        return TunedList(sets.template.description(), "gsog", (), (comparison,))
 
     monkeypatch.setattr("regkit.api.tuning.tuned", pretended)
     ended = regkit("tune", "human", "--out", out)

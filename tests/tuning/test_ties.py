@@ -49,17 +49,17 @@ def test_body_stays_its_own_mirror_image(kite_body, key, random):
 def test_sides_move_as_one_and_the_middle_keeps_its_symmetry(kite_body):
     listed = kite_body.shapes["gsog"]
     steps = tied_steps(kite_body, listed)
-    # An arm has nine parameters. The trunk may move up and to the front, have any extents, and turn
-    # about the axis through both sides.
-    assert steps.shape == (27, 9 + 2 + 3 + 1)
+    # An arm has ten parameters. The trunk may move up and to the front, have any extents, turn
+    # about the axis through both sides, and have any weight.
+    assert steps.shape == (30, 10 + 2 + 3 + 1 + 1)
     assert np.linalg.matrix_rank(steps) == steps.shape[1]
 
 
 def test_body_without_sides_has_no_ties(kite_body, linkage):
     listed = kite_body.shapes["gsog"]
     steps = tied_steps(linkage, listed)
-    assert steps.shape == (27, 27)
-    assert np.linalg.matrix_rank(steps) == 27
+    assert steps.shape == (30, 30)
+    assert np.linalg.matrix_rank(steps) == 30
 
 
 def test_start_is_the_listed_primitives(human):

@@ -193,7 +193,6 @@ def test_change_is_the_mean_of_the_samples_with_its_standard_error(random):
     [
         ("small_gicp", "no shape model"),
         ("icp", "'mesh'.*lists"),
-        (SPHERES, "'bare' lists no primitives of the shape 'sphere'"),
         ({"preset": "best", "shape": {"kind": "gsog", "tuned": "none"}}, "no list 'gsog/none'"),
     ],
 )

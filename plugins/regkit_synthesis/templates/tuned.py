@@ -41,17 +41,14 @@ class Recipe:
     Attributes:
         name: Its name.
         method: The method to which it is tuned.
-        primitives: Number of primitives; by default that of the template.
     """
 
     name: str
     method: Mapping[str, Any]
-    primitives: int | None = None
 
 
 RECIPES = (
     Recipe("best", {"preset": "best"}),
-    Recipe("best_41", {"preset": "best"}, 41),
     Recipe("paper_exact", PAPER),
     Recipe("paper_exact", {**PAPER, "shape": "sog"}),
 )
@@ -80,7 +77,6 @@ def tuned_by(recipe: Recipe, template: Template) -> TunedList:
         method,
         method.tracker or Tracker.parse(default, place=recipe.name, field="tracker"),
         name=recipe.name,
-        primitives=recipe.primitives,
         samples=SAMPLES,
         jobs=JOBS,
     )
