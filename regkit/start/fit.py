@@ -17,6 +17,9 @@ from regkit.system.arrays import Array
 STIFFNESS = 0.05
 """Weight of a joint's rotation [rad] against a distance [cutoff]; a joint without data stays."""
 
+BEYOND = 2.0
+"""Weight of a joint's violation of its limits [rad] against a distance [cutoff]."""
+
 
 @dataclass(frozen=True)
 class Stage:
@@ -34,7 +37,9 @@ class Stage:
 
 
 def fitted(scan: Scan, body: Body, pose: Pose, stages: Iterable[Stage]) -> Pose:
-    """Returns the pose of least distances near ``pose``, with hinges within their limits.
+    """Returns the pose of least distances near ``pose``, within the joint limits.
+
+    Hinges keep them exactly, ball joints within a few degrees.
 
     Args:
         scan: The cloud.
@@ -92,12 +97,18 @@ class _ResidualsAt:
         return self._last[1]
 
     def _evaluated(self, x: Array) -> tuple[Array, Array]:
-        placement = self._body.place(self._coordinates.pose(x))
+        pose = self._coordinates.pose(x)
+        placement = self._body.place(pose)
         sides = self._scan.distances(self._body, placement)
         # Both sides have the same total weight, whatever their numbers of distances.
         scales = [np.sqrt(1.0 / max(side.count, 1)) / self._cutoff for side in sides]
         residuals = [scale * side.lengths for scale, side in zip(scales, sides, strict=True)]
         rows = [scale * side.rows(placement) for scale, side in zip(scales, sides, strict=True)]
+        # Bounds hold the hinges; the twist of a straight limb, which no distance holds, would turn
+        # the ball joint far beyond its limits.
+        violations, slopes = self._body.skeleton.violations(pose)
+        residuals.append(BEYOND * violations)
+        rows.append(BEYOND * slopes)
         jacobian = self._coordinates.jacobian(x)
         return (
             np.concatenate([*residuals, self._spring @ x]),

@@ -20,6 +20,7 @@ from regkit.geometry.camera import Camera
 from regkit.observation import Observation
 from regkit.observation.crop import Crop
 from regkit.skeleton import Pose
+from regkit.tracking.session import Session
 from regkit_plugins.datasets.depth import DepthFolders
 from regkit_plugins.datasets.utd_mhad import UtdMhad
 from regkit_plugins.preprocessors.points import PointsPreprocessor
@@ -50,6 +51,14 @@ def test_start_of_people_is_found_within_the_reference_accuracy(reference_data: 
     print("mean distance to the reference joints [m]:", errors)
     assert np.median(list(errors.values())) < 0.08
     assert max(errors.values()) < 0.15
+
+
+@pytest.mark.long
+def test_person_has_the_same_size_in_two_recordings(reference_data: Path):
+    dataset = UtdMhad(root=reference_data / "utd_mhad", recordings=("a6_s1_t1", "a22_s1_t1"))
+    preprocessor = PointsPreprocessor(voxel=0.03, sigma=0.01)
+    sizes = [Session(one, Human(), preprocessor).begin().body.size for one in dataset.chosen()]
+    assert np.ptp(sizes) < 0.05
 
 
 @pytest.mark.long
