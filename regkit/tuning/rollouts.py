@@ -21,7 +21,7 @@ LIMB = 0.5
 """Error from which a marker counts less, in radii of a typical limb: lost limbs do not decide."""
 
 STEEP = 10.0
-"""Largest displacement of a marker per unit parameter that counts, in the unit of positions."""
+"""Largest displacement of a marker per unit parameter that counts, in radii of a typical limb."""
 
 
 @dataclass(frozen=True)
