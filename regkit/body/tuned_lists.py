@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import json
-from functools import lru_cache
 from pathlib import Path
 
 from regkit.body.description import BodyDescription
-from regkit.body.shapes import ParametricShape, Shapes
+from regkit.body.reading import validated_in
+from regkit.body.shapes import Shapes
 from regkit.body.writing import comment_lines, shape_lines
-from regkit.config.document import Document
 from regkit.config.model import Model
-from regkit.config.registry import registered
 
 
 class TunedLists(Model):
@@ -39,18 +37,5 @@ class TunedLists(Model):
 
 
 def tuned_lists_in(path: Path) -> TunedLists:
-    """Returns the lists in a YAML file.
-
-    The result is cached until the file or the set of registered shape models, which validate it,
-    changes.
-
-    Raises:
-        RegkitError: If the file is missing or invalid.
-    """
-    changed = path.stat().st_mtime_ns if path.is_file() else 0
-    return _read(path, changed, tuple(registered(ParametricShape.group).items()))
-
-
-@lru_cache(maxsize=8)
-def _read(path: Path, changed: int, shapes: tuple[object, ...]) -> TunedLists:
-    return Document.read(path).validated(TunedLists)
+    """Returns the lists in a YAML file; see ``validated_in``."""
+    return validated_in(path, TunedLists)

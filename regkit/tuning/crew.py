@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from regkit.body import ListedShape, ShapeParameters
 from regkit.system.arrays import Array
 from regkit.system.optional import one_thread
 from regkit.tuning.rollouts import NormalEquations, Rollouts, errors_of
@@ -112,8 +113,8 @@ class Crew:
         total: NormalEquations = sum(others, first)
         return total
 
-    def tried(self, trial: SampleSet, each: Sequence[Array]) -> list[Array]:
-        """Returns the errors for several parameters on a set that is rendered, and not kept.
+    def tried(self, trial: SampleSet, each: Sequence[ListedShape[ShapeParameters]]) -> list[Array]:
+        """Returns the errors of several lists of primitives on a set that is not kept.
 
         Raises:
             RegkitError: If a sample cannot be rendered.
@@ -182,6 +183,8 @@ def _normal_equations(tunable: Tunable, share: Share, parameters: Array) -> list
     return _kept(tunable, share).normal_equations(parameters)
 
 
-def _tried(tunable: Tunable, share: Share, each: Sequence[Array]) -> list[Array]:
+def _tried(
+    tunable: Tunable, share: Share, each: Sequence[ListedShape[ShapeParameters]]
+) -> list[Array]:
     # A process whose memory grows is replaced, so that no sample is kept.
     return errors_of(tunable, share.samples(), each)

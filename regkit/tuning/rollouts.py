@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from regkit.body import ListedShape, ShapeParameters
 from regkit.interfaces import Past, Registrar, Tracker
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array, Indices
@@ -63,7 +64,7 @@ class Rollouts:
         Args:
             parameters: Independent parameters of the primitives, (F,).
         """
-        return errors_of(self.tunable, self.samples, [parameters])[0]
+        return errors_of(self.tunable, self.samples, [self.tunable.primitives(parameters)])[0]
 
     def normal_equations(self, parameters: Array) -> list[NormalEquations]:
         """Returns the Gauss-Newton equations of the errors in the last frame of each sample, (K,).
@@ -90,15 +91,17 @@ class Rollouts:
         return each
 
 
-def errors_of(tunable: Tunable, samples: Iterable[Sample], each: Sequence[Array]) -> list[Array]:
+def errors_of(
+    tunable: Tunable, samples: Iterable[Sample], each: Sequence[ListedShape[ShapeParameters]]
+) -> list[Array]:
     """Returns the markers' errors in all frames but the first, (K, L - 1, M, 3) [m].
 
     Args:
         tunable: What is tuned.
         samples: The samples, each needed once.
-        each: Several values (F,) of the independent parameters.
+        each: Several lists of primitives.
     """
-    registrars = [tunable.registrar(parameters) for parameters in each]
+    registrars = [tunable.bound(primitives) for primitives in each]
     errors: list[list[Array]] = [[] for _ in each]
     for sample in samples:
         markers = _markers(tunable, sample)

@@ -24,7 +24,8 @@ class Tunable:
         tracker: What leads it from frame to frame.
         body: The body.
         key: Key of the list in the template's ``shapes`` that the method takes.
-        listed: The primitives before tuning.
+        listed: The primitives from which tuning starts.
+        former: Those that the template had, with which the result is compared.
     """
 
     method: Method
@@ -32,6 +33,7 @@ class Tunable:
     body: Body
     key: str
     listed: ListedShape[ShapeParameters]
+    former: ListedShape[ShapeParameters]
 
     @cached_property
     def steps(self) -> Array:
@@ -51,7 +53,11 @@ class Tunable:
 
     def registrar(self, parameters: Array) -> Registrar:
         """Returns the method bound to the body with primitives for values (F,)."""
-        shapes = {**self.body.shapes, self.key: self.primitives(parameters)}
+        return self.bound(self.primitives(parameters))
+
+    def bound(self, primitives: ListedShape[ShapeParameters]) -> Registrar:
+        """Returns the method bound to the body with some primitives."""
+        shapes = {**self.body.shapes, self.key: primitives}
         return self.method.bind(replace(self.body, shapes=shapes))
 
     def varied(self, parameters: Array, by: float) -> Sequence[tuple[Registrar, Registrar]]:

@@ -29,7 +29,7 @@ class TunedList:
         description: The template.
         key: Key of the tuned list in its ``shapes``.
         steps: The steps of the descent; the first is the start.
-        comparisons: Trials of the primitives before and after.
+        comparisons: Trials of the primitives that the template had, and of the tuned ones.
     """
 
     description: BodyDescription
@@ -92,7 +92,7 @@ def tuned(
         after = tunable.primitives(found)
         comparisons = []
         for trial in steps(trials, "comparing", len(trials)):
-            before, then = workers.tried(trial, [tunable.start(), found])
+            before, then = workers.tried(trial, [tunable.former, after])
             comparisons.append(Comparison.of(trial.name, before, then, sets.body.size))
     kind, _, old = tunable.key.partition("/")
     key = list_key(kind, (old or None) if name is None else name)
@@ -120,7 +120,8 @@ def _tunable(sets: SampleSets, method: Method, tracker: Tracker, primitives: int
         )
     body = sets.body
     key = list_key(shape.kind, shape.tuned)
-    if primitives is not None or not shape.listed(body):
+    former = shape.listed(body)
+    if primitives is not None or not former:
         made = shape.parameters
         by_name = (
             one_per_capsule(body, made)
@@ -131,7 +132,7 @@ def _tunable(sets: SampleSets, method: Method, tracker: Tracker, primitives: int
     listed = body.shapes[key]
     if not any(one.freedoms() for one in listed.parameters):
         raise ConfigError(f"the primitives of the shape '{shape.kind}' have no free parameters")
-    return Tunable(method, tracker, body, key, listed)
+    return Tunable(method, tracker, body, key, listed, former or listed)
 
 
 def _with_list(

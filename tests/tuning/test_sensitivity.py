@@ -33,7 +33,8 @@ def sets(kite_template):
 
 @pytest.fixture(scope="module")
 def tunable(sets):
-    return Tunable(EXACT, EXACT.tracker, sets.body, "gsog", sets.body.shapes["gsog"])
+    listed = sets.body.shapes["gsog"]
+    return Tunable(EXACT, EXACT.tracker, sets.body, "gsog", listed, listed)
 
 
 @pytest.fixture(scope="module")
@@ -90,7 +91,8 @@ def test_joint_limit_that_holds_the_pose_keeps_holding_it(tunable, sets, monkeyp
     joint = arm.joint.model_copy(update={"limits_deg": (least, 90.0)})
     segments = {**description.segments, "left_arm": arm.model_copy(update={"joint": joint})}
     body = description.model_copy(update={"segments": segments}).body("held", sets.body.size)
-    held = Tunable(EXACT, EXACT.tracker, body, "gsog", body.shapes["gsog"])
+    listed = body.shapes["gsog"]
+    held = Tunable(EXACT, EXACT.tracker, body, "gsog", listed, listed)
     start = Pose(free.root, free.balls, np.array([np.radians(least), free.hinges[1]]))
     pose = ended(held.registrar(held.start()), sample.observations[0], start)
     assert np.degrees(pose.hinges[0]) == pytest.approx(least, abs=1e-6)

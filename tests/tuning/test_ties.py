@@ -30,7 +30,9 @@ def moments(body, listed):
 
 @pytest.mark.parametrize("key", ["gsog", "sog", "sphere"])
 def test_body_stays_its_own_mirror_image(kite_body, key, random):
-    tunable = Tunable(BEST, BEST.tracker, kite_body, key, kite_body.shapes[key])
+    tunable = Tunable(
+        BEST, BEST.tracker, kite_body, key, kite_body.shapes[key], kite_body.shapes[key]
+    )
     moved = tunable.primitives(random.normal(size=len(tunable.start())))
     mirror = np.diag([-1.0, 1.0, 1.0])
     found = moments(kite_body, moved)
@@ -64,7 +66,7 @@ def test_body_without_sides_has_no_ties(kite_body, linkage):
 
 def test_start_is_the_listed_primitives(human):
     listed = human.shapes["gsog"]
-    tunable = Tunable(BEST, BEST.tracker, human, "gsog", listed)
+    tunable = Tunable(BEST, BEST.tracker, human, "gsog", listed, listed)
     same = tunable.primitives(tunable.start())
     assert np.array_equal(same.segments, listed.segments)
     for one, other in zip(same.parameters, listed.parameters, strict=True):

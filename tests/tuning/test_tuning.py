@@ -71,6 +71,13 @@ def tuned(displaced_kite):
         return regkit.tune(displaced_kite, name="mine", **FEW)
 
 
+def test_result_is_compared_with_what_the_template_had_whatever_tuning_starts_from(
+    displaced_kite, tuned
+):
+    found = regkit.tune(displaced_kite, primitives=3, **FEW)
+    assert [one.before for one in found.comparisons] == [one.before for one in tuned.comparisons]
+
+
 def test_displaced_gaussians_become_better_on_samples_that_are_not_seen(tuned):
     assert improved(tuned)
     assert tuned.steps[-1].training < tuned.steps[0].training
