@@ -1,4 +1,4 @@
-"""Gauss-Newton on the errors in which a tracker ends, stopped early on samples that it sees not."""
+"""Gauss-Newton on the errors in which a tracker ends, stopped early by held-out samples."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ LEAST, FIRST = 1e-3, 1e-2
 
 @dataclass(frozen=True)
 class Step:
-    """One step of a descent.
+    """The costs after one step of a descent.
 
     Attributes:
         training: Mean cost of a sample, with the penalty, in squared radii of a typical limb.

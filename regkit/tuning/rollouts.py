@@ -19,7 +19,10 @@ VARIED = 0.05
 """Variation of the independent parameters in differences, in their units."""
 
 LIMB = 0.5
-"""Error from which a marker counts less, in radii of a typical limb: lost limbs do not decide."""
+"""Error from which a marker counts less, in radii of a typical limb: lost limbs do not decide.
+
+Chosen from two values on the trials of the average person under ``best``.
+"""
 
 STEEP = 10.0
 """Largest displacement of a marker per unit parameter that counts, in radii of a typical limb."""

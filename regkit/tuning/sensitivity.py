@@ -31,7 +31,7 @@ ROUNDING = 1e-9
 """Violation of a limit that is rounding [rad]."""
 
 FLOOR = 0.012
-"""Curvature below which the data hold a direction hardly, as a fraction of the mean curvature."""
+"""Curvature at which a direction counts as hardly held by the data, as a fraction of the mean."""
 
 
 def sensitivity(
@@ -44,7 +44,7 @@ def sensitivity(
 ) -> Array:
     """Returns the displacements (3 M, F) [m] of markers per shape parameter, where a tracker ends.
 
-    A direction that the data hardly hold moves hardly: its curvature is bounded from below. Joint
+    Directions that the data hardly hold are damped: their inverse curvature is bounded. Joint
     limits that hold the pose keep holding it.
 
     Args:
