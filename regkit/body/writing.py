@@ -18,6 +18,8 @@ from regkit.skeleton.joints import (
     FreeJoint,
     HingeJoint,
     Joint,
+    PrismaticCouplingDescription,
+    PrismaticJoint,
     UniversalJoint,
 )
 from regkit.skeleton.pose import RootDescription
@@ -140,6 +142,10 @@ def _joint(joint: Joint) -> str:
                 fields.append(f"limits_deg: {row(joint.limits_deg, 1)}")
             if joint.coupled is not None:
                 fields.append(f"coupled: {_coupling(joint.coupled)}")
+        case PrismaticJoint():
+            fields = [f"axis: {_axis(joint.axis)}", f"limits: {row(joint.limits)}"]
+            if joint.coupled is not None:
+                fields.append(f"coupled: {_coupling(joint.coupled)}")
         case UniversalJoint():
             fields = [f"axes: [{', '.join(map(_axis, joint.axes))}]"]
             if joint.limits_deg is not None:
@@ -156,8 +162,12 @@ def _joint(joint: Joint) -> str:
     return f"{{type: {joint.type}, {', '.join(fields)}}}"
 
 
-def _coupling(coupling: CouplingDescription) -> str:
-    offset = f", offset_deg: {number(coupling.offset_deg, 1)}" if coupling.offset_deg else ""
+def _coupling(coupling: CouplingDescription | PrismaticCouplingDescription) -> str:
+    match coupling:
+        case CouplingDescription(offset_deg=degrees):
+            offset = f", offset_deg: {number(degrees, 1)}" if degrees else ""
+        case PrismaticCouplingDescription(offset=metres):
+            offset = f", offset: {number(metres, 4)}" if metres else ""
     return f"{{to: {word(coupling.to)}, ratio: {coupling.ratio:.4g}{offset}}}"
 
 

@@ -114,7 +114,7 @@ def _print_summary(imported: ImportedSkeleton) -> None:
     kinds = [segment.joint.type for segment in segments if segment.joint is not None]
     joints = ", ".join(
         f"{kinds.count(kind)} {kind}"
-        for kind in ("ball", "universal", "hinge", "fixed")
+        for kind in ("ball", "universal", "hinge", "prismatic", "fixed")
         if kind in kinds
     )
     capsules = sum(len(segment.capsules) for segment in segments)
