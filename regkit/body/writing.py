@@ -69,7 +69,7 @@ def template_text(body: BodyDescription, opening: str, comments: Mapping[str, st
             "stances:",
         ]
     for name, pose in body.stances.items():
-        lines += [f"  {key(name)}", *_stance(pose)]
+        lines += [f"  {key(name)}", *_stance(pose, body.segments)]
     if body.shapes:
         lines += ["", *comment_lines(_SHAPES), *shape_lines(body.shapes)]
     if body.mesh is not None:
@@ -98,7 +98,7 @@ def _size(size: SizeDescription) -> str:
     return f"{{name: {word(size.name)}, value: {size.value:.4f}, range: [{ends}]}}"
 
 
-def _stance(pose: PoseDescription) -> list[str]:
+def _stance(pose: PoseDescription, segments: Mapping[str, SegmentDescription]) -> list[str]:
     lines = []
     if pose.root != RootDescription():
         position, rotation = row(pose.root.position), row(pose.root.rotation_deg, 1)
@@ -106,7 +106,8 @@ def _stance(pose: PoseDescription) -> list[str]:
     lines.append("    joints:" if pose.joints else "    joints: {}")
     width = max((len(key(joint)) for joint in pose.joints), default=0)
     for joint, angles in pose.joints.items():
-        value = number(angles, 1) if isinstance(angles, float) else row(angles, 1)
+        decimals = 4 if isinstance(segments[joint].joint, PrismaticJoint) else 1
+        value = number(angles, decimals) if isinstance(angles, float) else row(angles, decimals)
         lines.append(f"      {key(joint):<{width}} {value.strip()}")
     return lines
 

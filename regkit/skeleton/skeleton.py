@@ -200,8 +200,8 @@ class Skeleton(Brief):
         hinge = int(self.dofs_of(joint)[0]) - self.hinge_dofs.start
         return hinge >= 0 and bool(self.limits.prismatic[hinge])
 
-    def pose(self, description: PoseDescription) -> Pose:
-        """Returns the pose of a YAML description.
+    def pose(self, description: PoseDescription, scale: float = 1.0) -> Pose:
+        """Returns the pose of a YAML description, with displacements of joints times a scale.
 
         Raises:
             ConfigError: If a joint is unknown, the number of its angles is wrong, or it is coupled
@@ -215,8 +215,7 @@ class Skeleton(Brief):
         for name, angles in description.joints.items():
             dofs = self.dofs_of(name)
             values = np.atleast_1d(angles)
-            if not self.is_prismatic(name):
-                values = np.radians(values)
+            values = scale * values if self.is_prismatic(name) else np.radians(values)
             if len(values) != len(dofs):
                 raise ConfigError(
                     f"the pose gives {len(values)} angles for '{name}'; its joint has {len(dofs)}"

@@ -9,12 +9,14 @@ from pathlib import Path
 import numpy as np
 
 from regkit.geometry.rigid import rigid
-from regkit.interchange.bones import MIN_LENGTH, Bone, ball, check_count, vector
+from regkit.interchange.bones import MIN_LENGTH, Bone, ball, check_count, origins_of, vector
 from regkit.interchange.imported import ImportedSkeleton
 from regkit.interchange.remarks import Remarks
 from regkit.interchange.urdf.joints import Mimic, UrdfJoint
+from regkit.interchange.urdf.link_surface import LinkSurfaces
 from regkit.interchange.urdf.mesh_files import MeshFiles
 from regkit.interchange.urdf.shapes import LinkShapes
+from regkit.interchange.urdf.skin import robot_skin
 from regkit.interchange.urdf.urdf import Urdf
 from regkit.skeleton.joints import (
     CouplingDescription,
@@ -59,11 +61,14 @@ def urdf_template(
     for joint in robot.joints.values():
         offsets[joint.parent].append(rotations[joint.parent] @ joint.origin[:3, 3])
     remarks = Remarks()
-    shapes = LinkShapes(MeshFiles(path.resolve().parent, packages), remarks)
-    bones = []
+    surfaces = LinkSurfaces(MeshFiles(path.resolve().parent, packages), remarks)
+    shapes = LinkShapes(surfaces, remarks)
+    bones, seen = [], {}
     for name, link in robot.links.items():
         found = robot.joints.get(name)
-        capsules = shapes.capsules(link, rigid(rotations[name], np.zeros(3)), scale)
+        T_bone_link = rigid(rotations[name], np.zeros(3))
+        capsules = shapes.capsules(link, T_bone_link, scale)
+        seen[name] = surfaces.triangles(link, T_bone_link, scale)
         bones.append(
             Bone(
                 name=name,
@@ -82,7 +87,9 @@ def urdf_template(
     remarks.tell()
     if not any(bone.capsules for bone in bones):
         bones = [replace(bone, capsules=None) for bone in bones]
-    return ImportedSkeleton.of(bones, path, title, spread=SPREAD)
+    imported = ImportedSkeleton.of(bones, path, title, spread=SPREAD)
+    parents = [bone.parent for bone in bones]
+    return replace(imported, skin=robot_skin(names, parents, origins_of(bones), seen))
 
 
 def _joint(
