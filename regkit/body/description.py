@@ -117,7 +117,7 @@ class BodyDescription(SkeletonDescription):
         unchecked = self.unchecked()
         stances = [Stance("rest", skeleton.rest())]
         for stance, pose in self.stances.items():
-            stances.append(Stance(stance, skeleton.pose(pose)))
+            stances.append(Stance(stance, skeleton.pose(pose, scale)))
         return Body(
             name=name,
             skeleton=skeleton,

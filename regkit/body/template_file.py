@@ -34,6 +34,11 @@ def check_replaceable(out: Path, *, place: str = "--out") -> None:
         ) from None
 
 
+def skin_file(out: Path) -> Path:
+    """Returns the file of the skin beside a template's file."""
+    return out.with_name(f"{out.stem}_mesh.npz")
+
+
 def write_template(
     out: Path,
     description: BodyDescription,
@@ -53,7 +58,7 @@ def write_template(
         comments: Comments on joints, by joint.
     """
     if skin is not None:
-        mesh = out.with_name(f"{out.stem}_mesh.npz")
+        mesh = skin_file(out)
         skin.write(mesh)
         description = description.model_copy(update={"mesh": mesh})
     line = schema_line(out, "template")

@@ -18,6 +18,8 @@ from regkit.skeleton.joints import (
     FreeJoint,
     HingeJoint,
     Joint,
+    PrismaticCouplingDescription,
+    PrismaticJoint,
     UniversalJoint,
 )
 from regkit.skeleton.pose import RootDescription
@@ -67,7 +69,7 @@ def template_text(body: BodyDescription, opening: str, comments: Mapping[str, st
             "stances:",
         ]
     for name, pose in body.stances.items():
-        lines += [f"  {key(name)}", *_stance(pose)]
+        lines += [f"  {key(name)}", *_stance(pose, body.segments)]
     if body.shapes:
         lines += ["", *comment_lines(_SHAPES), *shape_lines(body.shapes)]
     if body.mesh is not None:
@@ -96,7 +98,7 @@ def _size(size: SizeDescription) -> str:
     return f"{{name: {word(size.name)}, value: {size.value:.4f}, range: [{ends}]}}"
 
 
-def _stance(pose: PoseDescription) -> list[str]:
+def _stance(pose: PoseDescription, segments: Mapping[str, SegmentDescription]) -> list[str]:
     lines = []
     if pose.root != RootDescription():
         position, rotation = row(pose.root.position), row(pose.root.rotation_deg, 1)
@@ -104,7 +106,8 @@ def _stance(pose: PoseDescription) -> list[str]:
     lines.append("    joints:" if pose.joints else "    joints: {}")
     width = max((len(key(joint)) for joint in pose.joints), default=0)
     for joint, angles in pose.joints.items():
-        value = number(angles, 1) if isinstance(angles, float) else row(angles, 1)
+        decimals = 4 if isinstance(segments[joint].joint, PrismaticJoint) else 1
+        value = number(angles, decimals) if isinstance(angles, float) else row(angles, decimals)
         lines.append(f"      {key(joint):<{width}} {value.strip()}")
     return lines
 
@@ -140,6 +143,10 @@ def _joint(joint: Joint) -> str:
                 fields.append(f"limits_deg: {row(joint.limits_deg, 1)}")
             if joint.coupled is not None:
                 fields.append(f"coupled: {_coupling(joint.coupled)}")
+        case PrismaticJoint():
+            fields = [f"axis: {_axis(joint.axis)}", f"limits: {row(joint.limits)}"]
+            if joint.coupled is not None:
+                fields.append(f"coupled: {_coupling(joint.coupled)}")
         case UniversalJoint():
             fields = [f"axes: [{', '.join(map(_axis, joint.axes))}]"]
             if joint.limits_deg is not None:
@@ -156,8 +163,12 @@ def _joint(joint: Joint) -> str:
     return f"{{type: {joint.type}, {', '.join(fields)}}}"
 
 
-def _coupling(coupling: CouplingDescription) -> str:
-    offset = f", offset_deg: {number(coupling.offset_deg, 1)}" if coupling.offset_deg else ""
+def _coupling(coupling: CouplingDescription | PrismaticCouplingDescription) -> str:
+    match coupling:
+        case CouplingDescription(offset_deg=degrees):
+            offset = f", offset_deg: {number(degrees, 1)}" if degrees else ""
+        case PrismaticCouplingDescription(offset=metres):
+            offset = f", offset: {number(metres, 4)}" if metres else ""
     return f"{{to: {word(coupling.to)}, ratio: {coupling.ratio:.4g}{offset}}}"
 
 

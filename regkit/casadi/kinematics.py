@@ -54,17 +54,18 @@ def marker_positions(skeleton: Skeleton, markers: Markers) -> Any:
 
 
 def _links(skeleton: Skeleton, numbers: Any) -> list[Any]:
-    """Returns T_world_link of each link: T_world_parent * offset * joint rotation."""
+    """Returns T_world_link of each link: T_world_parent * offset * motion of the joint."""
     ca = load_library("casadi")
     parts = split(skeleton, numbers)
-    turns = {
-        link: rotations.matrix(rotations.normalized(ball))
+    moves = {
+        link: _rigid(rotations.matrix(rotations.normalized(ball)), ca.SX(3, 1))
         for link, ball in zip(skeleton.ball_links, parts.balls, strict=True)
     }
-    for index, (link, axis) in enumerate(
-        zip(skeleton.hinge_links, skeleton.hinge_axes, strict=True)
+    for index, (link, twist) in enumerate(
+        zip(skeleton.hinge_links, skeleton.hinge_twists, strict=True)
     ):
-        turns[link] = rotations.matrix(rotations.exponential(parts.hinges[index] * axis))
+        turned = rotations.exponential(parts.hinges[index] * twist[3:])
+        moves[link] = _rigid(rotations.matrix(turned), parts.hinges[index] * twist[:3])
     if skeleton.free:
         root = _rigid(rotations.matrix(rotations.normalized(parts.rotation)), parts.position)
     else:
@@ -74,8 +75,7 @@ def _links(skeleton: Skeleton, numbers: Any) -> list[Any]:
     for link, above in enumerate(skeleton.link_parents):
         parent = root if above < 0 else links[above]
         placed = parent @ _constant(skeleton.link_offsets[link])
-        turned = _rigid(turns[link], ca.SX(3, 1)) if link in turns else ca.DM.eye(4)
-        links.append(placed @ turned)
+        links.append(placed @ moves[link] if link in moves else placed)
     return links
 
 

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from regkit.body.template_file import check_replaceable, write_template
+from regkit.body.template_file import check_replaceable, skin_file, write_template
 from regkit.cli.console import output, print_warning
 from regkit.cli.options import options
 from regkit.interchange.bones import THICKNESS
@@ -101,9 +101,9 @@ def import_(
         opening += "\n" + UNSHAPED.format(share=THICKNESS)
     if any(isinstance(one.joint, BallJoint) for one in imported.description.segments.values()):
         opening += "\n" + UNLIMITED
-    write_template(out, imported.description, None, opening, imported.comments)
+    write_template(out, imported.description, imported.skin, opening, imported.comments)
     _print_summary(imported)
-    output.print(f"written: {out}")
+    output.print(f"written: {out}" + ("" if imported.skin is None else f" and {skin_file(out)}"))
     output.print(f"template: {{kind: file, path: {out}}}")
 
 
@@ -114,12 +114,13 @@ def _print_summary(imported: ImportedSkeleton) -> None:
     kinds = [segment.joint.type for segment in segments if segment.joint is not None]
     joints = ", ".join(
         f"{kinds.count(kind)} {kind}"
-        for kind in ("ball", "universal", "hinge", "fixed")
+        for kind in ("ball", "universal", "hinge", "prismatic", "fixed")
         if kind in kinds
     )
     capsules = sum(len(segment.capsules) for segment in segments)
+    skin = "" if imported.skin is None else f"skin: {len(imported.skin.vertices)} vertices; "
     output.print(
-        f"segments: {len(kinds)} ({joints}); capsules: {capsules}; "
+        f"segments: {len(kinds)} ({joints}); capsules: {capsules}; {skin}"
         f"{description.size.name}: {description.size.value:.4g} m",
     )
     if description.size.value > LARGE:

@@ -85,7 +85,7 @@ class PoseStream(ABC):
 
 
 class CsvPoses(PoseStream):
-    """A row for each frame: root, unit quaternions x y z w, hinge angles [rad], and markers [m]."""
+    """A row for each frame: root, unit quaternions x y z w, hinges [rad or m], and markers [m]."""
 
     def __init__(self, path: Path | None, body: Body) -> None:
         super().__init__(path)
@@ -184,7 +184,7 @@ def _columns(body: Body) -> Iterator[str]:
     yield from ("root_x", "root_y", "root_z", "root_qx", "root_qy", "root_qz", "root_qw")
     for name in body.skeleton.ball_names:
         yield from (f"{name}_q{axis}" for axis in "xyzw")
-    yield from (f"{name}_rad" for name in body.skeleton.hinge_names)
+    yield from body.skeleton.hinge_columns
     for name in body.markers.names:
         yield from (f"{name}_{axis}" for axis in "xyz")
 

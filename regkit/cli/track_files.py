@@ -77,9 +77,8 @@ def _markers(tracking: Tracking) -> CsvTable:
 
 
 def _hinges(tracking: Tracking) -> CsvTable:
-    """Returns a row for each frame with a column ``NAME_rad`` for each hinge."""
-    names = tracking.body.skeleton.hinge_names
-    return ("frame", *(f"{name}_rad" for name in names)), (
+    """Returns a row for each frame with a column ``NAME_rad`` or ``NAME_m`` for each hinge."""
+    return ("frame", *tracking.body.skeleton.hinge_columns), (
         (frame, *(f"{angle:.6f}" for angle in angles))
         for frame, angles in zip(tracking.numbers, tracking.track.hinges, strict=True)
     )

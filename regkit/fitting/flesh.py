@@ -9,10 +9,10 @@ import numpy as np
 import scipy
 
 from regkit.fitting.layout import Layout, SegmentFrame
+from regkit.geometry.inside import inside
 from regkit.geometry.rigid import transformed
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.system.arrays import Array, Indices
-from regkit.system.optional import load_library
 
 
 @dataclass(frozen=True)
@@ -73,13 +73,13 @@ def divided(
     centres = corners.mean(axis=1)
     edges = corners[:, 1:] - corners[:, :1]
     areas = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1) / 2.0
-    inside = interior_points(vertices, mesh.faces, spacing)
+    interior = interior_points(vertices, mesh.faces, spacing)
     tree = scipy.spatial.cKDTree(vertices)
-    owner_of_point = owner_of_vertex[tree.query(inside)[1]]
+    owner_of_point = owner_of_vertex[tree.query(interior)[1]]
     owner_of_face = owner_of_vertex[tree.query(centres)[1]]
     return {
         name: Flesh(
-            inside[owner_of_point == index],
+            interior[owner_of_point == index],
             centres[owner_of_face == index],
             areas[owner_of_face == index],
         )
@@ -101,14 +101,7 @@ def interior_points(vertices: Array, faces: Indices, spacing: float) -> Array:
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
     near = (grid > corners.min(axis=0)) & (grid < corners.max(axis=0))
     grid = grid[near.all(axis=1)]
-    library = load_library("open3d")
-    scene = library.t.geometry.RaycastingScene()
-    scene.add_triangles(
-        library.core.Tensor(corners.astype(np.float32)),
-        library.core.Tensor(triangles.astype(np.uint32)),
-    )
-    occupied = scene.compute_occupancy(library.core.Tensor(grid.astype(np.float32)), nsamples=3)
-    return np.asarray(grid[occupied.numpy() > 0.5])
+    return np.asarray(grid[inside(grid, corners, triangles)])
 
 
 def closed(vertices: Array, faces: Indices) -> tuple[Array, Indices]:

@@ -90,13 +90,18 @@ def generated_capsules(offsets: list[Array], min_radius: float) -> tuple[Capsule
     )
 
 
+def origins_of(bones: list[Bone]) -> Array:
+    """Returns the positions of all joints at rest, (S, 3) [m]."""
+    places: list[Array] = []
+    for bone in bones:
+        places.append(bone.offset + (places[bone.parent] if bone.parent >= 0 else 0.0))
+    return np.array(places).reshape(-1, 3)
+
+
 def extents_of(bones: list[Bone]) -> Array:
     """Returns the extents (3,) [m] of all joints, markers and capsules at rest."""
-    places: list[Array] = []
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
-    for bone in bones:
-        place = bone.offset + (places[bone.parent] if bone.parent >= 0 else 0.0)
-        places.append(place)
+    for bone, place in zip(bones, origins_of(bones), strict=True):
         for capsule in bone.capsules or ():
             radii = np.broadcast_to(capsule.radius, 2)
             for end, radius in zip((capsule.start, capsule.end), radii, strict=True):

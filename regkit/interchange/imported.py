@@ -10,6 +10,7 @@ from pydantic import ValidationError
 
 from regkit.body import BodyDescription
 from regkit.body.description import SizeDescription
+from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.interchange.bones import (
     MIN_THICKNESS,
     Bone,
@@ -36,11 +37,13 @@ class ImportedSkeleton:
         description: The template.
         comments: Comments on the joints, by segment.
         shaped: Number of bones with generated capsules, for lack of a shape in the file.
+        skin: Mesh of the surface in the file; None if it has none.
     """
 
     description: BodyDescription
     comments: Mapping[str, str]
     shaped: int
+    skin: SkinnedMesh | None = None
 
     @classmethod
     def of(

@@ -31,7 +31,7 @@ def placed_primitives(
         skeleton.ball_links,
         pose.balls.reshape(1, len(pose.balls), 4),
         skeleton.hinge_links,
-        skeleton.hinge_axes,
+        skeleton.hinge_twists,
         pose.hinges.reshape(1, len(pose.hinges)),
     )[0]
     for k in range(len(centres)):
@@ -124,7 +124,7 @@ def _twists(skeleton: SkeletonArrays, pose: PoseArrays, links: Stack, dofs: int)
         skeleton.first,
         skeleton.ball_links,
         skeleton.hinge_links,
-        skeleton.hinge_axes,
+        skeleton.hinge_twists,
         dofs,
         pose.root,
     )

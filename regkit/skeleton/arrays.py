@@ -87,7 +87,8 @@ class SkeletonArrays(NamedTuple):
         link_offsets: T_parent_joint of each link at rest, (L, 4, 4).
         ball_links: Link of each ball joint, (n_ball,).
         hinge_links: Link of each hinge, (n_hinge,).
-        hinge_axes: Unit axis of each hinge in its link frame, (n_hinge, 3).
+        hinge_twists: Unit twist of each hinge in its link frame, linear first, (n_hinge, 6): an
+            axis of rotation, or the direction of a prismatic joint.
         dof_mask: 1 where a degree of freedom moves a segment, else 0, (n, S).
         dof_segments: The first segment that each degree of freedom moves, (n,); the others are its
             descendants.
@@ -101,7 +102,7 @@ class SkeletonArrays(NamedTuple):
     link_offsets: Stack
     ball_links: IntegerVector
     hinge_links: IntegerVector
-    hinge_axes: Matrix
+    hinge_twists: Matrix
     dof_mask: Matrix
     dof_segments: IntegerVector
     limits: LimitArrays
@@ -117,7 +118,7 @@ class SkeletonArrays(NamedTuple):
             link_offsets=np.array(skeleton.link_offsets, order="C"),
             ball_links=_integers(skeleton.ball_links),
             hinge_links=_integers(skeleton.hinge_links),
-            hinge_axes=np.array(skeleton.hinge_axes, order="C"),
+            hinge_twists=np.array(skeleton.hinge_twists, order="C"),
             dof_mask=np.array(skeleton.dof_mask, dtype=np.float64, order="C"),
             dof_segments=_integers(skeleton.dof_mask.argmax(axis=1)),
             limits=LimitArrays.of(skeleton.limits),

@@ -16,6 +16,8 @@ from regkit.skeleton.joints import (
     CouplingDescription,
     FreeJoint,
     HingeJoint,
+    PrismaticCouplingDescription,
+    PrismaticJoint,
     Range,
     UniversalJoint,
     Vector,
@@ -27,6 +29,31 @@ from regkit.system.arrays import Array, Indices
 _UNLIMITED = (-np.inf, np.inf)
 
 
+@dataclass(frozen=True)
+class _Hinge:
+    """A joint with one axis.
+
+    Attributes:
+        link: Its link.
+        twist: Its unit twist in the link's frame, linear first, (6,).
+        limits: Smallest and largest angle [rad] or displacement [m].
+    """
+
+    link: int
+    twist: Array
+    limits: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class _Coupling:
+    """A hinge that follows that of another segment; the offset is in radians or metres."""
+
+    follower: int
+    to: str
+    ratio: float
+    offset: float
+
+
 @dataclass
 class _Links:
     """The links accumulated so far."""
@@ -34,8 +61,8 @@ class _Links:
     parents: list[int] = field(default_factory=list)
     offsets: list[Array] = field(default_factory=list)
     balls: list[tuple[int, BallJoint]] = field(default_factory=list)
-    hinges: list[tuple[int, Vector, Range]] = field(default_factory=list)
-    couplings: list[tuple[int, CouplingDescription]] = field(default_factory=list)
+    hinges: list[_Hinge] = field(default_factory=list)
+    couplings: list[_Coupling] = field(default_factory=list)
 
     def add(self, parent: int, offset: Array) -> int:
         self.parents.append(parent)
@@ -43,7 +70,26 @@ class _Links:
         return len(self.parents) - 1
 
     def add_hinge(self, link: int, axis: Vector, limits_deg: Range | None) -> None:
-        self.hinges.append((link, axis, _UNLIMITED if limits_deg is None else limits_deg))
+        low, high = np.radians(_UNLIMITED if limits_deg is None else limits_deg)
+        self.hinges.append(_Hinge(link, np.array([0.0, 0.0, 0.0, *axis]), (low, high)))
+
+    def add_slide(self, link: int, joint: PrismaticJoint, scale: float) -> None:
+        low, high = joint.limits
+        twist = np.array([*joint.axis, 0.0, 0.0, 0.0])
+        self.hinges.append(_Hinge(link, twist, (scale * low, scale * high)))
+
+    def couple(
+        self, coupled: CouplingDescription | PrismaticCouplingDescription | None, scale: float
+    ) -> None:
+        """Couples the hinge that is added next."""
+        match coupled:
+            case CouplingDescription(to=to, ratio=ratio, offset_deg=degrees):
+                offset = float(np.radians(degrees))
+            case PrismaticCouplingDescription(to=to, ratio=ratio, offset=metres):
+                offset = scale * metres
+            case None:
+                return
+        self.couplings.append(_Coupling(len(self.hinges), to, ratio, offset))
 
 
 def compiled(description: SkeletonDescription, scale: float = 1.0) -> Skeleton:
@@ -60,9 +106,11 @@ def compiled(description: SkeletonDescription, scale: float = 1.0) -> Skeleton:
             case BallJoint() as ball:
                 links.balls.append((link, ball))
             case HingeJoint() as hinge:
-                if hinge.coupled is not None:
-                    links.couplings.append((len(links.hinges), hinge.coupled))
+                links.couple(hinge.coupled, scale)
                 links.add_hinge(link, hinge.axis, hinge.limits_deg)
+            case PrismaticJoint() as prismatic:
+                links.couple(prismatic.coupled, scale)
+                links.add_slide(link, prismatic, scale)
             case UniversalJoint() as universal:
                 first, second = universal.limits_deg or (None, None)
                 links.add_hinge(link, universal.axes[0], first)
@@ -84,7 +132,7 @@ def _skeleton(
     parents = [description.segments[name].parent for name in names]
     place = {name: index for index, name in enumerate(names)}
     ball_links = np.array([link for link, _ in links.balls], dtype=np.intp)
-    hinge_links = np.array([link for link, _, _ in links.hinges], dtype=np.intp)
+    hinge_links = np.array([hinge.link for hinge in links.hinges], dtype=np.intp)
     movers = np.array(
         [*([0] * 6 if free else []), *np.repeat(ball_links, 3), *hinge_links], dtype=np.intp
     )
@@ -98,7 +146,7 @@ def _skeleton(
         link_offsets=_numbers(links.offsets),
         ball_links=ball_links,
         hinge_links=hinge_links,
-        hinge_axes=_numbers([axis for _, axis, _ in links.hinges]).reshape(-1, 3),
+        hinge_twists=_numbers([hinge.twist for hinge in links.hinges]).reshape(-1, 6),
         joint_dofs=_joint_dofs(links, segment_links, first=6 if free else 0),
         dof_mask=_numbers(moved[:, movers].T),
         limits=_limits(links, segment_links),
@@ -106,13 +154,13 @@ def _skeleton(
 
 
 def _joint_dofs(links: _Links, segment_links: dict[str, int], *, first: int) -> dict[str, Indices]:
-    """Returns the dof indices of each joint: 3 for a ball, 1 for a hinge, 2 for a universal."""
+    """Returns the dof indices of each joint: 3 for a ball, 2 for a universal, 1 for the others."""
     dofs: dict[int, list[int]] = {}
     for link, _ in links.balls:
         dofs[link] = [first, first + 1, first + 2]
         first += 3
-    for link, _, _ in links.hinges:
-        dofs[link] = [first]
+    for hinge in links.hinges:
+        dofs[hinge.link] = [first]
         first += 1
     owned = set(segment_links.values())
     joints: dict[str, Indices] = {}
@@ -136,10 +184,11 @@ def _ancestors(parents: list[int]) -> NDArray[np.bool_]:
 
 def _limits(links: _Links, segment_links: dict[str, int]) -> Limits:
     balls = [ball for _, ball in links.balls]
-    hinge = np.radians([limits for _, _, limits in links.hinges]).reshape(-1, 2)
+    hinge = _numbers([hinge.limits for hinge in links.hinges]).reshape(-1, 2)
     couplings = _couplings(links, segment_links)
     return Limits(
         hinge=_numbers(couplings.narrowed(hinge)),
+        prismatic=np.array([hinge.twist[:3].any() for hinge in links.hinges], dtype=np.bool_),
         couplings=couplings,
         centre=from_vector(np.radians([ball.centre_deg for ball in balls]).reshape(-1, 3)),
         twist_axis=_numbers([ball.twist_axis for ball in balls]).reshape(-1, 3),
@@ -150,15 +199,15 @@ def _limits(links: _Links, segment_links: dict[str, int]) -> Limits:
 
 
 def _couplings(links: _Links, segment_links: dict[str, int]) -> Couplings:
-    hinge_of = {link: index for index, (link, _, _) in enumerate(links.hinges)}
+    hinge_of = {hinge.link: index for index, hinge in enumerate(links.hinges)}
     return Couplings(
         hinges=len(links.hinges),
-        followers=np.array([follower for follower, _ in links.couplings], dtype=np.intp),
+        followers=np.array([coupling.follower for coupling in links.couplings], dtype=np.intp),
         leaders=np.array(
-            [hinge_of[segment_links[coupling.to]] for _, coupling in links.couplings], dtype=np.intp
+            [hinge_of[segment_links[coupling.to]] for coupling in links.couplings], dtype=np.intp
         ),
-        ratios=_numbers([coupling.ratio for _, coupling in links.couplings]),
-        offsets=np.radians([coupling.offset_deg for _, coupling in links.couplings]),
+        ratios=_numbers([coupling.ratio for coupling in links.couplings]),
+        offsets=_numbers([coupling.offset for coupling in links.couplings]),
     )
 
 

@@ -17,7 +17,7 @@ def place_links(
     ball_links: Indices,
     balls: Array,
     hinge_links: Indices,
-    hinge_axes: Array,
+    hinge_twists: Array,
     hinges: Array,
 ) -> Array:
     """Returns T_world_link (P, L, 4, 4) of P poses.
@@ -29,12 +29,12 @@ def place_links(
         ball_links: Link of each ball joint, (n_ball,).
         balls: Unit quaternions of the ball joints, (P, n_ball, 4).
         hinge_links: Link of each hinge, (n_hinge,).
-        hinge_axes: Unit axes of the hinges in their link frames, (n_hinge, 3).
-        hinges: Hinge angles, (P, n_hinge) [rad].
+        hinge_twists: Unit twists of the hinges in their link frames, (n_hinge, 6).
+        hinges: Angles [rad] or displacements [m] of the hinges, (P, n_hinge).
     """
     poses, count = len(hinges), len(offsets)
     links = np.empty((poses, count, 4, 4))
-    rotations = np.empty((count, 3, 3))
+    rotations, places = np.empty((count, 3, 3)), np.empty((count, 3))
     rotated = np.zeros(count, dtype=np.bool_)
     for index in range(len(ball_links)):
         rotated[ball_links[index]] = True
@@ -42,17 +42,23 @@ def place_links(
         rotated[hinge_links[index]] = True
     local = np.empty((3, 3))
     for pose in range(poses):
+        for link in range(count):
+            for i in range(3):
+                places[link, i] = offsets[link, i, 3]
         for index in range(len(ball_links)):
             ball = balls[pose, index]
             set_rotation(rotations[ball_links[index]], ball[0], ball[1], ball[2], ball[3])
         for index in range(len(hinge_links)):
-            angle = hinges[pose, index]
+            value, link = hinges[pose, index], hinge_links[index]
             x, y, z, w = exponential(
-                angle * hinge_axes[index, 0],
-                angle * hinge_axes[index, 1],
-                angle * hinge_axes[index, 2],
+                value * hinge_twists[index, 3],
+                value * hinge_twists[index, 4],
+                value * hinge_twists[index, 5],
             )
-            set_rotation(rotations[hinge_links[index]], x, y, z, w)
+            set_rotation(rotations[link], x, y, z, w)
+            for i in range(3):
+                for j in range(3):
+                    places[link, i] += offsets[link, i, j] * value * hinge_twists[index, j]
         for link in range(count):
             parent = root if parents[link] < 0 else links[pose, parents[link]]
             for i in range(3):
@@ -68,7 +74,7 @@ def place_links(
                     for k in range(3):
                         entry += parent[i, k] * local[k, j]
                     links[pose, link, i, j] = entry
-                    place += parent[i, j] * offsets[link, j, 3]
+                    place += parent[i, j] * places[link, j]
                 links[pose, link, i, 3] = parent[i, 3] + place
                 links[pose, link, 3, i] = 0.0
             links[pose, link, 3, 3] = 1.0
@@ -81,7 +87,7 @@ def joint_twists(
     first: int,
     ball_links: Indices,
     hinge_links: Indices,
-    hinge_axes: Array,
+    hinge_twists: Array,
     dofs: int,
     root: Array,
 ) -> Array:
@@ -94,7 +100,7 @@ def joint_twists(
         first: Number of degrees of freedom of the root, 6 or 0.
         ball_links: Link of each ball joint, (n_ball,).
         hinge_links: Link of each hinge, (n_hinge,).
-        hinge_axes: Unit axes of the hinges in their link frames, (n_hinge, 3).
+        hinge_twists: Unit twists of the hinges in their link frames, (n_hinge, 6).
         dofs: Number n of degrees of freedom.
         root: T_world_root, (4, 4).
     """
@@ -105,7 +111,7 @@ def joint_twists(
             for j in range(3):
                 twists[3 + i, 3 + j] = root[j, i]
     row, balls = first, len(ball_links)
-    axis, arm = np.empty(3), np.empty(3)
+    axis, arm, shift = np.empty(3), np.empty(3), np.zeros(3)
     for index in range(balls + len(hinge_links)):
         ball = index < balls
         link = ball_links[index] if ball else hinge_links[index - balls]
@@ -115,11 +121,13 @@ def joint_twists(
             for i in range(3):
                 axis[i] = links[link, i, part] if ball else 0.0
                 if not ball:
+                    shift[i] = 0.0
                     for j in range(3):
-                        axis[i] += links[link, i, j] * hinge_axes[index - balls, j]
+                        shift[i] += links[link, i, j] * hinge_twists[index - balls, j]
+                        axis[i] += links[link, i, j] * hinge_twists[index - balls, 3 + j]
             for i in range(3):
                 j, k = (i + 1) % 3, (i + 2) % 3
-                twists[row, i] = arm[j] * axis[k] - arm[k] * axis[j]
+                twists[row, i] = arm[j] * axis[k] - arm[k] * axis[j] + shift[i]
                 twists[row, 3 + i] = axis[i]
             row += 1
     return twists

@@ -1,4 +1,4 @@
-"""Coupled hinges, whose angle is an affine function of another one, as a finger's last joint."""
+"""Coupled hinges: their angle or displacement is an affine function of another one of its kind."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Couplings:
         followers: Indices of the following hinges, (C,).
         leaders: Index of the hinge that each follower follows, (C,); a leader follows no other.
         ratios: Ratio of each coupling, (C,).
-        offsets: Offset of each coupling, (C,) [rad].
+        offsets: Offset of each coupling, (C,) [rad or m].
     """
 
     hinges: int

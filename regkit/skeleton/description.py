@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, NamedTuple
 
 import numpy as np
 from pydantic import AfterValidator, Field, ValidationError, model_validator
 
 from regkit.config.model import Model, did_you_mean, misplaced
 from regkit.config.quantities import Length
-from regkit.skeleton.joints import FreeJoint, HingeJoint, Joint, Position, Rotation
+from regkit.skeleton.joints import (
+    FreeJoint,
+    HingeJoint,
+    Joint,
+    Position,
+    PrismaticJoint,
+    Rotation,
+)
 from regkit.system.printable import is_name, shortened
 
 
@@ -133,32 +140,51 @@ def parents_first(segments: dict[str, SegmentDescription]) -> list[str]:
 
 
 def _check_couplings(segments: dict[str, SegmentDescription]) -> None:
-    """Checks that leaders are independent hinges whose limits are compatible with all followers."""
-    hinges = {n: s.joint for n, s in segments.items() if isinstance(s.joint, HingeJoint)}
-    leaders = [name for name, hinge in hinges.items() if hinge.coupled is None]
+    """Checks that leaders are independent joints whose limits are compatible with all followers."""
+    hinges, slides = {}, {}
+    for name, segment in segments.items():
+        match segment.joint:
+            case HingeJoint(limits_deg=limits, coupled=turn):
+                own = None if turn is None else (turn.to, turn.ratio, turn.offset_deg)
+                hinges[name] = _Axis(limits or (-np.inf, np.inf), own)
+            case PrismaticJoint(limits=travel, coupled=slide):
+                own = None if slide is None else (slide.to, slide.ratio, slide.offset)
+                slides[name] = _Axis(travel, own)
+    _check_coupled("hinge", "degrees", hinges)
+    _check_coupled("prismatic joint", "metres", slides)
+
+
+class _Axis(NamedTuple):
+    """A joint with one axis: its limits, and the leader, ratio and offset of its coupling."""
+
+    limits: tuple[float, float]
+    coupled: tuple[str, float, float] | None
+
+
+def _check_coupled(kind: str, unit: str, joints: dict[str, _Axis]) -> None:
+    """Checks the couplings of all joints of one kind, which follow only each other."""
+    leaders = [name for name, joint in joints.items() if joint.coupled is None]
     remaining: dict[str, tuple[float, float]] = {}
-    for name, follower in hinges.items():
+    for name, follower in joints.items():
         if follower.coupled is None:
             continue
-        to = follower.coupled.to
+        to, ratio, offset = follower.coupled
         if to not in leaders:
-            reason = f"'{to}' is itself coupled" if to in hinges else f"'{to}' is not a hinge"
-            reason = "a hinge cannot follow itself" if to == name else reason
+            reason = f"'{to}' is itself coupled" if to in joints else f"'{to}' is not a {kind}"
+            reason = f"a {kind} cannot follow itself" if to == name else reason
             raise _wrong(
-                f"{reason}; '{name}' can follow an independent hinge "
-                f"(there are: {', '.join(leaders)})" + did_you_mean(to, leaders),
+                f"{reason}; '{name}' can follow an independent {kind} "
+                f"(there are: {', '.join(leaders) or 'none'})" + did_you_mean(to, leaders),
                 *(name, "joint", "coupled", "to"),
             )
-        low, high = remaining.get(to, hinges[to].limits_deg or (-np.inf, np.inf))
-        own = follower.limits_deg or (-np.inf, np.inf)
-        ratio, offset = follower.coupled.ratio, follower.coupled.offset_deg
-        ends = sorted((end - offset) / ratio for end in own)
+        low, high = remaining.get(to, joints[to].limits)
+        ends = sorted((end - offset) / ratio for end in follower.limits)
         remaining[to] = max(low, ends[0]), min(high, ends[1])
         if remaining[to][0] > remaining[to][1]:
             raise _wrong(
-                f"no angle of '{to}' satisfies all limits: '{name}' needs it between {ends[0]:g} "
-                f"and {ends[1]:g} degrees, but its own limits and its other followers allow only "
-                f"{low:g} to {high:g}",
+                f"no position of '{to}' satisfies all limits: '{name}' needs it between "
+                f"{ends[0]:g} and {ends[1]:g} {unit}, but its own limits and its other followers "
+                f"allow only {low:g} to {high:g}",
                 *(name, "joint", "coupled"),
             )
 

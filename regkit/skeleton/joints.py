@@ -1,4 +1,4 @@
-"""The YAML description of joints: type, axes and limits, in degrees."""
+"""The YAML description of joints: type, axes, and limits in degrees, or metres of a slide."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def _not_zero(value: float) -> float:
     if abs(value) < MIN_RATIO:
         raise ValueError(
             f"the ratio {value:g} is too small: its magnitude must be at least {MIN_RATIO:g}; for "
-            "a joint that does not turn write type: fixed"
+            "a joint that does not move write type: fixed"
         )
     if abs(value) > MAX_RATIO:
         raise ValueError(
@@ -85,6 +85,9 @@ Axis = Annotated[
 
 Range = Annotated[tuple[Angle, Angle], AfterValidator(in_order)]
 """A lower and an upper limit of an angle [deg]."""
+
+Travel = Annotated[tuple[Coordinate, Coordinate], AfterValidator(in_order)]
+"""A lower and an upper limit of a displacement [m]."""
 
 
 def _within_half_a_turn(value: tuple[float, float]) -> tuple[float, float]:
@@ -136,6 +139,30 @@ class HingeJoint(Model):
     """Coupling to another hinge; by default the hinge is independent."""
 
 
+class PrismaticCouplingDescription(Model):
+    """Couples a prismatic joint to another: ``displacement = ratio * leader + offset``."""
+
+    to: str
+    """Segment whose prismatic joint is the leader."""
+    ratio: Annotated[float, AfterValidator(_not_zero)]
+    """Change of this displacement per change of the leader's."""
+    offset: Coordinate = 0.0
+    """Displacement at which the leader's is zero [m]."""
+
+
+class PrismaticJoint(Model):
+    """A sliding joint: one displacement along one axis."""
+
+    type: Literal["prismatic"]
+    axis: Axis
+    """Direction of the displacement in the segment's frame."""
+    limits: Travel
+    """Smallest and largest displacement [m]."""
+    coupled: PrismaticCouplingDescription | None = None
+    """Coupling to another prismatic joint, as of a gripper's second finger; by default the joint is
+    independent."""
+
+
 class UniversalJoint(Model):
     """Two hinges in series; the second axis rotates with the first hinge."""
 
@@ -179,5 +206,6 @@ class BallJoint(Model):
 
 
 Joint = Annotated[
-    FreeJoint | FixedJoint | HingeJoint | UniversalJoint | BallJoint, Field(discriminator="type")
+    FreeJoint | FixedJoint | HingeJoint | PrismaticJoint | UniversalJoint | BallJoint,
+    Field(discriminator="type"),
 ]

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from regkit.geometry.rotation import (
     conjugate,
@@ -28,8 +29,9 @@ class Limits(Brief):
     """All joint limits of a skeleton; an unlimited joint has infinite bounds.
 
     Attributes:
-        hinge: Lower and upper angle, (n_hinge, 2) [rad]; a leader's limits include those that
-            its followers imply.
+        hinge: Lower and upper angle [rad] or displacement [m], (n_hinge, 2); a leader's limits
+            include those that its followers imply.
+        prismatic: Whether each hinge is a prismatic joint, (n_hinge,).
         couplings: Hinges that follow others.
         centre: Centre of each ball's swing cone as a unit quaternion, (n_ball, 4).
         twist_axis: Unit vectors in the segment frames, (n_ball, 3).
@@ -39,6 +41,7 @@ class Limits(Brief):
     """
 
     hinge: Array
+    prismatic: NDArray[np.bool_]
     couplings: Couplings
     centre: Array
     twist_axis: Array
@@ -47,7 +50,7 @@ class Limits(Brief):
     twist: Array
 
     def violation(self, pose: Pose) -> Array:
-        """Returns the limit violation of each joint, (n_ball + n_hinge,) [rad]; zero inside.
+        """Returns the limit violation of each joint, (n_ball + n_hinge,) [rad or m]; zero inside.
 
         The violation of a ball joint is the larger of its twist and swing violations; the latter is
         measured along the ray from the centre of the cone through the swing. The violation of a
@@ -116,14 +119,15 @@ class Limits(Brief):
         return Pose(pose.root, balls, hinges)
 
     def sampled(self, random: np.random.Generator, count: int) -> tuple[Array, Array]:
-        """Samples joint angles uniformly within the limits; unlimited angles within a full turn.
+        """Samples joints uniformly within the limits; unlimited angles within a full turn.
 
         Args:
             random: Random generator.
             count: Number of samples.
 
         Returns:
-            Unit quaternions (count, n_ball, 4) and hinge angles (count, n_hinge) [rad].
+            Unit quaternions (count, n_ball, 4) and the hinges' angles [rad] or displacements [m],
+            (count, n_hinge).
         """
         shape = (count, len(self.centre))
         radius = np.sqrt(random.uniform(size=shape))
@@ -134,7 +138,8 @@ class Limits(Brief):
         swing += (radius * np.sin(phase) * half[:, 1])[..., None] * second
         twist = _between(np.clip(self.twist, -np.pi, np.pi), random, count)
         turned = from_vector(twist[..., None] * self.twist_axis)
-        hinges = _between(np.clip(self.hinge, -np.pi, np.pi), random, count)
+        turns = np.clip(self.hinge, -np.pi, np.pi)
+        hinges = _between(np.where(self.prismatic[:, None], self.hinge, turns), random, count)
         balls = product(self.centre, product(from_vector(swing), turned))
         return balls, self.couplings.coupled(hinges)
 

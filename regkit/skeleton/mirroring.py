@@ -30,7 +30,7 @@ class Mirroring:
         rotations: Matrices that mirror the vector part of a ball's quaternion into the frame of its
             counterpart, (n_ball, 3, 3).
         hinges: Hinge on the other side of each, (n_hinge,).
-        signs: 1 or -1: sign of its angle, (n_hinge,).
+        signs: 1 or -1: sign of its angle or displacement, (n_hinge,).
     """
 
     normal: Array
@@ -80,8 +80,7 @@ def _mirroring(skeleton: Skeleton, normal: Array) -> Mirroring | None:
     # An axial vector keeps its part along the normal, and the rest changes sign.
     axial = 2.0 * np.outer(normal, normal) - np.eye(3)
     turned = axial @ frames
-    hinge_axes = (frames[skeleton.hinge_links] @ skeleton.hinge_axes[:, :, None])[:, :, 0]
-    along = (hinge_axes @ axial.T) @ hinge_axes.T
+    along = _alignment(skeleton, frames, axial)
     balls = _counterparts(gaps[np.ix_(skeleton.ball_links, skeleton.ball_links)], extent)
     apart = gaps[np.ix_(skeleton.hinge_links, skeleton.hinge_links)].copy()
     # Two hinges of a universal joint share their origin.
@@ -99,6 +98,22 @@ def _mirroring(skeleton: Skeleton, normal: Array) -> Mirroring | None:
         hinges=hinges,
         signs=np.sign(along[each, hinges]),
     )
+
+
+def _alignment(skeleton: Skeleton, frames: Array, axial: Array) -> Array:
+    """Returns the cosine between each mirrored hinge's axis and every hinge's, (n_hinge, n_hinge).
+
+    It is zero between a hinge and a prismatic joint.
+
+    Args:
+        skeleton: The skeleton.
+        frames: Rotations of its links at rest, (L, 3, 3).
+        axial: The mirror image of rotation axes, (3, 3); directions have the opposite sign.
+    """
+    own = frames[skeleton.hinge_links]
+    slides = (own @ skeleton.hinge_twists[:, :3, None])[:, :, 0]
+    axes = (own @ skeleton.hinge_twists[:, 3:, None])[:, :, 0]
+    return np.asarray((axes @ axial.T) @ axes.T - (slides @ axial.T) @ slides.T)
 
 
 def _counterparts(gaps: Array, extent: float) -> Indices | None:

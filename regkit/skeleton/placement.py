@@ -50,7 +50,7 @@ class Placement(Brief):
             skeleton.ball_links,
             pose.balls.reshape(count, *pose.balls.shape[-2:]),
             skeleton.hinge_links,
-            skeleton.hinge_axes,
+            skeleton.hinge_twists,
             pose.hinges.reshape(count, pose.hinges.shape[-1]),
         )
         links = links.reshape(*many, *links.shape[1:])
@@ -69,7 +69,7 @@ class Placement(Brief):
             bones.ball_dofs.start,
             bones.ball_links,
             bones.hinge_links,
-            bones.hinge_axes,
+            bones.hinge_twists,
             bones.dofs,
             self.pose.root,
         )

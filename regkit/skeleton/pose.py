@@ -19,7 +19,8 @@ class Pose:
     Attributes:
         root: T_world_root, (4, 4) [m].
         balls: Unit quaternion (x, y, z, w) of each ball joint, (n_ball, 4).
-        hinges: Angle of each hinge, (n_hinge,) [rad]; a universal joint has two hinges.
+        hinges: Angle [rad] of each hinge, displacement [m] of each prismatic joint, (n_hinge,); a
+            universal joint has two hinges.
     """
 
     root: Array
@@ -42,4 +43,5 @@ class PoseDescription(Model):
     root: RootDescription = RootDescription()
     """Position and orientation of the root in the world."""
     joints: dict[str, Angle | tuple[Angle, Angle] | Rotation] = Field(default_factory=dict)
-    """By segment: one angle of a hinge, two of a universal joint, or a rotation vector [deg]."""
+    """By segment: one angle of a hinge, two of a universal joint, or a rotation vector [deg]; the
+    displacement of a prismatic joint [m]."""

@@ -32,7 +32,8 @@ class Skeleton(Brief):
     """A tree of *links*, each with at most one joint, built by ``regkit.skeleton.compile``.
 
     A universal joint is two hinges, the first of them on a virtual link. So every link's joint is
-    free (the root only), a ball, a hinge or fixed, and a segment is the last link of its joint.
+    free (the root only), a ball, a hinge or fixed, and a segment is the last link of its joint. A
+    prismatic joint counts as a hinge, with a displacement [m] in place of an angle [rad].
 
     The degrees of freedom are ordered: translation (3) and rotation (3) of a free root, three per
     ball joint, one per hinge.
@@ -46,7 +47,8 @@ class Skeleton(Brief):
         link_offsets: T_parent_joint of each link at rest, (L, 4, 4).
         ball_links: Link of each ball joint, (n_ball,).
         hinge_links: Link of each hinge, (n_hinge,).
-        hinge_axes: Unit axis of each hinge in its link frame, (n_hinge, 3).
+        hinge_twists: Unit twist of each hinge in its link frame, linear first, (n_hinge, 6): an
+            axis of rotation, or the direction of a prismatic joint.
         joint_dofs: Indices of the degrees of freedom of each joint, by segment name.
         dof_mask: 1 where a degree of freedom moves a segment, else 0, (n, S).
         limits: Joint limits.
@@ -60,7 +62,7 @@ class Skeleton(Brief):
     link_offsets: Array
     ball_links: Indices
     hinge_links: Indices
-    hinge_axes: Array
+    hinge_twists: Array
     joint_dofs: Mapping[str, Indices]
     dof_mask: Array
     limits: Limits
@@ -113,6 +115,12 @@ class Skeleton(Brief):
             for hinge, which in zip(own, ("first", "second"), strict=False):
                 names[hinge] = f"{segment}.{which}" if len(own) > 1 else segment
         return tuple(names)
+
+    @cached_property
+    def hinge_columns(self) -> tuple[str, ...]:
+        """Name of each hinge with its unit, (n_hinge,): ``NAME_rad``, ``NAME_m`` if prismatic."""
+        units = np.where(self.limits.prismatic, "m", "rad")
+        return tuple(f"{name}_{unit}" for name, unit in zip(self.hinge_names, units, strict=True))
 
     def rest(self, root: Array | None = None) -> Pose:
         """Returns the rest pose: zero angles, except for the offsets of coupled hinges.
@@ -187,8 +195,13 @@ class Skeleton(Brief):
             )
         return self.joint_dofs[joint]
 
-    def pose(self, description: PoseDescription) -> Pose:
-        """Returns the pose of a YAML description.
+    def is_prismatic(self, joint: str) -> bool:
+        """Returns whether the moving joint of a segment is prismatic."""
+        hinge = int(self.dofs_of(joint)[0]) - self.hinge_dofs.start
+        return hinge >= 0 and bool(self.limits.prismatic[hinge])
+
+    def pose(self, description: PoseDescription, scale: float = 1.0) -> Pose:
+        """Returns the pose of a YAML description, with displacements of joints times a scale.
 
         Raises:
             ConfigError: If a joint is unknown, the number of its angles is wrong, or it is coupled
@@ -200,8 +213,9 @@ class Skeleton(Brief):
         )
         pose = self.rest(root)
         for name, angles in description.joints.items():
-            values = np.radians(np.atleast_1d(angles))
             dofs = self.dofs_of(name)
+            values = np.atleast_1d(angles)
+            values = scale * values if self.is_prismatic(name) else np.radians(values)
             if len(values) != len(dofs):
                 raise ConfigError(
                     f"the pose gives {len(values)} angles for '{name}'; its joint has {len(dofs)}"

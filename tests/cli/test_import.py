@@ -78,11 +78,11 @@ def test_a_robots_limits_and_followers_are_in_its_template(regkit, tmp_path, out
 
 def test_a_mistake_in_a_file_is_told_with_its_line(regkit, tmp_path, out):
     robot = tmp_path / "gripper.urdf"
-    robot.write_text(ROBOT.replace('"open" type="revolute"', '"open" type="prismatic"'))
+    robot.write_text(ROBOT.replace('"open" type="revolute"', '"open" type="planar"'))
     ended = regkit("import", robot, "--out", out)
     assert ended.code == 1
     assert f"{robot}:6: " in ended.err
-    assert "prismatic: open" in ended.err
+    assert "planar: open" in ended.err
     assert not out.exists()
 
 

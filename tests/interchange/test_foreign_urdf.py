@@ -72,12 +72,12 @@ def test_a_body_below_an_empty_frame_is_the_free_root_upright(tmp_path: Path, ki
         np.testing.assert_allclose(other.offset, turn @ one.offset, atol=1e-12)
 
 
-def test_joints_that_translate_are_named_in_one_sentence(tmp_path: Path) -> None:
+def test_joints_in_a_plane_or_without_any_are_named_in_one_sentence(tmp_path: Path) -> None:
     text = ARM.replace('"turn" type="revolute"', '"turn" type="planar"')
-    text = text.replace('type="continuous"', 'type="prismatic"')
+    text = text.replace('type="continuous"', 'type="floating"')
     with pytest.raises(RegkitError) as caught:
         _read(tmp_path, text)
-    assert "planar: turn; prismatic: bend" in caught.value.message
+    assert "floating: bend; planar: turn" in caught.value.message
     assert caught.value.place == f"{tmp_path / 'arm.urdf'}:5"
 
 

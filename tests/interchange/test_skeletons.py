@@ -305,7 +305,7 @@ def test_a_robots_shapes_become_capsules(robot: Path) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "line", "message"),
     [
-        ('"bend" type="revolute"', '"bend" type="prismatic"', 17, "translate (prismatic: bend)"),
+        ('"bend" type="revolute"', '"bend" type="planar"', 17, "(planar: bend)"),
         ('lower="-1"', 'lower="low"', 19, 'lower="low" of <limit> must be a number'),
         ('<axis xyz="0 1 1"/>', '<axis xyz="0 0 0"/>', 19, "the axis of joint 'bend' is zero"),
         ('xyz="0.3 0.02 0"', 'xyz="0.3 0.02"', 18, 'xyz="0.3 0.02" of <origin> must be 3 numbers'),

@@ -153,7 +153,7 @@ def test_followers_that_contradict_one_another_are_refused(tmp_path):
         "  other:\n    parent: palm\n    joint: {type: hinge, axis: y, limits_deg: [80, 90], "
         "coupled: {to: middle, ratio: 1.0}}\n"
     )
-    with pytest.raises(ConfigError, match=r"no angle of 'middle' .*'other' needs"):
+    with pytest.raises(ConfigError, match=r"no position of 'middle' .*'other' needs"):
         written(tmp_path, FINGER + other)
 
 

@@ -141,7 +141,7 @@ def test_body_with_other_joints_is_refused(human, hand):
 
 def test_hinge_with_another_axis_is_refused(human):
     bones = human.skeleton
-    turned = replace(bones, hinge_axes=bones.hinge_axes[:, [1, 2, 0]])
+    turned = replace(bones, hinge_twists=bones.hinge_twists[:, [0, 1, 2, 4, 5, 3]])
     with pytest.raises(ConfigError, match=r"hinge.*turns about"):
         Sampler(human, POINTS, rendered=replace(human, skeleton=turned))
 

@@ -9,6 +9,7 @@ ICP = _FOLDER / "icp.yaml"
 PAPER = _FOLDER / "paper.yaml"
 PAPER_EXACT = _FOLDER / "paper_exact.yaml"
 RIGID = _FOLDER / "rigid.yaml"
+ROBOTS = _FOLDER / "robots.yaml"
 SPHERES = _FOLDER / "spheres.yaml"
 
 HANDS = _FOLDER / "hands.yaml"

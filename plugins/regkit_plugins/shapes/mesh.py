@@ -18,6 +18,10 @@ NEIGHBOURS = 4
 """Number of nearest neighbours whose mean distance is the spacing of a vertex."""
 
 
+TOGETHER = 6
+"""Decimals of a metre to which vertices in the same place agree."""
+
+
 class Mesh(ShapeModel):
     """The vertices of the template's skinned mesh with their normals, as surfels for ICP.
 
@@ -47,8 +51,10 @@ class Mesh(ShapeModel):
 
 
 def _spacings(vertices: Array) -> Array:
-    """Returns the mean distance (V,) [m] of each vertex (V, 3) to its nearest neighbours."""
-    distances, _ = scipy.spatial.cKDTree(vertices).query(
-        vertices, k=min(NEIGHBOURS + 1, len(vertices))
-    )
-    return np.asarray(np.asarray(distances)[:, 1:].mean(axis=1))
+    """Returns the mean distance (V,) [m] of each vertex (V, 3) to its nearest neighbours.
+
+    Vertices in the same place, as on sharp edges and seams of a texture, count as one.
+    """
+    places, owners = np.unique(vertices.round(TOGETHER), axis=0, return_inverse=True)
+    distances, _ = scipy.spatial.cKDTree(places).query(places, k=min(NEIGHBOURS + 1, len(places)))
+    return np.asarray(np.asarray(distances)[owners.ravel(), 1:].mean(axis=1))

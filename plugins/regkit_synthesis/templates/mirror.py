@@ -12,7 +12,13 @@ from regkit.body import Mirror, ShapeParameters
 from regkit.body.capsules import deformed_capsule
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.skeleton import SegmentDescription
-from regkit.skeleton.joints import BallJoint, HingeJoint, Joint, UniversalJoint
+from regkit.skeleton.joints import (
+    BallJoint,
+    HingeJoint,
+    Joint,
+    PrismaticJoint,
+    UniversalJoint,
+)
 
 _MIRROR = Mirror()
 point, turn = _MIRROR.point, _MIRROR.rotation
@@ -38,6 +44,11 @@ def joint(value: Joint, rename: Callable[[str], str]) -> Joint:
             if coupled is not None:
                 coupled = coupled.model_copy(update={"to": rename(coupled.to)})
             return HingeJoint(type="hinge", axis=turn(axis), limits_deg=limits, coupled=coupled)
+        case PrismaticJoint(axis=axis, limits=limits, coupled=slide):
+            if slide is not None:
+                slide = slide.model_copy(update={"to": rename(slide.to)})
+            # A direction is mirrored as a point is.
+            return PrismaticJoint(type="prismatic", axis=point(axis), limits=limits, coupled=slide)
         case UniversalJoint(axes=(first, second), limits_deg=both):
             return UniversalJoint(
                 type="universal",

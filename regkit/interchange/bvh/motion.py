@@ -25,11 +25,15 @@ def bvh_of(motion: TrackedMotion) -> Bvh:
     to the body's, as the format requires, whatever the axes of the segments.
     """
     skeleton = motion.body.skeleton
+    slides = [
+        name in skeleton.joint_dofs and skeleton.is_prismatic(name) for name in skeleton.names
+    ]
     rest = motion.body.place(skeleton.rest()).transforms
     parents = [int(parent) for parent in skeleton.parents]
     # Removing the rest rotation of each segment leaves the rotation of the body's axes.
     rotations = UPRIGHT_CAMERA @ motion.transforms[..., :3, :3] @ rest[:, :3, :3].swapaxes(1, 2)
-    joints, columns = [], [motion.transforms[:, 0, :3, 3] @ UPRIGHT_CAMERA.T]
+    places = motion.transforms[..., :3, 3] @ UPRIGHT_CAMERA.T
+    joints, columns = [], []
     for index, name in enumerate(_words(skeleton.names)):
         parent = parents[index]
         place = rest[index, :3, 3]
@@ -39,10 +43,15 @@ def bvh_of(motion: TrackedMotion) -> Bvh:
                 name=name,
                 parent=parent,
                 offset=read_only(place - rest[parent, :3, 3] if parent >= 0 else np.zeros(3)),
-                channels=(*CHANNELS[:3], *_TURNS) if parent < 0 else _TURNS,
+                channels=(*CHANNELS[:3], *_TURNS) if parent < 0 or slides[index] else _TURNS,
                 ends=(read_only(rest[index, :3, :3] @ _end(motion.body, index)),) if leaf else (),
             )
         )
+        if parent < 0:
+            columns.append(places[:, index])
+        elif slides[index]:
+            arms = places[:, index] - places[:, parent]
+            columns.append((arms[:, None, :] @ rotations[:, parent])[:, 0])
         own = rotations[:, index]
         relative = own if parent < 0 else rotations[:, parent].swapaxes(1, 2) @ own
         columns.append(np.degrees(continuous_zyx(relative)))

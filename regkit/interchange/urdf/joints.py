@@ -9,6 +9,7 @@ import numpy as np
 from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.interchange.remarks import Remarks
+from regkit.interchange.urdf.limits import limits_of
 from regkit.interchange.urdf.xml_lines import Element
 from regkit.skeleton.joints import MIN_RATIO
 from regkit.system.arrays import Array
@@ -17,27 +18,24 @@ from regkit.system.errors import DataError
 HINGES = ("revolute", "continuous")
 """Joint types with one rotation axis."""
 
-TYPES = (*HINGES, "fixed", "spherical")
+AXIAL = (*HINGES, "prismatic")
+"""Joint types with one axis."""
+
+TYPES = (*AXIAL, "fixed", "spherical")
 """Supported joint types."""
 
-OTHERS = ("floating", "planar", "prismatic")
-"""Joint types of the format that translate, which a template has only at its root."""
-
-TURNING = 8.0 * np.pi
-"""A limit beyond this many turns may be meant in degrees [rad]."""
-
-ENDLESS = 200.0 * np.pi
-"""A limit of more than a hundred turns stands for none [rad]."""
+OTHERS = ("floating", "planar")
+"""Joint types of the format that translate freely, which a template has only at its root."""
 
 
 @dataclass(frozen=True)
 class Mimic:
-    """A coupling ``angle = ratio * leader + offset``.
+    """A coupling ``position = ratio * leader + offset``, of angles or of displacements.
 
     Attributes:
         joint: Name of the leading joint.
-        ratio: Ratio of the angles.
-        offset: Angle at which the leader's angle is zero [rad].
+        ratio: Ratio of the positions.
+        offset: Position at which the leader's is zero [rad], or in the file's unit of length.
     """
 
     joint: str
@@ -56,7 +54,8 @@ class UrdfJoint:
         child: Name of the child link, which has the frame of the joint.
         origin: T_parent_child at zero angles, (4, 4) [m].
         axis: Unit axis in the child's frame, (3,).
-        limits: Smallest and largest angle of a revolute joint [rad]; None for others.
+        limits: Smallest and largest angle of a revolute joint [rad], or displacement of a prismatic
+            one in the file's unit of length; None for others.
         mimic: Coupling to another joint, if there is one.
         place: ``file:line``.
     """
@@ -105,8 +104,8 @@ def read_joint(element: Element, remarks: Remarks) -> UrdfJoint:
             f"joint '{name}' has the type '{kind}'; the types of the format are "
             f"{', '.join((*TYPES, *OTHERS))}"
         )
-    hinge = kind in HINGES
-    if not hinge and not _has_direction(element.find("axis")):
+    axial = kind in AXIAL
+    if not axial and not _has_direction(element.find("axis")):
         remarks.add("joints that turn about no axis have a zero one, unused", name, element.place)
     return UrdfJoint(
         name=name,
@@ -114,9 +113,9 @@ def read_joint(element: Element, remarks: Remarks) -> UrdfJoint:
         parent=element.need("parent").text("link"),
         child=element.need("child").text("link"),
         origin=origin(element),
-        axis=_axis(element, name) if hinge else np.array([1.0, 0.0, 0.0]),
-        limits=_limits(element, name, remarks) if kind == "revolute" else None,
-        mimic=_mimic(element, name, remarks) if hinge else None,
+        axis=_axis(element, name) if axial else np.array([1.0, 0.0, 0.0]),
+        limits=limits_of(kind, element, name, remarks),
+        mimic=_mimic(element, name, remarks) if axial else None,
         place=element.place,
     )
 
@@ -147,50 +146,6 @@ def _axis(element: Element, name: str) -> Array:
     return np.asarray(axis / length)
 
 
-def _limits(element: Element, name: str, remarks: Remarks) -> tuple[float, float] | None:
-    found = element.find("limit")
-    if found is None:
-        remarks.add("hinges without the <limit> they need are unlimited", name, element.place)
-        return None
-    low, high = (_limit(found, word) for word in ("lower", "upper"))
-    if low > high:
-        remarks.add(
-            "hinges are unlimited, because their lower limit is above the upper one",
-            f"{name}: {low:g} > {high:g}",
-            found.place,
-        )
-        return None
-    if low == high:
-        remarks.add(
-            "hinges cannot turn, because their limits are equal; without lower and upper both "
-            "are 0",
-            name,
-            found.place,
-        )
-    if low <= -ENDLESS and high >= ENDLESS:
-        return None
-    if low < -ENDLESS or high > ENDLESS:
-        remarks.add(
-            f"limits beyond {np.degrees(ENDLESS) / 360.0:.0f} turns are cut to that",
-            f"'{name}': {low:g} to {high:g} rad",
-            found.place,
-        )
-    elif low < -TURNING or high > TURNING:
-        remarks.add(
-            "limits are taken as radians, as the format says, which allows several turns",
-            f"'{name}': {low:g} to {high:g} rad",
-            found.place,
-        )
-    return max(low, -ENDLESS), min(high, ENDLESS)
-
-
-def _limit(element: Element, attribute: str) -> float:
-    text = element.attributes.get(attribute, "0").strip().lower()
-    if text.lstrip("+-") in ("inf", "infinity"):
-        return -np.inf if text.startswith("-") else np.inf
-    return element.number(attribute, 0.0)
-
-
 def _mimic(element: Element, name: str, remarks: Remarks) -> Mimic | None:
     found = element.find("mimic")
     # Exporters write <mimic joint=""/> for every joint, as they do with other unused fields.
@@ -199,7 +154,7 @@ def _mimic(element: Element, name: str, remarks: Remarks) -> Mimic | None:
     mimic = Mimic(found.text("joint"), found.number("multiplier", 1.0), found.number("offset", 0.0))
     if abs(mimic.ratio) < MIN_RATIO:
         remarks.add(
-            "hinges turn by themselves, because the multiplier of their <mimic> is practically "
+            "joints move by themselves, because the multiplier of their <mimic> is practically "
             "zero",
             f"{name}: {mimic.ratio:g}",
             found.place,

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from regkit.config.model import did_you_mean
 from regkit.interchange.remarks import Remarks
-from regkit.interchange.urdf.joints import HINGES, Mimic, UrdfJoint
+from regkit.interchange.urdf.joints import AXIAL, HINGES, Mimic, UrdfJoint
 from regkit.skeleton.joints import MIN_RATIO
 from regkit.system.errors import DataError
 
@@ -15,7 +15,8 @@ from regkit.system.errors import DataError
 def with_leaders(joints: Mapping[str, UrdfJoint], remarks: Remarks) -> dict[str, UrdfJoint]:
     """Returns the joints with chains of couplings resolved to independent leaders.
 
-    A joint that follows none of the hinges turns by itself, with a remark.
+    A joint that follows none of its own kind, a hinge or a prismatic joint, moves by itself, with a
+    remark.
 
     Args:
         joints: Joints by the name of their child link.
@@ -42,7 +43,7 @@ def with_leaders(joints: Mapping[str, UrdfJoint], remarks: Remarks) -> dict[str,
             mimic = Mimic(above.joint, mimic.ratio * above.ratio, offset)
         if mimic is not None and abs(mimic.ratio) < MIN_RATIO:
             remarks.add(
-                "hinges turn by themselves, because what they follow hardly turns them",
+                "joints move by themselves, because what they follow hardly moves them",
                 f"{joint.name}: {mimic.ratio:g}",
                 joint.place,
             )
@@ -52,16 +53,18 @@ def with_leaders(joints: Mapping[str, UrdfJoint], remarks: Remarks) -> dict[str,
 
 
 def _with_leader(joint: UrdfJoint, joints: Mapping[str, UrdfJoint], remarks: Remarks) -> UrdfJoint:
-    """Returns a joint, without its coupling if the leader is not a hinge."""
+    """Returns a joint, without its coupling if the leader is not a joint of its kind."""
     if joint.mimic is None:
         return joint
     leader = joints.get(joint.mimic.joint)
-    if leader is not None and leader.kind in HINGES:
+    turns = joint.kind in HINGES
+    if leader is not None and leader.kind in AXIAL and (leader.kind in HINGES) == turns:
         return joint
     kind = "no joint" if leader is None else leader.kind
     hint = did_you_mean(joint.mimic.joint, list(joints)) if leader is None else ""
     remarks.add(
-        "hinges turn by themselves, because what they follow is not a hinge",
+        "joints move by themselves, because what they follow is not "
+        + ("a hinge" if turns else "a prismatic joint"),
         f"{joint.name} follows '{joint.mimic.joint}', which is {kind}{hint}",
         joint.place,
     )

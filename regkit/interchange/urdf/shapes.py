@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
 from regkit.interchange.bones import vector
 from regkit.interchange.remarks import Remarks
 from regkit.interchange.urdf.joints import origin
-from regkit.interchange.urdf.mesh_capsule import mesh_capsule, read_triangles
-from regkit.interchange.urdf.mesh_files import MeshFiles
+from regkit.interchange.urdf.link_surface import LinkSurfaces
+from regkit.interchange.urdf.mesh_capsule import mesh_capsule
 from regkit.interchange.urdf.urdf import UrdfLink
 from regkit.interchange.urdf.xml_lines import Element
 from regkit.skeleton.description import CapsuleDescription
 from regkit.system.arrays import Array
-from regkit.system.errors import DataError
 
 SMALLEST = 1e-6
 """A shape with a smaller radius has no extent [m]."""
@@ -34,13 +33,12 @@ class LinkShapes:
     capsule of ``mesh_capsule``.
 
     Attributes:
-        files: Finds the files of meshes.
+        surfaces: Reads the meshes.
         remarks: Takes what is passed over.
     """
 
-    files: MeshFiles
+    surfaces: LinkSurfaces
     remarks: Remarks
-    _triangles: dict[str, Array | None] = field(default_factory=dict)
 
     def capsules(
         self, link: UrdfLink, T_bone_link: Array, scale: float
@@ -89,29 +87,8 @@ class LinkShapes:
         return core
 
     def _mesh(self, mesh: Element) -> Core | None:
-        address = mesh.text("filename")
-        if address not in self._triangles:
-            self._triangles[address] = self._read(address, mesh)
-        triangles = self._triangles[address]
-        if triangles is None:
-            return None
-        return mesh_capsule(triangles * mesh.numbers("scale", 3, np.ones(3)))
-
-    def _read(self, address: str, mesh: Element) -> Array | None:
-        path = self.files.find(address)
-        if path is None:
-            self.remarks.add(
-                "meshes are missing, and links without another shape get a capsule along each "
-                "bone; name the folder of the package",
-                address,
-                mesh.place,
-            )
-            return None
-        try:
-            return read_triangles(path)
-        except DataError as error:
-            self.remarks.add("meshes cannot be read, and are passed over", f"{error}", mesh.place)
-            return None
+        triangles = self.surfaces.mesh(mesh)
+        return None if triangles is None else mesh_capsule(triangles)
 
 
 def _first_known(geometry: Element) -> Element | None:

@@ -9,12 +9,14 @@ from pathlib import Path
 import numpy as np
 
 from regkit.geometry.rigid import rigid
-from regkit.interchange.bones import MIN_LENGTH, Bone, ball, check_count, vector
+from regkit.interchange.bones import MIN_LENGTH, Bone, ball, check_count, origins_of, vector
 from regkit.interchange.imported import ImportedSkeleton
 from regkit.interchange.remarks import Remarks
 from regkit.interchange.urdf.joints import Mimic, UrdfJoint
+from regkit.interchange.urdf.link_surface import LinkSurfaces
 from regkit.interchange.urdf.mesh_files import MeshFiles
 from regkit.interchange.urdf.shapes import LinkShapes
+from regkit.interchange.urdf.skin import robot_skin
 from regkit.interchange.urdf.urdf import Urdf
 from regkit.skeleton.joints import (
     CouplingDescription,
@@ -22,6 +24,8 @@ from regkit.skeleton.joints import (
     FreeJoint,
     HingeJoint,
     Joint,
+    PrismaticCouplingDescription,
+    PrismaticJoint,
 )
 from regkit.system.arrays import Array
 
@@ -57,11 +61,14 @@ def urdf_template(
     for joint in robot.joints.values():
         offsets[joint.parent].append(rotations[joint.parent] @ joint.origin[:3, 3])
     remarks = Remarks()
-    shapes = LinkShapes(MeshFiles(path.resolve().parent, packages), remarks)
-    bones = []
+    surfaces = LinkSurfaces(MeshFiles(path.resolve().parent, packages), remarks)
+    shapes = LinkShapes(surfaces, remarks)
+    bones, seen = [], {}
     for name, link in robot.links.items():
         found = robot.joints.get(name)
-        capsules = shapes.capsules(link, rigid(rotations[name], np.zeros(3)), scale)
+        T_bone_link = rigid(rotations[name], np.zeros(3))
+        capsules = shapes.capsules(link, T_bone_link, scale)
+        seen[name] = surfaces.triangles(link, T_bone_link, scale)
         bones.append(
             Bone(
                 name=name,
@@ -71,7 +78,7 @@ def urdf_template(
                 else scale * rotations[found.parent] @ found.origin[:3, 3],
                 joint=FreeJoint()
                 if found is None
-                else _joint(found, rotations[name], offsets[name], robot),
+                else _joint(found, rotations[name], offsets[name], robot, scale),
                 capsules=capsules if capsules or not (link.collision or link.visual) else None,
                 markers={name: np.zeros(3)},
                 comment="" if found is None else f"Joint '{found.name}', {found.kind}.",
@@ -80,26 +87,49 @@ def urdf_template(
     remarks.tell()
     if not any(bone.capsules for bone in bones):
         bones = [replace(bone, capsules=None) for bone in bones]
-    return ImportedSkeleton.of(bones, path, title, spread=SPREAD)
+    imported = ImportedSkeleton.of(bones, path, title, spread=SPREAD)
+    parents = [bone.parent for bone in bones]
+    return replace(imported, skin=robot_skin(names, parents, origins_of(bones), seen))
 
 
-def _joint(joint: UrdfJoint, rotation: Array, offsets: list[Array], robot: Urdf) -> Joint:
+def _joint(
+    joint: UrdfJoint, rotation: Array, offsets: list[Array], robot: Urdf, scale: float
+) -> Joint:
     if joint.kind == "fixed":
         return FixedJoint()
     if joint.kind == "spherical":
         return ball(next((one for one in offsets if np.linalg.norm(one) > MIN_LENGTH), None))
+    if joint.kind == "prismatic" and joint.limits is not None:
+        low, high = joint.limits
+        return PrismaticJoint(
+            type="prismatic",
+            axis=vector(rotation @ joint.axis),
+            limits=(scale * low, scale * high),
+            coupled=None if joint.mimic is None else _slide(joint.mimic, robot, scale),
+        )
     limits = None if joint.limits is None else np.degrees(joint.limits)
     return HingeJoint(
         type="hinge",
         axis=vector(rotation @ joint.axis),
         limits_deg=None if limits is None else (float(limits[0]), float(limits[1])),
-        coupled=None if joint.mimic is None else _coupling(joint, joint.mimic, robot),
+        coupled=None if joint.mimic is None else _coupling(joint.mimic, robot),
     )
 
 
-def _coupling(joint: UrdfJoint, mimic: Mimic, robot: Urdf) -> CouplingDescription:
+def _coupling(mimic: Mimic, robot: Urdf) -> CouplingDescription:
     """Returns the coupling of a hinge."""
-    leader = next(other for other in robot.joints.values() if other.name == mimic.joint)
     return CouplingDescription(
-        to=leader.child, ratio=mimic.ratio, offset_deg=float(np.degrees(mimic.offset))
+        to=_leader(mimic, robot), ratio=mimic.ratio, offset_deg=float(np.degrees(mimic.offset))
     )
+
+
+def _slide(mimic: Mimic, robot: Urdf, scale: float) -> PrismaticCouplingDescription:
+    """Returns the coupling of a prismatic joint."""
+    return PrismaticCouplingDescription(
+        to=_leader(mimic, robot), ratio=mimic.ratio, offset=scale * mimic.offset
+    )
+
+
+def _leader(mimic: Mimic, robot: Urdf) -> str:
+    """Returns the link that the leading joint moves."""
+    return next(joint.child for joint in robot.joints.values() if joint.name == mimic.joint)

@@ -124,7 +124,7 @@ def _check_turning(joints: Sequence[UrdfJoint]) -> None:
         for kind, names in moving.items()
     )
     raise DataError(
-        f"joints of this robot translate ({listed}), and those of a template can only rotate; make "
-        "them fixed, or leave their links out",
+        f"joints of this robot move in a plane or freely ({listed}); those of a template rotate, "
+        "or slide along one axis; make them fixed, or leave their links out",
         place=next(joint.place for joint in joints if joint.kind in OTHERS),
     )

@@ -7,7 +7,7 @@ import numpy as np
 from regkit.body import Body
 from regkit.geometry.rotation import from_vector, product
 from regkit.search.limbs import limbs_of
-from regkit.skeleton import Pose
+from regkit.skeleton import Limits, Pose
 from regkit.system.arrays import Array
 
 ANYWHERE = 0.55
@@ -40,7 +40,7 @@ def sampled_poses(body: Body, random: np.random.Generator, count: int) -> tuple[
         shakes[limb.balls] = LIMB_SHAKE
     steps = random.normal(size=(*balls.shape[:2], 3)) * shakes[:, None]
     balls = product(balls, from_vector(steps))
-    hinges = hinges + LIMB_SHAKE * random.normal(size=hinges.shape)
+    hinges = hinges + _shakes_of_hinges(bones.limits) * random.normal(size=hinges.shape)
     for limb in limbs:
         rows = np.flatnonzero(random.uniform(size=count) < ANYWHERE)[:, None]
         balls[rows, limb.balls] = any_balls[rows, limb.balls]
@@ -49,6 +49,13 @@ def sampled_poses(body: Body, random: np.random.Generator, count: int) -> tuple[
         pose = bones.limits.projected(Pose(np.eye(4), balls[index], hinges[index]))
         balls[index], hinges[index] = pose.balls, pose.hinges
     return balls, hinges
+
+
+def _shakes_of_hinges(limits: Limits) -> Array:
+    """Returns the standard deviation of each hinge about a stance, (n_hinge,) [rad or m]."""
+    # A prismatic joint is shaken by the part of its travel that a limb's joint is of half a turn.
+    travel = np.diff(limits.hinge, axis=1)[:, 0]
+    return np.where(limits.prismatic, LIMB_SHAKE / np.pi * travel, LIMB_SHAKE)
 
 
 def sampled_views(random: np.random.Generator, count: int, elevation: tuple[float, float]) -> Array:

@@ -51,7 +51,7 @@ def refined(
     bones, limits, hull = body.skeleton, body.skeleton.limits, Hull.of(body)
     balls_of, hinges_of, dofs = bones.ball_dofs, bones.hinge_dofs, bones.dofs
     count, first = len(bones.segment_links), balls_of.start
-    joints = (bones.ball_links, bones.hinge_links, bones.hinge_axes)
+    joints = (bones.ball_links, bones.hinge_links, bones.hinge_twists)
     most = np.full(dofs, WIDEST)
     most[:3] = FARTHEST
     root, balls, hinges = pose.root, pose.balls, pose.hinges
@@ -64,7 +64,7 @@ def refined(
             bones.ball_links,
             balls[None],
             bones.hinge_links,
-            bones.hinge_axes,
+            bones.hinge_twists,
             hinges[None],
         )[0]
         transforms = links[bones.segment_links]

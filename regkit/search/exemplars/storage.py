@@ -101,7 +101,7 @@ def _parts(body: Body) -> Iterator[NDArray[np.generic]]:
     offsets = bones.link_offsets.copy()
     offsets[:, :3, 3] /= size
     yield offsets
-    yield from (bones.link_parents, bones.ball_links, bones.hinge_links, bones.hinge_axes)
+    yield from (bones.link_parents, bones.ball_links, bones.hinge_links, bones.hinge_twists)
     yield from (bones.segment_links, bones.dof_mask)
     yield from (limits.hinge, limits.centre, limits.twist_axis, limits.swing_axis)
     yield from (limits.swing, limits.twist)

@@ -45,12 +45,12 @@ class PoseTransfer(Brief):
         balls = [ours.ball_names.index(name) for name in others.ball_names]
         hinges = [ours.hinge_names.index(name) for name in others.hinge_names]
         for name, own, other in zip(
-            others.hinge_names, ours.hinge_axes[hinges], others.hinge_axes, strict=True
+            others.hinge_names, ours.hinge_twists[hinges], others.hinge_twists, strict=True
         ):
             if np.abs(own - other).max() > PARALLEL:
                 raise ConfigError(
-                    f"the hinge '{name}' turns about {_told(own)} in the template '{source.name}', "
-                    f"and about {_told(other)} in '{goal.name}'; poses are transferred between "
+                    f"the hinge '{name}' {_told(own)} in the template '{source.name}', and "
+                    f"{_told(other)} in '{goal.name}'; poses are transferred between "
                     "templates of the same joints"
                 )
         return cls(others, np.array(balls, dtype=np.intp), np.array(hinges, dtype=np.intp))
@@ -99,5 +99,7 @@ def _check_rest(source: Body, goal: Body) -> None:
             )
 
 
-def _told(axis: Array) -> str:
-    return f"[{', '.join(f'{value:.3g}' for value in axis)}]"
+def _told(twist: Array) -> str:
+    """Returns what a hinge does, by its unit twist (6,)."""
+    does, axis = ("slides along", twist[:3]) if twist[:3].any() else ("turns about", twist[3:])
+    return f"{does} [{', '.join(f'{value:.3g}' for value in axis)}]"

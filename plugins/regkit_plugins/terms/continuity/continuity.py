@@ -9,12 +9,13 @@ import numpy as np
 from pydantic import Field
 
 from regkit.body import Body
-from regkit.config.quantities import Spread, Weight
+from regkit.config.quantities import Length, Spread, Weight
 from regkit.interfaces import CompiledJoints, JointEnergy, JointResponse, Scene, Term
 from regkit.primitives import Primitives
 from regkit.skeleton import Pose, Skeleton
 from regkit.skeleton.compiled_steps import ball_steps
 from regkit.system.arrays import Array
+from regkit.system.errors import ConfigError
 from regkit_plugins.terms.continuity.compiled import respond_joints
 
 
@@ -32,15 +33,21 @@ class Continuity(Term):
     """Typical rotation of a joint between frames [deg]."""
     joints_deg: dict[str, Spread] = Field(default_factory=dict)
     """Typical rotation of individual joints, by segment [deg]."""
+    displacement: Length = 0.05
+    """Typical displacement of a prismatic joint between frames [m]."""
 
     def check(self, body: Body) -> None:
         """Validates the names of joints.
 
         Raises:
-            ConfigError: If ``joints_deg`` names an unknown joint.
+            ConfigError: If ``joints_deg`` names an unknown joint, or one that does not rotate.
         """
         for name in self.joints_deg:
-            body.skeleton.dofs_of(name)
+            if body.skeleton.is_prismatic(name):
+                raise ConfigError(
+                    f"joints_deg names '{name}', whose joint is prismatic; joints_deg is for "
+                    "joints that rotate, and displacement holds for all prismatic joints"
+                )
 
     def bind(self, scene: Scene) -> BoundContinuity:
         """Binds the term to the prior pose."""
@@ -53,10 +60,11 @@ class Continuity(Term):
 
     def _weights(self, skeleton: Skeleton) -> Array:
         """Returns the weights (n,) of the squared steps; those of the root are zero."""
-        usual = np.full(skeleton.dofs, self.joint_deg)
+        usual = np.full(skeleton.dofs, np.radians(self.joint_deg))
         for name, degrees in self.joints_deg.items():
-            usual[skeleton.dofs_of(name)] = degrees
-        weights = self.weight / np.radians(usual) ** 2
+            usual[skeleton.dofs_of(name)] = np.radians(degrees)
+        usual[skeleton.hinge_dofs][skeleton.limits.prismatic] = self.displacement
+        weights = self.weight / usual**2
         weights[: skeleton.ball_dofs.start] = 0.0
         return np.asarray(weights)
 

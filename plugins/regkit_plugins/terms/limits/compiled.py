@@ -22,7 +22,10 @@ def respond_joints(
     force: Vector,
     matrix: Matrix,
 ) -> float:
-    """Returns ``1/2 w sum v^2`` over the violations v, and adds its derivatives."""
+    """Returns ``1/2 sum w v^2`` over the violations v, and adds its derivatives.
+
+    The weight of ball joints is the number, those of the hinges are in the table, (n_hinge, 1).
+    """
     energy, weight, dof = 0.0, numbers[0], skeleton.first
     slope = np.empty(3)
     for ball in range(len(pose.balls)):
@@ -38,7 +41,7 @@ def respond_joints(
     for hinge in range(len(pose.hinges)):
         below = skeleton.limits.hinges[hinge, 0] - pose.hinges[hinge]
         above = pose.hinges[hinge] - skeleton.limits.hinges[hinge, 1]
-        violation = max(below, above)
+        violation, weight = max(below, above), table[hinge, 0]
         if violation > 0.0:
             energy += 0.5 * weight * violation**2
             force[dof] += weight * (violation if above > below else -violation)
