@@ -13,7 +13,8 @@ from regkit.body.cloud import cloud_body
 from regkit.clouds import spacing, voxel_downsampled, voxel_for
 from regkit.clouds.agreement import Agreement, Agreements
 from regkit.clouds.checks import check_shape, check_sizes
-from regkit.interfaces import Method
+from regkit.geometry.rigid import transformed
+from regkit.interfaces import Deformation, Method
 from regkit.observation import Observation
 from regkit.system.arrays import Array
 from regkit.system.brief import Brief
@@ -37,6 +38,7 @@ class Alignment(Brief):
 
     Attributes:
         transform: T_target_source, (4, 4).
+        deformation: What moves the transformed source onto the target; None of a rigid method.
         agreement: Registration quality after the alignment.
         before: Registration quality of the initial alignment.
         start: Description of the initial alignment.
@@ -50,6 +52,7 @@ class Alignment(Brief):
     """
 
     transform: Array
+    deformation: Deformation | None
     agreement: Agreement
     before: Agreement
     start: str
@@ -59,6 +62,10 @@ class Alignment(Brief):
     seconds: float
     converged: bool
     message: str
+
+    def moved(self, points: Array) -> Array:
+        """Returns points of the source (N, 3) [m] in the target's frame, with the deformation."""
+        return _moved_points(points, self.transform, self.deformation)
 
 
 def align(
@@ -130,12 +137,18 @@ def _aligned(
     begin = _moved(initial.transform, -origin, centre)
     found = method.bind(body).register(observation, [body.skeleton.rest(begin)])
     transform = _moved(found.pose.root, origin, -centre)
+    deformation = None if found.deformation is None else found.deformation.shifted(origin)
     seconds = time.perf_counter() - begun
     distance = MAX_DISTANCE * max(spacing(few), spacing(seen))
     agreements = Agreements.of(few, seen)
+    agreement = agreements.after(transform, distance)
+    if deformation is not None:
+        moved = _moved_points(few, transform, deformation)
+        agreement = Agreements.of(moved, seen).after(np.eye(4), distance)
     return Alignment(
         transform=transform,
-        agreement=agreements.after(transform, distance),
+        deformation=deformation,
+        agreement=agreement,
         before=agreements.after(initial.transform, distance),
         start=initial.description,
         voxel=voxel or None,
@@ -145,6 +158,12 @@ def _aligned(
         converged=found.converged,
         message=found.message,
     )
+
+
+def _moved_points(points: Array, transform: Array, deformation: Deformation | None) -> Array:
+    """Returns points (N, 3) [m] transformed, and deformed if there is a deformation."""
+    placed = transformed(transform, points)
+    return placed if deformation is None else deformation.moved(placed)
 
 
 def _moved(transform: Array, origin: Array, centre: Array) -> Array:

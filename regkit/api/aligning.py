@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from regkit.alignment import Alignment
@@ -50,8 +51,15 @@ class CloudAlignment(Summary):
 
     @property
     def aligned(self) -> Array:
-        """Points of the source in the target's frame, (N, 3) [m]."""
-        return transformed(self.transform, self.source)
+        """Points of the source in the target's frame, (N, 3) [m], with the deformation, if any."""
+        return self.found.moved(self.source)
+
+    @property
+    def displacements(self) -> Array | None:
+        """Displacement (N, 3) [m] of each point by the deformation; None of a rigid method."""
+        if self.found.deformation is None:
+            return None
+        return self.aligned - transformed(self.transform, self.source)
 
     @property
     def fitness(self) -> float:
@@ -95,11 +103,20 @@ class CloudAlignment(Summary):
             "inlier RMSE": f"{fit.inlier_rmse:.4g} m",
             "overlap": f"{100 * fit.overlap:.1f} % of the target",
             "start": self.found.start,
+            **_deformed(self.displacements),
             "converged": f"{'yes' if self.found.converged else 'no'}: {self.found.message}",
         }
         if self.found.hidden is not None:
             rows["warning"] = f"{self.found.hidden} is not determined by the data"
         return rows
+
+
+def _deformed(displacements: Array | None) -> dict[str, str]:
+    """Returns the row of a deformation."""
+    if displacements is None:
+        return {}
+    sizes = np.linalg.norm(displacements, axis=1)
+    return {"deformation": f"{sizes.mean():.4g} m on average, at most {sizes.max():.4g} m"}
 
 
 def align(

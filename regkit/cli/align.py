@@ -7,6 +7,7 @@ import math
 from pathlib import Path
 from typing import Annotated, Any
 
+import numpy as np
 import typer
 from rich.markup import escape
 from rich.table import Table
@@ -23,8 +24,12 @@ from regkit.clouds import check_writable, read_cloud, write_cloud
 from regkit.config.defaults import default_name
 from regkit.geometry.rigid import transformed
 from regkit.interfaces import Method
+from regkit.system.arrays import Array
 from regkit.system.progress import working
 from regkit.tracking import Verdict
+
+NOTHING = 0.1
+"""A deformation that moves no point by this part of the correspondence distance does nothing."""
 
 FRAME = 24
 """Width of a table's borders and its column of names."""
@@ -102,7 +107,7 @@ def align(
     strict: Strict = False,
     plugin: PluginFiles = None,
 ) -> None:
-    """Align a rigid cloud or mesh to another: T_target_source, and how well they match."""
+    """Align a cloud or mesh to another: T_target_source, and how well they match."""
     run_plugin_files(plugin)
     if out is not None:
         check_writable(out, place=f"--out {out}")
@@ -120,23 +125,35 @@ def align(
             places=(str(source), str(target)),
             threads=threads,
         )
-    verdict, reason = _verdict(found, min_fitness)
+    deformed = _deformed(found, points)
+    verdict, reason = _verdict(found, deformed, min_fitness)
     if as_json:
-        places = {"source": str(source), "target": str(target)}
-        typer.echo(json.dumps(_figures(found, name, verdict) | places, indent=2, allow_nan=False))
+        figures = _figures(found, name, verdict) | {"deformation": deformed}
+        figures |= {"source": str(source), "target": str(target)}
+        typer.echo(json.dumps(figures, indent=2, allow_nan=False))
     else:
         rows = matrix_rows(found.transform, points)
         fits = max(map(len, rows)) <= output.width - FRAME
-        output.print(_table(found, name, rows if fits else ["below"]))
+        output.print(_table(found, name, deformed, rows if fits else ["below"]))
         if not fits:
             typer.echo("T_target_source\n" + "\n".join(rows))
     if out is not None and verdict is not Verdict.LOST:
-        write_cloud(out, transformed(found.transform, points))
+        write_cloud(out, found.moved(points))
         errors.print(f"written: {out}")
     conclude(verdict, reason, strict=strict)
 
 
-def _verdict(found: Alignment, min_fitness: float) -> tuple[Verdict, str]:
+def _deformed(found: Alignment, points: Array) -> dict[str, float] | None:
+    """Returns the sizes of the displacements (N, 3) of all points; None of a rigid method."""
+    if found.deformation is None:
+        return None
+    sizes = np.linalg.norm(found.moved(points) - transformed(found.transform, points), axis=1)
+    return {"mean": float(sizes.mean()), "largest": float(sizes.max())}
+
+
+def _verdict(
+    found: Alignment, deformed: dict[str, float] | None, min_fitness: float
+) -> tuple[Verdict, str]:
     """Returns whether the clouds were aligned, and the reason if that is not certain."""
     agreement = found.agreement
     if agreement.fitness < min_fitness:
@@ -149,6 +166,12 @@ def _verdict(found: Alignment, min_fitness: float) -> tuple[Verdict, str]:
         return Verdict.DOUBTFUL, (
             f"{found.hidden} of the source slides its surface along itself: that part of the "
             "transform is not determined by the data"
+        )
+    if deformed is not None and deformed["largest"] < NOTHING * found.agreement.distance:
+        return Verdict.DOUBTFUL, (
+            f"the deformation does nothing: it moves no point by more than "
+            f"{deformed['largest']:.2g}, and correspondences are up to "
+            f"{found.agreement.distance:.3g} apart"
         )
     if not found.converged:
         return Verdict.DOUBTFUL, f"the method did not converge: {found.message}"
@@ -177,7 +200,13 @@ def _figures(found: Alignment, method: str, verdict: Verdict) -> dict[str, Any]:
     }
 
 
-def _table(found: Alignment, method: str, matrix: list[str]) -> Table:
+def _sizes(deformed: dict[str, float]) -> str:
+    return f"{deformed['mean']:.3g} on average, at most {deformed['largest']:.3g}"
+
+
+def _table(
+    found: Alignment, method: str, deformed: dict[str, float] | None, matrix: list[str]
+) -> Table:
     agreement = found.agreement
     within = f"within {agreement.distance:.3g}"
     downsampled = "not downsampled" if found.voxel is None else f"voxels of {found.voxel:.3g}"
@@ -190,6 +219,7 @@ def _table(found: Alignment, method: str, matrix: list[str]) -> Table:
         ("overlap", f"{100 * agreement.overlap:.1f} % of the target {within} of the source"),
         ("method", method),
         ("start", found.start),
+        *([("deformation", _sizes(deformed))] if deformed else []),
         ("points", f"{found.points[0]} and {found.points[1]}, {downsampled}"),
         ("seconds", f"{found.seconds:.2f}"),
         ("converged", f"{'yes' if found.converged else 'no'}: {found.message}"),

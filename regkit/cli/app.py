@@ -36,7 +36,7 @@ COMMANDS = {
     "track": "Track a template through a camera's stream or a recording, from the first frames on.",
     "record": "Record the depth images of a camera, or of a file, as a folder that regkit reads.",
     "preview": "Show what the segmentation removes from a recording, and what it leaves of it.",
-    "align": "Align a rigid cloud or mesh to another: T_target_source, and how well they match.",
+    "align": "Align a cloud or mesh to another: T_target_source, and how well they match.",
     "calibrate": "Create a template with the body proportions of the person or hand in a "
     "recording.",
     "fit": "Create a template with the shape of a skinned mesh.",

@@ -7,6 +7,7 @@ from regkit.interfaces.compiled import (
     CompiledWeights,
 )
 from regkit.interfaces.dataset import Dataset, Recording
+from regkit.interfaces.deformation import Deformation
 from regkit.interfaces.expected import Expected
 from regkit.interfaces.kernel import Kernel, Response, RigidComparison, RigidSimilarity, Similarity
 from regkit.interfaces.method import Method
@@ -65,6 +66,7 @@ __all__ = [
     "CompiledWeights",
     "Constraints",
     "Dataset",
+    "Deformation",
     "Evaluation",
     "Expected",
     "JointEnergy",

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from regkit.body import Body
+from regkit.interfaces.deformation import Deformation
 from regkit.interfaces.solver import Multipliers
 from regkit.observation import Observation
 from regkit.primitives import Primitives
@@ -32,6 +33,7 @@ class RegistrationResult:
         message: Reason why the solver ended.
         multipliers: Multipliers of the limits, if the solver computes them.
         searched: Number of points in which the tracker sought the whole body anew; 0 if it did not.
+        deformation: What moves the posed body onto the data; None of a method that only poses it.
     """
 
     pose: Pose
@@ -43,6 +45,7 @@ class RegistrationResult:
     message: str
     multipliers: Multipliers | None = None
     searched: int = 0
+    deformation: Deformation | None = None
 
     @classmethod
     def given(cls, pose: Pose) -> RegistrationResult:

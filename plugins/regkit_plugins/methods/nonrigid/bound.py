@@ -1,0 +1,92 @@
+"""The non-rigid method bound to a body."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from regkit.body import Body
+from regkit.clouds import voxel_downsampled, voxel_for
+from regkit.deformation import fitted
+from regkit.interfaces import Evaluation, Registrar, RegistrationResult
+from regkit.interfaces.registrar import LITTLE
+from regkit.observation import Observation
+from regkit.primitives import Primitives
+from regkit.skeleton import Pose
+from regkit.system.arrays import Array
+
+if TYPE_CHECKING:
+    from regkit_plugins.methods.nonrigid.nonrigid import Nonrigid
+
+
+@dataclass(frozen=True)
+class BoundNonrigid(Registrar):
+    """``Nonrigid`` bound to a body.
+
+    Attributes:
+        body: The body.
+        primitives: The primitives of the first method.
+        method: The method.
+        first: Its first method, bound to the body.
+    """
+
+    body: Body
+    primitives: Primitives
+    method: Nonrigid
+    first: Registrar
+
+    def register(
+        self,
+        observation: Observation,
+        candidates: Sequence[Pose],
+        *,
+        prior: Pose | None = None,
+        warm_start: RegistrationResult | None = None,
+    ) -> RegistrationResult:
+        """Poses the body by the first method, and deforms it."""
+        posed = self.first.register(observation, candidates, prior=prior, warm_start=warm_start)
+        return self._deformed(observation, posed)
+
+    def register_each(
+        self, observation: Observation, starts: Sequence[Pose]
+    ) -> list[RegistrationResult]:
+        """Poses the body from each start, and deforms each result."""
+        found = self.first.register_each(observation, starts)
+        return [self._deformed(observation, posed) for posed in found]
+
+    def evaluate(self, observation: Observation, pose: Pose) -> Evaluation:
+        """Returns the quality of a pose by the first method, without a deformation."""
+        return self.first.evaluate(observation, pose)
+
+    def _deformed(self, observation: Observation, posed: RegistrationResult) -> RegistrationResult:
+        """Returns a result with the deformation that moves the posed body onto the data."""
+        assert self.body.surface is not None
+        method, surface = self.method, self.body.surface
+        source = surface.place(self.body.place(posed.pose).transforms)
+        fit = fitted(
+            _some(source, method.points),
+            _some(observation.points, method.points),
+            method.stages,
+            method.field_prior,
+            centres=method.centres,
+            tolerance=method.tolerance,
+        )
+        ended = "the displacements settled" if fit.converged else "the maximum number of steps"
+        return replace(
+            posed,
+            inlier_share=float((fit.probability >= LITTLE).mean()),
+            energy=fit.energy,
+            converged=posed.converged and fit.converged,
+            iterations=posed.iterations + fit.steps,
+            message=f"{posed.message}; {ended}",
+            deformation=fit.field,
+        )
+
+
+def _some(points: Array, count: int) -> Array:
+    """Returns about ``count`` evenly spread points of a cloud (N, 3) [m]."""
+    voxel = voxel_for(points, count)
+    return np.asarray(points if voxel is None else voxel_downsampled(points, voxel))
