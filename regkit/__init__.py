@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from regkit.api import (
         Camera,
         CloudAlignment,
+        Landmarks,
         LivePose,
         LiveTrack,
         Preview,
@@ -43,6 +44,7 @@ __version__ = "0.2.0"
 __all__ = [
     "Camera",
     "CloudAlignment",
+    "Landmarks",
     "LivePose",
     "LiveTrack",
     "Preview",

@@ -15,7 +15,7 @@ from regkit.api.sources import open_source
 from regkit.api.tracking import Tracking, TrackingError
 from regkit.api.tuning import Tuned, tune
 from regkit.geometry.camera import Camera
-from regkit.observation import Truth
+from regkit.observation import Landmarks, Truth
 from regkit.system.errors import RegkitError
 from regkit.system.notes import RegkitWarning
 from regkit.system.shipped import examples_folder
@@ -24,6 +24,7 @@ from regkit.tracking import Verdict
 __all__ = [
     "Camera",
     "CloudAlignment",
+    "Landmarks",
     "LivePose",
     "LiveTrack",
     "Preview",
