@@ -2,10 +2,20 @@
 
 from regkit.geometry.camera import Camera
 from regkit.observation.frame import Frame
+from regkit.observation.keypoints import Keypoints
 from regkit.observation.landmarks import Landmarks
 from regkit.observation.observation import Observation
 from regkit.observation.silhouette import Silhouette
 from regkit.observation.timed_frame import TimedFrame
 from regkit.observation.truth import Truth
 
-__all__ = ["Camera", "Frame", "Landmarks", "Observation", "Silhouette", "TimedFrame", "Truth"]
+__all__ = [
+    "Camera",
+    "Frame",
+    "Keypoints",
+    "Landmarks",
+    "Observation",
+    "Silhouette",
+    "TimedFrame",
+    "Truth",
+]
