@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 
 from regkit.interfaces import Evaluation, Registrar, RegistrationResult
 from regkit.observation import Observation
+from regkit.search.landmark_fit import LandmarkFit
+from regkit.search.landmark_starts import (
+    body_starts,
+    contradicted,
+    contradicted_limbs,
+    limb_starts,
+)
 from regkit.search.limb_search import LimbSearch
+from regkit.skeleton import Pose
 
 SAMPLES, STARTS, GAIN = 500, 2, 0.01
 """Usual numbers of configurations per limb that are sampled and registered, and what one must
@@ -18,6 +27,8 @@ gain."""
 @dataclass(frozen=True)
 class LimbRecovery:
     """Seeks better configurations of the limbs of a registered body.
+
+    Where most landmarks of a frame contradict the pose, those of the whole body are tried too.
 
     Attributes:
         registrar: The registrar.
@@ -53,20 +64,64 @@ class LimbRecovery:
 
     def recovered(self, observation: Observation, found: RegistrationResult) -> RegistrationResult:
         """Returns the best registration after searching all limbs in turn."""
-        best, evaluation = found, None
+        contest = Contest(self.registrar, observation, found, self.gain)
+        fit = LandmarkFit.of(self.registrar.body, observation)
+        contest.try_marked(body_starts(fit, contest.best.pose))
         for search in self.searches:
-            starts = search.starts(
-                observation.points, best.pose, self.starts, observation.silhouette
+            pose = contest.best.pose
+            contest.try_unmarked(
+                search.starts(observation.points, pose, self.starts, observation.silhouette)
             )
-            for start in starts:
-                if evaluation is None:
-                    evaluation = self.registrar.evaluate(observation, best.pose)
-                tried = self.registrar.register(observation, [start])
-                rival = self.registrar.evaluate(observation, tried.pose)
-                if self._better(rival, evaluation):
-                    best, evaluation = tried, rival
-        return best
+            contest.try_marked(limb_starts(fit, search, contest.best.pose))
+        return contest.best
 
-    def _better(self, new: Evaluation, old: Evaluation) -> bool:
-        gain = float((new.inlier_probability - old.inlier_probability).mean())
-        return new.energy < old.energy and gain > self.gain
+    def contradicted(self, observation: Observation, pose: Pose) -> bool:
+        """Returns whether the landmarks of a frame contradict a pose, as a whole or of a limb."""
+        fit = LandmarkFit.of(self.registrar.body, observation)
+        if fit is None:
+            return False
+        return contradicted(fit, pose) or bool(contradicted_limbs(fit, self.searches, pose))
+
+
+class Contest:
+    """Registers starts one by one, and keeps the best.
+
+    Args:
+        registrar: The registrar.
+        observation: The frame's data.
+        found: The registration so far.
+        gain: Minimum increase of the mean inlier probability.
+
+    Attributes:
+        best: The best registration so far.
+    """
+
+    def __init__(
+        self,
+        registrar: Registrar,
+        observation: Observation,
+        found: RegistrationResult,
+        gain: float,
+    ) -> None:
+        self.best = found
+        self._registrar, self._observation, self._gain = registrar, observation, gain
+        self._evaluation: Evaluation | None = None
+
+    def try_unmarked(self, starts: Iterable[Pose]) -> None:
+        """Tries starts that the points suggest: one must explain clearly more of them."""
+        for start in starts:
+            self._try(start, self._gain)
+
+    def try_marked(self, starts: Iterable[Pose]) -> None:
+        """Tries starts that the landmarks suggest: one must not explain clearly fewer points."""
+        for start in starts:
+            self._try(start, -self._gain)
+
+    def _try(self, start: Pose, least: float) -> None:
+        if self._evaluation is None:
+            self._evaluation = self._registrar.evaluate(self._observation, self.best.pose)
+        tried = self._registrar.register(self._observation, [start])
+        rival, old = self._registrar.evaluate(self._observation, tried.pose), self._evaluation
+        gain = float((rival.inlier_probability - old.inlier_probability).mean())
+        if rival.energy < old.energy and gain > least:
+            self.best, self._evaluation = tried, rival

@@ -1,4 +1,4 @@
-"""The landmarks term, compiled; ``BoundLandmarks`` is its readable form."""
+"""The energy of landmarks, compiled; ``LandmarkEnergy`` is its readable form."""
 
 from __future__ import annotations
 
@@ -7,11 +7,7 @@ from math import sqrt
 import numpy as np
 
 from regkit.registration.compiled_robust import write_losses
-from regkit.skeleton.arrays import PoseArrays, SkeletonArrays
-from regkit.skeleton.compiled_placement import joint_twists, place_links
-from regkit.system.compiled import compiled
-from regkit.system.machine_types import Matrix, Vector
-from regkit_plugins.terms.landmarks.table import (
+from regkit.registration.landmarks.table import (
     CENTRE,
     FOCAL,
     POINT,
@@ -20,6 +16,10 @@ from regkit_plugins.terms.landmarks.table import (
     TARGET,
     WEIGHT,
 )
+from regkit.skeleton.arrays import PoseArrays, SkeletonArrays
+from regkit.skeleton.compiled_placement import joint_twists, place_links
+from regkit.system.compiled import compiled
+from regkit.system.machine_types import Matrix, Vector
 
 NEAREST = 0.05
 """Least depth of a marker before the camera at which its projection follows the depth [m]."""
