@@ -10,12 +10,7 @@ import numpy as np
 from regkit.interfaces import Evaluation, Registrar, RegistrationResult
 from regkit.observation import Observation
 from regkit.search.landmark_fit import LandmarkFit
-from regkit.search.landmark_starts import (
-    body_starts,
-    contradicted,
-    contradicted_limbs,
-    limb_starts,
-)
+from regkit.search.landmark_starts import body_starts, limb_starts
 from regkit.search.limb_search import LimbSearch
 from regkit.skeleton import Pose
 
@@ -64,23 +59,28 @@ class LimbRecovery:
 
     def recovered(self, observation: Observation, found: RegistrationResult) -> RegistrationResult:
         """Returns the best registration after searching all limbs in turn."""
+        found = self.corrected(observation, found)
         contest = Contest(self.registrar, observation, found, self.gain)
-        fit = LandmarkFit.of(self.registrar.body, observation)
-        contest.try_marked(body_starts(fit, contest.best.pose))
         for search in self.searches:
             pose = contest.best.pose
-            contest.try_unmarked(
+            contest.try_all(
                 search.starts(observation.points, pose, self.starts, observation.silhouette)
             )
-            contest.try_marked(limb_starts(fit, search, contest.best.pose))
         return contest.best
 
-    def contradicted(self, observation: Observation, pose: Pose) -> bool:
-        """Returns whether the landmarks of a frame contradict a pose, as a whole or of a limb."""
+    def corrected(self, observation: Observation, found: RegistrationResult) -> RegistrationResult:
+        """Returns the best registration after trying what the landmarks suggest, if there are some.
+
+        A pose that agrees with them need not explain more points, but must not explain fewer.
+        """
         fit = LandmarkFit.of(self.registrar.body, observation)
         if fit is None:
-            return False
-        return contradicted(fit, pose) or bool(contradicted_limbs(fit, self.searches, pose))
+            return found
+        contest = Contest(self.registrar, observation, found, -self.gain)
+        contest.try_all(body_starts(fit, found.pose))
+        for search in self.searches:
+            contest.try_all(limb_starts(fit, search, contest.best.pose))
+        return contest.best
 
 
 class Contest:
@@ -90,7 +90,7 @@ class Contest:
         registrar: The registrar.
         observation: The frame's data.
         found: The registration so far.
-        gain: Minimum increase of the mean inlier probability.
+        gain: Minimum increase of the mean inlier probability; a negative one is a loss.
 
     Attributes:
         best: The best registration so far.
@@ -107,21 +107,16 @@ class Contest:
         self._registrar, self._observation, self._gain = registrar, observation, gain
         self._evaluation: Evaluation | None = None
 
-    def try_unmarked(self, starts: Iterable[Pose]) -> None:
-        """Tries starts that the points suggest: one must explain clearly more of them."""
+    def try_all(self, starts: Iterable[Pose]) -> None:
+        """Tries starts, one after the other."""
         for start in starts:
-            self._try(start, self._gain)
+            self._try(start)
 
-    def try_marked(self, starts: Iterable[Pose]) -> None:
-        """Tries starts that the landmarks suggest: one must not explain clearly fewer points."""
-        for start in starts:
-            self._try(start, -self._gain)
-
-    def _try(self, start: Pose, least: float) -> None:
+    def _try(self, start: Pose) -> None:
         if self._evaluation is None:
             self._evaluation = self._registrar.evaluate(self._observation, self.best.pose)
         tried = self._registrar.register(self._observation, [start])
         rival, old = self._registrar.evaluate(self._observation, tried.pose), self._evaluation
         gain = float((rival.inlier_probability - old.inlier_probability).mean())
-        if rival.energy < old.energy and gain > least:
+        if rival.energy < old.energy and gain > self._gain:
             self.best, self._evaluation = tried, rival

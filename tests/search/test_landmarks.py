@@ -64,10 +64,13 @@ def test_turned_body_with_other_joints_is_found_among_outliers(person, truth, fl
     random = np.random.default_rng(3)
     fit = LandmarkFit.of(person, seen(person, truth, random, flat=flat, outliers=0.2))
     rest = person.skeleton.rest(turned(truth).root)
-    found, *others = fit.turned(rest)
-    assert fit.cost(found) <= min(map(fit.cost, others))
-    assert error(person, found, truth) < (0.12 if flat else 0.04)
-    assert person.skeleton.limits.violation(found).max() < 1e-6
+    found = fit.turned(rest)
+    costs = list(map(fit.cost, found))
+    assert costs == sorted(costs)
+    # A picture does not tell front from back, so that the best may face the other way.
+    rivals = found if flat else found[:1]
+    assert min(error(person, one, truth) for one in rivals) < (0.12 if flat else 0.04)
+    assert max(person.skeleton.limits.violation(one).max() for one in found) < 1e-6
 
 
 def test_frame_without_landmarks_of_the_body_has_no_fit(person, truth):
@@ -84,12 +87,11 @@ def test_landmarks_turn_a_body_and_move_its_arm_and_change_nothing_that_is_right
     recovery = LimbRecovery.of(method.bind(person))
     registrar = recovery.registrar
     right = registrar.register(data, [truth])
-    assert not recovery.contradicted(data, right.pose)
-    assert recovery.recovered(data, right) is right
+    assert recovery.corrected(data, right) is right
     arm = next(limb for limb in limbs_of(person.skeleton) if limb.name == "left_upper_arm")
     balls, hinges = person.skeleton.limits.sampled(random, 4)
     wrong = arm.rotated(right.pose, balls[2], hinges[2])
     assert error(person, wrong, truth) > 0.05
     for start in (turned(truth), wrong):
-        found = recovery.recovered(data, RegistrationResult.given(start))
+        found = recovery.corrected(data, RegistrationResult.given(start))
         assert error(person, found.pose, truth) < 0.04

@@ -23,7 +23,7 @@ RELATIVE_ERROR = 0.018
 Detectors and templates differ by as much in what they call a joint.
 """
 
-LEAST_PIXELS = 2.0
+LEAST_PIXELS = 4.0
 """Least usual error of a landmark in the picture [pixels]."""
 
 

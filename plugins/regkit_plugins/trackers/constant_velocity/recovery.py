@@ -72,9 +72,8 @@ class BoundRecovery:
         past: Past,
     ) -> RegistrationResult:
         """Returns the registration, or a better one with another configuration of limbs or body."""
-        alarmed = self._alarmed(found, past)
-        if not alarmed and not self.limbs.contradicted(observation, found.pose):
-            return found
+        if not self._alarmed(found, past):
+            return self.limbs.corrected(observation, found)
         better = self.limbs.recovered(observation, found)
         if self.body is None:
             return better
