@@ -8,6 +8,7 @@ from typing import Any
 
 from regkit.cli.options import options
 from regkit.interfaces import Dataset, KeypointStream, Recording, Source, Stream
+from regkit.interfaces.dataset import MARKERS
 from regkit.recording.keypoints import read_keypoints
 from regkit.system.errors import ConfigError, DataError
 from regkit.tracking.live import LimitedStream, RecordingStream
@@ -16,7 +17,7 @@ Opener = Callable[[], Stream]
 
 
 def described(address: str, recording: str | None) -> dict[str, Any] | None:
-    """Returns the data of the source of an address; None for a folder that a dataset reads.
+    """Returns the data of the source of an address; None for what a dataset reads.
 
     Args:
         address: The argument of the command.
@@ -25,6 +26,8 @@ def described(address: str, recording: str | None) -> dict[str, Any] | None:
     Raises:
         RegkitError: If there is no such file, or no source reads it.
     """
+    if Path(address).suffix.lower() in MARKERS:
+        return None
     if not Path(address).is_dir():
         return Source.described(address)
     if recording is not None:

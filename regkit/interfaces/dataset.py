@@ -104,6 +104,9 @@ class Recording(Brief, ABC):
         return ""
 
 
+MARKERS = (".trc", ".c3d")
+"""Suffixes of files of markers."""
+
 SHOWN = 5
 """Maximum number of recordings in a message."""
 
@@ -133,8 +136,8 @@ class Dataset(Plugin, ABC):
         """Returns data for the dataset of a path.
 
         Args:
-            path: A folder, of clouds if it has ``clouds/``, else of depth images; or a file or
-                folder that a source reads.
+            path: A folder, of clouds if it has ``clouds/``, else of depth images; a file of
+                markers; or a file or folder that a source reads.
             fields: Fields of the dataset.
 
         Raises:
@@ -143,6 +146,8 @@ class Dataset(Plugin, ABC):
         folder = Path(path)
         if (folder / "clouds").is_dir():
             return cls.default("clouds", root=str(path), **fields)
+        if folder.suffix.lower() in MARKERS:
+            return cls.default("markers", path=str(path), **fields)
         if folder.is_file() or (folder / "metadata.yaml").is_file():
             return cls.default("source", source=Source.described(path), **fields)
         return cls.default("depth", root=str(path), **fields)
