@@ -52,6 +52,7 @@ notebook: $(ready) loops ## Make the tutorial's notebook again from its page, an
 samples: $(ready) ## Regenerate the sample recordings
 	@$(bin)/python -m regkit_synthesis docs/examples/data
 	@$(bin)/python -m regkit_synthesis.samples.mannequin docs/examples/data/mannequin
+	@$(bin)/python -m regkit_synthesis.samples.keypoints docs/examples/data/human_walk_keypoints.csv
 
 templates: $(ready) ## Fit the shipped templates to their meshes again
 	@$(bin)/python -m regkit_synthesis.templates plugins/regkit_plugins/templates

@@ -10,7 +10,6 @@ without keypoints. ``--develop`` takes other sequences, on which the constants w
 
 from __future__ import annotations
 
-import csv
 import sys
 import warnings
 from dataclasses import dataclass
@@ -24,20 +23,12 @@ import regkit
 from regkit.config.document import Document
 from regkit.config.yaml import yaml_value
 from regkit.interfaces import Recording, Template
-from regkit.observation import Frame, Truth
+from regkit.observation import Truth
 from regkit.search.limbs import limbs_of
 from regkit.skeleton import Pose
 from regkit.system.optional import one_blas_thread
 from regkit_plugins.datasets.synthetic import Synthetic
-
-SPACE, PICTURE = 0.025, 4.0
-"""Standard deviations of the keypoints [m], [pixels]."""
-
-OUTLIERS, EXCHANGED = 0.2, 0.1
-"""Share of the outliers, and of the frames whose left and right are exchanged."""
-
-ANYWHERE = 0.6, 40.0
-"""Standard deviation of an outlier about the middle of the body [m], [pixels]."""
+from regkit_synthesis.samples.keypoints import write_keypoints
 
 DEVELOP = {
     "kind": "synthetic", "camera": "sr4000", "noise": 0.008, "defaults": {"frames": 60},
@@ -66,35 +57,6 @@ class Case:
     template: Template
     start: Pose
     files: dict[str, Path]
-
-
-def write_keypoints(
-    path: Path, truth: Truth, frames: list[Frame], random: np.random.Generator
-) -> None:
-    """Writes keypoints in space for ``space.csv``, or in the picture."""
-    space = path.stem == "space"
-    header = ["frame", "name", "x", "y", *(["z"] if space else []), "confidence"]
-    with path.open("w", newline="") as file:
-        rows = csv.writer(file)
-        rows.writerow(header)
-        for number, (places, frame) in enumerate(zip(truth.positions, frames, strict=True)):
-            shown = places if space else frame.camera.projected(places)  # type: ignore[union-attr]
-            noisy = shown + random.normal(scale=SPACE if space else PICTURE, size=shown.shape)
-            wrong = random.random(len(noisy)) < OUTLIERS
-            spread = ANYWHERE[0 if space else 1]
-            anywhere = shown.mean(axis=0) + random.normal(scale=spread, size=shown.shape)
-            noisy[wrong] = anywhere[wrong]
-            swap = random.random() < EXCHANGED
-            for name, at in zip(truth.joints, noisy, strict=True):
-                if not name.endswith("kinect"):
-                    told = _other_side(name) if swap else name
-                    confidence = random.uniform(0.5, 1.0)
-                    rows.writerow([number, told, *np.round(at, 4), round(confidence, 3)])
-
-
-def _other_side(name: str) -> str:
-    side, _, rest = name.partition("_")
-    return {"left": "right", "right": "left"}.get(side, side) + (f"_{rest}" if rest else "")
 
 
 def wrong_starts(case: Case, random: np.random.Generator) -> dict[str, Pose]:
@@ -132,8 +94,8 @@ def cases(folder: Path, seed: int, *, develop: bool) -> list[Case]:
         own = folder / recording.name
         own.mkdir()
         files = {kind: own / f"{kind}.csv" for kind in ("space", "picture")}
-        for file in files.values():
-            write_keypoints(file, truth, frames, random)
+        for file, camera in zip(files.values(), (None, frames[0].camera), strict=True):
+            write_keypoints(file, truth.joints, truth.positions, random, camera)
         subject = recording.name.partition("_")[0]
         template = regkit.load_template(yaml_value(own_template(f"human_{subject}")))
         first = regkit.register(

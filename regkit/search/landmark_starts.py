@@ -16,9 +16,9 @@ MOST = 0.5
 FEWEST = 2
 """Number of contradicted landmarks of a limb that is elsewhere: one may be an outlier."""
 
-GAIN = 3.0
-"""Least decrease of the robust cost of a limb's landmarks that is worth a registration; an outlier
-costs 7."""
+GAIN = 7.0
+"""Least decrease of the robust cost of a limb's landmarks that is worth a registration: that of one
+outlier. With less, outliers of a right pose move limbs (``benchmarks/keypoints.py --develop``)."""
 
 
 def body_starts(fit: LandmarkFit, pose: Pose) -> list[Pose]:

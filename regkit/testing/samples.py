@@ -104,8 +104,18 @@ def surface_data(body: Body, pose: Pose, sigma: float = 0.01) -> Observation:
     points = body.surface.place(body.place(pose).transforms)
     count = len(points)
     return Observation(
-        points, np.ones(count), np.full(count, sigma**2), normals=fitted_normals(points)
+        points,
+        np.ones(count),
+        np.full(count, sigma**2),
+        normals=fitted_normals(points),
+        landmarks=exact_landmarks(body, pose),
     )
+
+
+def exact_landmarks(body: Body, pose: Pose) -> Landmarks:
+    """Returns the markers of a posed body as landmarks in space."""
+    places = body.markers.place(body.place(pose).transforms)
+    return Landmarks.in_space(body.markers.names, places)
 
 
 def moved_data(data: Observation, motion: Array) -> Observation:

@@ -1,4 +1,4 @@
-"""Keypoints: files of any detector."""
+"""Keypoints: files of any detector; and markers."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from regkit import Keypoints, load_keypoints
+from regkit.recording.markers import Trajectories, read_trajectories
 from tests.fuzz import oracles
 from tests.fuzz.kind import Damaged, Files, Kind
 
@@ -52,7 +53,37 @@ def _read(path: Path) -> Keypoints:
     return load_keypoints(path)
 
 
+def trc() -> bytes:
+    rows = [f"{n + 1}\t{0.01 * n:.2f}\t0.1\t0.2\t{0.3 + 0.1 * n:.3f}\t\t\t" for n in range(3)]
+    head = [
+        "PathFileType\t4\t(X/Y/Z)\ta.trc",
+        "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits",
+        "100\t100\t3\t2\tm",
+        "Frame#\tTime\tA\t\t\tB\t\t",
+        "\t\tX1\tY1\tZ1\tX2\tY2\tZ2",
+        "",
+    ]
+    return ("\n".join([*head, *rows]) + "\n").encode()
+
+
+def odd_trajectories(found: Trajectories, file: Damaged) -> Iterator[str]:
+    for name in found.names:
+        yield from oracles.name(name, "marker")
+    if not 1e-3 < found.fps < 1e5:
+        yield f"fps: {found.fps}"
+    if found.positions.shape[1:] != (len(found.names), 3):
+        yield f"shape: {found.positions.shape}"
+    yield from oracles.numbers(found.positions, "positions", most=1e4, gaps=True)
+
+
 KEYPOINTS = (
+    Kind(
+        "recordings/trc",
+        lambda: [{"walk.trc": trc()}],
+        {"walk.trc": "text"},
+        read_trajectories,
+        odd_trajectories,
+    ),
     Kind(
         "recordings/keypoints.csv",
         lambda: [{"keypoints.csv": flat()}, {"keypoints.csv": space()}],
