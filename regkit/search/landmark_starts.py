@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
+import numpy as np
+
 from regkit.search.landmark_fit import SCALES, LandmarkFit
 from regkit.search.limb_search import LimbSearch
 from regkit.skeleton import Pose
@@ -16,9 +20,10 @@ MOST = 0.5
 FEWEST = 2
 """Number of contradicted landmarks of a limb that is elsewhere: one may be an outlier."""
 
-GAIN = 7.0
-"""Least decrease of the robust cost of a limb's landmarks that is worth a registration: that of one
-outlier. With less, outliers of a right pose move limbs (``benchmarks/keypoints.py --develop``)."""
+PROMISING, GAIN = 3.0, 7.0
+"""Least decrease of the landmarks' robust cost by the best sampled configuration of a limb, and by
+its fit: an outlier costs 7. With less, outliers of a right pose move limbs
+(``benchmarks/keypoints.py --develop``)."""
 
 
 def body_starts(fit: LandmarkFit, pose: Pose) -> list[Pose]:
@@ -31,14 +36,21 @@ def body_starts(fit: LandmarkFit, pose: Pose) -> list[Pose]:
     return fit.turned(pose)
 
 
+def contradicted_limbs(
+    fit: LandmarkFit, searches: Iterable[LimbSearch], pose: Pose
+) -> list[LimbSearch]:
+    """Returns the limbs of which ``FEWEST`` landmarks or more contradict a pose."""
+    far = fit.energy.segments[fit.sizes(pose) > FAR]
+    return [one for one in searches if np.isin(far, one.limb.segments).sum() >= FEWEST]
+
+
 def limb_starts(fit: LandmarkFit, search: LimbSearch, pose: Pose) -> list[Pose]:
-    """Returns a pose whose limb is where its landmarks are, if those contradict a pose."""
+    """Returns a pose whose limb is where its landmarks are, if that costs clearly less."""
     own = fit.of_segments(search.limb.segments)
-    if (own.sizes(pose) > FAR).sum() < FEWEST:
-        return []
     costs = own.cost(search.limb.rotated(pose, search.balls, search.hinges))
     best = int(costs.argmin())
-    if costs[best] > own.cost(pose) - GAIN:
+    if costs[best] > own.cost(pose) - PROMISING:
         return []
     start = search.limb.rotated(pose, search.balls[best], search.hinges[best])
-    return [fit.fitted(start, SCALES[1:])]
+    fitted = fit.fitted(start, SCALES[1:])
+    return [fitted] if fit.cost(fitted) < fit.cost(pose) - GAIN else []

@@ -10,7 +10,7 @@ import numpy as np
 from regkit.interfaces import Evaluation, Registrar, RegistrationResult
 from regkit.observation import Observation
 from regkit.search.landmark_fit import LandmarkFit
-from regkit.search.landmark_starts import body_starts, limb_starts
+from regkit.search.landmark_starts import body_starts, contradicted_limbs, limb_starts
 from regkit.search.limb_search import LimbSearch
 from regkit.skeleton import Pose
 
@@ -78,7 +78,7 @@ class LimbRecovery:
             return found
         contest = Contest(self.registrar, observation, found, -self.gain)
         contest.try_all(body_starts(fit, found.pose))
-        for search in self.searches:
+        for search in contradicted_limbs(fit, self.searches, contest.best.pose):
             contest.try_all(limb_starts(fit, search, contest.best.pose))
         return contest.best
 

@@ -47,7 +47,7 @@ class LandmarkEnergy(JointEnergy):
             dofs = self.skeleton.dofs
             return JointResponse(0.0, np.zeros(dofs), np.zeros((dofs, dofs)))
         placement, count = Placement.of(self.skeleton, pose), len(self.table)
-        segments, points = self._segments, self._points(placement)
+        segments, points = self.segments, self._points(placement)
         values, slopes = self._residuals(points)
         sizes, weights = np.linalg.norm(values, axis=1), self.table[:, WEIGHT]
         rows = placement.rows(
@@ -67,7 +67,8 @@ class LandmarkEnergy(JointEnergy):
             pose: A pose; its joints may have leading dimensions for many poses at once.
         """
         points = self._points(Placement.of(self.skeleton, pose))
-        many = replace(self, table=np.tile(self.table, (prod(points.shape[:-2]), 1)))
+        count = prod(points.shape[:-2])
+        many = self if count == 1 else replace(self, table=np.tile(self.table, (count, 1)))
         values, _ = many._residuals(points.reshape(-1, 3))
         return np.asarray(np.linalg.norm(values, axis=1)).reshape(points.shape[:-1])
 
@@ -76,12 +77,13 @@ class LandmarkEnergy(JointEnergy):
         return self._points(Placement.of(self.skeleton, pose))
 
     @property
-    def _segments(self) -> Indices:
+    def segments(self) -> Indices:
+        """Segment of each landmark's marker, (L,)."""
         return self.table[:, SEGMENT].astype(np.intp)
 
     def _points(self, placement: Placement) -> Array:
         """Returns the markers in the world, (..., L, 3) [m]."""
-        carriers = placement.transforms[..., self._segments, :, :]
+        carriers = placement.transforms[..., self.segments, :, :]
         offsets = self.table[:, POINT : POINT + 3, None]
         return np.asarray((carriers[..., :3, :3] @ offsets)[..., 0] + carriers[..., :3, 3])
 
