@@ -177,3 +177,12 @@ def test_keypoints_in_the_picture_need_a_camera():
     keypoints = Keypoints.in_picture(("tip",), np.zeros((1, 1, 2)))
     with pytest.raises(RegkitError, match="need the camera"):
         regkit.track([np.zeros((40, 3))], "human", keypoints=keypoints)
+
+
+def test_keypoints_that_no_marker_follows_are_told(tmp_path):
+    path = write(tmp_path / "k.csv", "frame,name,x,y,z,confidence", "0,snout,0.1,0.1,2,1")
+    template = regkit.load_template({"kind": "human", "height": 1.63})
+    rest = template.body(1.63).skeleton.rest()
+    walk = regkit.load_recording(examples_folder() / "data" / "human_walk", frames=1)
+    with pytest.warns(regkit.RegkitWarning, match=r"snout.*left_knee.*keypoint_markers"):
+        regkit.track(walk, template, start=rest, keypoints=path, segmentation=[])
