@@ -24,8 +24,8 @@ GAIN = 7.0
 """Least decrease of the landmarks' robust cost by the best sampled configuration of a limb, and by
 its fit: an outlier costs 7.
 
-With 3, outliers of a right pose move limbs: the worst harm in 18 tracks is then 0.26 cm instead of
-0.01 (``benchmarks/keypoints.py --develop``, keypoints in the picture).
+With 3, some wrong limbs are found earlier, and outliers may move right ones. Chosen on the
+sequences of ``benchmarks/keypoints.py --develop``.
 """
 
 

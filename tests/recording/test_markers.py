@@ -77,3 +77,23 @@ def test_c3d_names_what_reads_it(tmp_path, monkeypatch):
         read_trajectories(tmp_path / "a.c3d")
     with pytest.raises(RegkitError, match=r"\.trc"):
         read_trajectories(tmp_path / "a.txt")
+
+
+def test_c3d_is_read_through_ezc3d_and_a_cut_one_is_refused(tmp_path):
+    library = pytest.importorskip("ezc3d", reason="ezc3d is an optional extra")
+    content, path = library.c3d(), tmp_path / "a.c3d"
+    points = np.ones((4, 2, 3))
+    points[:3] = 1000.0 * np.nan_to_num(places()).transpose(2, 1, 0)
+    about = content["parameters"]["POINT"]
+    about["RATE"]["value"], about["UNITS"]["value"] = [100], ["mm"]
+    about["LABELS"]["value"] = NAMES
+    content["data"]["points"] = points
+    content.write(str(path))
+    found = read_trajectories(path)
+    np.testing.assert_allclose(found.positions, np.nan_to_num(places()), atol=1e-6)
+    whole = path.read_bytes()
+    # The last block holds 96 bytes of frames.
+    for length in (4, 700, len(whole) - 480):
+        path.write_bytes(whole[:length])
+        with pytest.raises(DataError, match=r"cut off|ends within"):
+            read_trajectories(path)
