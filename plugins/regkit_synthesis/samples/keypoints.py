@@ -17,6 +17,9 @@ from regkit.geometry.camera import Camera
 from regkit.system.arrays import Array
 from regkit_synthesis.samples.depth import human_walk
 
+FOUND = ("shoulder", "elbow", "wrist", "hip", "knee", "ankle")
+"""Joints on both sides that every detector finds, which the shipped file has."""
+
 ALIKE = "kinect"
 """End of the names of markers that no detector finds."""
 
@@ -85,8 +88,13 @@ def _other_side(name: str) -> str:
 def main() -> None:
     """Makes the keypoints of the shipped walk, in the picture."""
     walk = human_walk(0)
+    chosen = [walk.joints.index(f"{side}_{joint}") for joint in FOUND for side in ("left", "right")]
     write_keypoints(
-        Path(sys.argv[1]), walk.joints, walk.truth, np.random.default_rng(0), walk.camera
+        Path(sys.argv[1]),
+        [walk.joints[index] for index in chosen],
+        walk.truth[:, chosen],
+        np.random.default_rng(0),
+        walk.camera,
     )
 
 
