@@ -53,6 +53,7 @@ samples: $(ready) ## Regenerate the sample recordings
 	@$(bin)/python -m regkit_synthesis docs/examples/data
 	@$(bin)/python -m regkit_synthesis.samples.mannequin docs/examples/data/mannequin
 	@$(bin)/python -m regkit_synthesis.samples.arm docs/examples/robots/arm.urdf docs/examples/data/arm
+	@$(bin)/python -m regkit_synthesis.samples.keypoints docs/examples/data/human_walk_keypoints.csv
 
 templates: $(ready) ## Fit the shipped templates to their meshes again
 	@$(bin)/python -m regkit_synthesis.templates plugins/regkit_plugins/templates

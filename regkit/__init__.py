@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from regkit.api import (
         Camera,
         CloudAlignment,
+        Keypoints,
+        Landmarks,
         LivePose,
         LiveTrack,
         Preview,
@@ -27,6 +29,7 @@ if TYPE_CHECKING:
         align,
         examples_folder,
         load_frame,
+        load_keypoints,
         load_recording,
         load_template,
         open_source,
@@ -43,6 +46,8 @@ __version__ = "0.2.0"
 __all__ = [
     "Camera",
     "CloudAlignment",
+    "Keypoints",
+    "Landmarks",
     "LivePose",
     "LiveTrack",
     "Preview",
@@ -58,6 +63,7 @@ __all__ = [
     "align",
     "examples_folder",
     "load_frame",
+    "load_keypoints",
     "load_recording",
     "load_template",
     "open_source",

@@ -3,6 +3,7 @@
 from regkit.api.aligning import CloudAlignment, align
 from regkit.api.choices import load_template
 from regkit.api.frame_files import load_frame
+from regkit.api.keypoint_files import load_keypoints
 from regkit.api.live import track_live
 from regkit.api.live_pose import LivePose
 from regkit.api.live_track import LiveTrack
@@ -15,7 +16,7 @@ from regkit.api.sources import open_source
 from regkit.api.tracking import Tracking, TrackingError
 from regkit.api.tuning import Tuned, tune
 from regkit.geometry.camera import Camera
-from regkit.observation import Truth
+from regkit.observation import Keypoints, Landmarks, Truth
 from regkit.system.errors import RegkitError
 from regkit.system.notes import RegkitWarning
 from regkit.system.shipped import examples_folder
@@ -24,6 +25,8 @@ from regkit.tracking import Verdict
 __all__ = [
     "Camera",
     "CloudAlignment",
+    "Keypoints",
+    "Landmarks",
     "LivePose",
     "LiveTrack",
     "Preview",
@@ -38,6 +41,7 @@ __all__ = [
     "align",
     "examples_folder",
     "load_frame",
+    "load_keypoints",
     "load_recording",
     "load_template",
     "open_source",

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from regkit.api.choices import Choice, Choices
 from regkit.api.frame import Intrinsics, Measured, frame_of
 from regkit.api.frame_files import load_frame
+from regkit.api.keypoint_files import load_keypoints
 from regkit.api.pipeline import Beginning, Pipeline
 from regkit.api.recordings import Frames, recording_of
 from regkit.api.registration import Registration
 from regkit.api.running import tracked_through
 from regkit.api.tracking import Tracking
-from regkit.interfaces import Method, Preprocessor, Segmenter, Template, Tracker
+from regkit.interfaces import KeypointRecording, Method, Preprocessor, Segmenter, Template, Tracker
+from regkit.observation import Keypoints, Landmarks
 from regkit.system.errors import ConfigError
 from regkit.system.renamed import renamed_arguments
 from regkit.tracking.given_frames import GivenFrames
@@ -31,6 +34,7 @@ def register(
     segmentation: Choices[Segmenter] | None = None,
     preprocessor: Choice[Preprocessor] | None = None,
     start: Beginning | None = None,
+    landmarks: Landmarks | None = None,
 ) -> Registration:
     """Estimates the pose of a body in one frame.
 
@@ -52,6 +56,7 @@ def register(
         start: Search for pose and size, such as ``"stances"``, or a mapping as in an experiment's
             ``start``; or the pose itself, which requires the template's size. By default both are
             sought in all orientations.
+        landmarks: Measured positions of the template's markers, in space or in the picture.
 
     Returns:
         The body with its pose, markers and quality of the fit.
@@ -64,6 +69,8 @@ def register(
             raise ConfigError("a file is seen by the camera.json beside it", place="camera")
         cloud = load_frame(cloud)
     frame = frame_of(cloud, camera, place="cloud")
+    if landmarks is not None:
+        frame = replace(frame, landmarks=landmarks)
     recording = GivenFrames(name=frame.place or "cloud", fps=1.0, length=1, given=(frame,))
     chosen = (template, method, segmentation, preprocessor, None, start)
     return tracked_through(recording, Pipeline.of(*chosen, place="regkit.register"))[0]
@@ -81,6 +88,7 @@ def track(
     preprocessor: Choice[Preprocessor] | None = None,
     tracker: Choice[Tracker] | None = None,
     start: Beginning | None = None,
+    keypoints: Keypoints | str | Path | None = None,
 ) -> Tracking:
     """Tracks a body through a recording.
 
@@ -96,6 +104,8 @@ def track(
         preprocessor: As in ``register``.
         tracker: Tracker from frame to frame, if the method has none of its own.
         start: As in ``register``, for the first frame.
+        keypoints: Keypoints of the frames, by their numbers; or a file of them, as
+            ``load_keypoints`` reads it.
 
     Returns:
         The body with its poses and markers in all frames.
@@ -106,5 +116,8 @@ def track(
         RegkitError: If an argument is invalid, or the first frame cannot be registered.
     """
     recording = recording_of(frames, camera, fps)
+    if keypoints is not None:
+        given = keypoints if isinstance(keypoints, Keypoints) else load_keypoints(keypoints)
+        recording = KeypointRecording.of(recording, given)
     chosen = (template, method, segmentation, preprocessor, tracker, start)
     return tracked_through(recording, Pipeline.of(*chosen, place="regkit.track"))

@@ -5,18 +5,24 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
+import numpy as np
 import typer
 from rich.markup import escape
 from rich.table import Table
 
+from regkit.body.description import SizeDescription
+from regkit.body.proportions import Proportions
 from regkit.body.template_file import check_replaceable, write_template
-from regkit.calibration import Subject
+from regkit.calibration import MarkerSet, MarkerSubject, Subject
 from regkit.cli.calibration_source import Source
 from regkit.cli.choices import segmentation_named
 from regkit.cli.completion import plugin_names
 from regkit.cli.console import errors, output
 from regkit.cli.options import PluginFiles, Segmentation, Strict, default_of, run_plugin_files
 from regkit.cli.verdicts import conclude
+from regkit.config.document import Document
+from regkit.interfaces import Recording, Template
+from regkit.system.errors import ConfigError
 from regkit.tracking import Verdict
 
 OPENING = """\
@@ -64,6 +70,15 @@ def calibrate(
     frames: Annotated[
         int, typer.Option(min=1, metavar="N", help="Number of frames, spread over the recording.")
     ] = 12,
+    markers: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help="Marker set, with the rough places of the markers that a motion-capture system "
+            "measured; the template gets them where they are.",
+            show_default=False,
+        ),
+    ] = None,
     segmentation: Segmentation = None,
     settings: Annotated[
         list[str] | None,
@@ -83,6 +98,9 @@ def calibrate(
     if segmentation is not None:
         found = found.model_copy(update={"segmentation": segmentation_named(segmentation)})
     seen = found.recording(recording)
+    if markers is not None:
+        _by_markers(found.template, markers, seen, frames, out)
+        return
     subject = found.calibration(frames).subject(seen)
     opening = OPENING.format(frames=subject.frames, recording=seen.name, file=out.name)
     skin = subject.proportions.skin(found.template.description())
@@ -93,22 +111,36 @@ def calibrate(
     conclude(subject.verdict, reason, strict=strict)
 
 
+def _by_markers(template: Template, markers: Path, seen: Recording, frames: int, out: Path) -> None:
+    """Writes the template of a subject with markers."""
+    chosen = Document.read(markers).validated(MarkerSet)
+    try:
+        subject = MarkerSubject.of(template, chosen, seen, frames)
+    except ConfigError as error:
+        raise error.at(str(markers)) from None
+    opening = OPENING.format(frames=subject.frames, recording=seen.name, file=out.name)
+    skin = subject.proportions.skin(template.description())
+    write_template(out, subject.description, skin, opening)
+    size = subject.description.size
+    _print_proportions(size, subject.proportions, template.description().size.value)
+    unseen = [name for name, error in zip(subject.names, subject.errors, strict=True)
+              if not error >= 0.0]  # fmt: skip
+    if unseen:
+        errors.print(
+            f"warning: the recording has no marker {', '.join(map(escape, unseen))}; it stays "
+            "where the marker set has it",
+            style="yellow",
+        )
+    mean = float(np.sqrt(np.nanmean(subject.errors**2)))
+    output.print(
+        f"the markers are {1000.0 * mean:.1f} mm from the measured ones (root mean square)"
+    )
+    output.print(f"written: {out}")
+
+
 def _print_summary(subject: Subject, template_size: float) -> None:
     """Prints the size, proportions and fit of the calibrated template."""
-    size = subject.description.size
-    scale = size.value / template_size
-    output.print(
-        f"{size.name} {size.value:.4g} m; relative to the template at this {size.name}:",
-    )
-    table = Table("segments")
-    for column in ("length", "girth"):
-        table.add_column(column, justify="right")
-    proportions = subject.proportions
-    for name, length, girth in zip(
-        proportions.groups.names, proportions.lengths, proportions.girths, strict=True
-    ):
-        table.add_row(escape(name), f"{length / scale:.2f}", f"{girth / scale:.2f}")
-    output.print(table)
+    _print_proportions(subject.description.size, subject.proportions, template_size)
     output.print(
         f"half of the data lies within {1000.0 * subject.distance:.1f} mm of the surface",
     )
@@ -119,3 +151,21 @@ def _print_summary(subject: Subject, template_size: float) -> None:
             "recording",
             style="yellow",
         )
+
+
+def _print_proportions(
+    size: SizeDescription, proportions: Proportions, template_size: float
+) -> None:
+    """Prints the size and the proportions relative to a template."""
+    scale = size.value / template_size
+    output.print(
+        f"{size.name} {size.value:.4g} m; relative to the template at this {size.name}:",
+    )
+    table = Table("segments")
+    for column in ("length", "girth"):
+        table.add_column(column, justify="right")
+    for name, length, girth in zip(
+        proportions.groups.names, proportions.lengths, proportions.girths, strict=True
+    ):
+        table.add_row(escape(name), f"{length / scale:.2f}", f"{girth / scale:.2f}")
+    output.print(table)

@@ -38,6 +38,17 @@ Frames = Annotated[
     int | None, typer.Option(min=1, metavar="N", help="Track only the first N frames.")
 ]
 
+KeypointFile = Annotated[
+    Path | None,
+    typer.Option(
+        "--keypoints",
+        metavar="FILE",
+        help="Keypoints of the frames: a .csv file, a .json file of MediaPipe, or a folder of "
+        "OpenPose's files.",
+        show_default=False,
+    ),
+]
+
 Opening = Annotated[
     float | None,
     typer.Option(

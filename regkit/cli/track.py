@@ -20,6 +20,7 @@ from regkit.cli.live_options import (
     EveryFrame,
     Frames,
     Host,
+    KeypointFile,
     Opening,
     People,
     Port,
@@ -71,6 +72,7 @@ def track(
     tracker: TrackerName = None,
     recording: RecordingName = None,
     frames: Frames = None,
+    keypoints: KeypointFile = None,
     opening: Opening = None,
     every_frame: EveryFrame = False,
     realtime: Realtime = False,
@@ -102,7 +104,7 @@ def track(
         alone = {"--view": view, "--record": record, "--realtime": realtime, "--out": stream}
         for option in (one for one, given in alone.items() if given):
             raise ConfigError("all people are tracked one by one, not live", place=option)
-        chosen = dataset_recording(source, recording, frames)
+        chosen = dataset_recording(source, recording, frames, keypoints)
         folder = folder or Path("tracks") / chosen.name
         check_out(folder, whole=False)
         _track_all(chosen, choices, name, folder, as_json=as_json, strict=strict)
@@ -113,7 +115,7 @@ def track(
     if view:
         outputs.append(lambda track: ViewOutput(track, name, host, port))
     run = LiveRun(
-        opener(source, choices.source, recording, frames),
+        opener(source, choices.source, recording, frames, keypoints),
         _pipeline(choices),
         name,
         folder,

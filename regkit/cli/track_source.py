@@ -7,15 +7,17 @@ from pathlib import Path
 from typing import Any
 
 from regkit.cli.options import options
-from regkit.interfaces import Dataset, Recording, Source, Stream
-from regkit.system.errors import DataError
+from regkit.interfaces import Dataset, KeypointStream, Recording, Source, Stream
+from regkit.interfaces.dataset import MARKERS
+from regkit.recording.keypoints import read_keypoints
+from regkit.system.errors import ConfigError, DataError
 from regkit.tracking.live import LimitedStream, RecordingStream
 
 Opener = Callable[[], Stream]
 
 
 def described(address: str, recording: str | None) -> dict[str, Any] | None:
-    """Returns the data of the source of an address; None for a folder that a dataset reads.
+    """Returns the data of the source of an address; None for what a dataset reads.
 
     Args:
         address: The argument of the command.
@@ -24,6 +26,8 @@ def described(address: str, recording: str | None) -> dict[str, Any] | None:
     Raises:
         RegkitError: If there is no such file, or no source reads it.
     """
+    if Path(address).suffix.lower() in MARKERS:
+        return None
     if not Path(address).is_dir():
         return Source.described(address)
     if recording is not None:
@@ -35,7 +39,11 @@ def described(address: str, recording: str | None) -> dict[str, Any] | None:
 
 
 def opener(
-    address: str, source: Source | None, recording: str | None, frames: int | None
+    address: str,
+    source: Source | None,
+    recording: str | None,
+    frames: int | None,
+    keypoints: Path | None = None,
 ) -> Opener:
     """Returns what opens the stream.
 
@@ -44,9 +52,11 @@ def opener(
         source: The source; None for a folder that a dataset reads.
         recording: Name of one of several recordings in the folder.
         frames: Largest number of frames; all for None.
+        keypoints: File of the frames' keypoints.
 
     Raises:
-        RegkitError: If the folder holds no recording, or several and none is named.
+        RegkitError: If the folder holds no recording, or several and none is named; or the
+            keypoints are damaged.
     """
     if source is not None:
         opened = source.open
@@ -57,22 +67,40 @@ def opener(
         def opened() -> Stream:
             return RecordingStream(found)
 
+    beside = opened if keypoints is None else _with_keypoints(opened, keypoints)
     if frames is None:
-        return opened
-    return lambda: LimitedStream(opened(), frames)
+        return beside
+    return lambda: LimitedStream(beside(), frames)
 
 
-def dataset_recording(address: str, name: str | None, frames: int | None) -> Recording:
+def _with_keypoints(opened: Opener, file: Path) -> Opener:
+    """Returns what opens a stream with keypoints."""
+    found = read_keypoints(file)
+
+    def beside() -> Stream:
+        try:
+            return KeypointStream(opened(), found)
+        except ConfigError as error:
+            raise error.at("--keypoints") from None
+
+    return beside
+
+
+def dataset_recording(
+    address: str, name: str | None, frames: int | None, keypoints: Path | None = None
+) -> Recording:
     """Returns a recording in a folder.
 
     Args:
         address: The folder.
         name: Name of the recording, if there are several.
         frames: Largest number of frames; all for None.
+        keypoints: File of the frames' keypoints.
 
     Raises:
         RegkitError: If the folder holds no recording, or several and none is named.
     """
-    data = Dataset.at(address, frames=frames)
+    given = {} if keypoints is None else {"keypoints": str(keypoints)}
+    data = Dataset.at(address, frames=frames, **given)
     with options(**{"dataset.recordings": "--recording"}):
         return Dataset.parse(data, place="SOURCE", field="dataset").only(name)

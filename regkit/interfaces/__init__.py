@@ -10,6 +10,7 @@ from regkit.interfaces.dataset import Dataset, Recording
 from regkit.interfaces.deformation import Deformation
 from regkit.interfaces.expected import Expected
 from regkit.interfaces.kernel import Kernel, Response, RigidComparison, RigidSimilarity, Similarity
+from regkit.interfaces.keypoints import KeypointRecording, KeypointStream
 from regkit.interfaces.method import Method
 from regkit.interfaces.preprocessor import Preprocessor
 from regkit.interfaces.registrar import Evaluation, Registrar, RegistrationResult
@@ -72,6 +73,8 @@ __all__ = [
     "JointEnergy",
     "JointResponse",
     "Kernel",
+    "KeypointRecording",
+    "KeypointStream",
     "LimitKeeping",
     "ListedShapeModel",
     "Method",

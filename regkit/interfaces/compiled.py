@@ -8,11 +8,13 @@ the conformance tests hold it to the readable form. A part's constants are ``num
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from regkit.observation import Observation
 from regkit.observation.arrays import ObservationArrays
 from regkit.primitives.arrays import PrimitiveArrays
 from regkit.skeleton.arrays import PoseArrays, SkeletonArrays
@@ -164,11 +166,14 @@ class CompiledJoints:
         respond: Compiled ``respond_joints``.
         numbers: Numbers that it needs.
         table: Rows of numbers that it needs, (R, C).
+        of_frame: Function that returns the table of a frame, of the same shape, for a part that
+            depends on more of the data than the points; None from it stands for ``table``.
     """
 
     respond: Compiled[Any, float]
     numbers: tuple[float, ...] = ()
     table: Array = field(default_factory=_nothing)
+    of_frame: Callable[[Observation], Array | None] | None = None
 
 
 CompiledPart = CompiledEnergy | CompiledWeights | CompiledJoints

@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 from pydantic import Field
 
 from regkit.config.input_files import paths_in
-from regkit.config.model import did_you_mean
+from regkit.config.model import InputPath, did_you_mean
 from regkit.config.plugin import Plugin
 from regkit.config.quantities import FrameCount
 from regkit.interfaces.source import Source
@@ -104,6 +104,9 @@ class Recording(Brief, ABC):
         return ""
 
 
+MARKERS = (".trc", ".c3d")
+"""Suffixes of files of markers."""
+
 SHOWN = 5
 """Maximum number of recordings in a message."""
 
@@ -122,14 +125,19 @@ class Dataset(Plugin, ABC):
     """Whether to compare poses with the reference joints, if there are any."""
     joints: dict[str, str] = Field(default_factory=dict)
     """Map from the reference joints to the template's markers, where the names differ."""
+    keypoints: InputPath | None = None
+    """Keypoints of the recording: a ``.csv`` file, a ``.json`` file of MediaPipe, or the folder of
+    OpenPose's files; or a folder that holds one of these for each recording, of its name."""
+    keypoint_markers: dict[str, str] = Field(default_factory=dict)
+    """Map from the keypoints to the template's markers, beside those of the known detectors."""
 
     @classmethod
     def at(cls, path: str | Path, **fields: Any) -> dict[str, Any]:
         """Returns data for the dataset of a path.
 
         Args:
-            path: A folder, of clouds if it has ``clouds/``, else of depth images; or a file or
-                folder that a source reads.
+            path: A folder, of clouds if it has ``clouds/``, else of depth images; a file of
+                markers; or a file or folder that a source reads.
             fields: Fields of the dataset.
 
         Raises:
@@ -138,6 +146,8 @@ class Dataset(Plugin, ABC):
         folder = Path(path)
         if (folder / "clouds").is_dir():
             return cls.default("clouds", root=str(path), **fields)
+        if folder.suffix.lower() in MARKERS:
+            return cls.default("markers", path=str(path), **fields)
         if folder.is_file() or (folder / "metadata.yaml").is_file():
             return cls.default("source", source=Source.described(path), **fields)
         return cls.default("depth", root=str(path), **fields)
@@ -171,7 +181,7 @@ class Dataset(Plugin, ABC):
                 raise DataError(f"two recordings are called '{recording.name}'", place="dataset")
             found[recording.name] = recording
         if self.recordings is None:
-            return list(found.values())
+            return self._beside_keypoints(found.values())
         chosen = [name if name in found else file_name(name) for name in self.recordings]
         for name in chosen:
             if name not in found:
@@ -180,7 +190,16 @@ class Dataset(Plugin, ABC):
                     + did_you_mean(name, list(found)),
                     place="dataset.recordings",
                 )
-        return [found[name] for name in chosen]
+        return self._beside_keypoints(found[name] for name in chosen)
+
+    def _beside_keypoints(self, recordings: Iterable[Recording]) -> list[Recording]:
+        """Returns recordings with their keypoints, if the dataset names some."""
+        if self.keypoints is None:
+            return list(recordings)
+        # A recording with keypoints is a recording, so its module needs this one.
+        from regkit.interfaces.keypoints import with_keypoints
+
+        return with_keypoints(recordings, self.keypoints, self.keypoint_markers)
 
     def only(self, name: str | None = None) -> Recording:
         """Returns the recording of a name, or the only recording.

@@ -1,10 +1,21 @@
-"""Measured data: frames, the observations that preprocessors make of them, and reference joints."""
+"""Measured data: frames, observations that preprocessors make of them, landmarks, true joints."""
 
 from regkit.geometry.camera import Camera
 from regkit.observation.frame import Frame
+from regkit.observation.keypoints import Keypoints
+from regkit.observation.landmarks import Landmarks
 from regkit.observation.observation import Observation
 from regkit.observation.silhouette import Silhouette
 from regkit.observation.timed_frame import TimedFrame
 from regkit.observation.truth import Truth
 
-__all__ = ["Camera", "Frame", "Observation", "Silhouette", "TimedFrame", "Truth"]
+__all__ = [
+    "Camera",
+    "Frame",
+    "Keypoints",
+    "Landmarks",
+    "Observation",
+    "Silhouette",
+    "TimedFrame",
+    "Truth",
+]

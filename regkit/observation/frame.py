@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from regkit.geometry.camera import Camera
 from regkit.geometry.lens import Lens
 from regkit.observation.compiled_removal import kept_points, remaining_depth
+from regkit.observation.landmarks import Landmarks
 from regkit.system.arrays import Array, Indices, loop_input
 from regkit.system.brief import Brief
 
@@ -29,12 +30,14 @@ class Frame(Brief):
             measurement, which counts as free space. NaN marks an unknown pixel: something
             else may hide the body there, or a camera in a room measures nothing.
         place: Source of the frame, for error messages.
+        landmarks: Measured positions of points of the body; None without any.
     """
 
     points: Array
     camera: Camera | None = None
     depth: Array | None = None
     place: str | None = None
+    landmarks: Landmarks | None = None
 
     @classmethod
     def of_image(cls, depth: Array, lens: Lens, *, place: str | None = None) -> Frame:

@@ -7,6 +7,7 @@ from functools import cached_property
 
 from regkit.geometry.camera import Camera
 from regkit.observation.arrays import ObservationArrays
+from regkit.observation.landmarks import Landmarks
 from regkit.observation.silhouette import Silhouette
 from regkit.system.arrays import Array
 from regkit.system.brief import Brief
@@ -26,6 +27,7 @@ class Observation(Brief):
         depth: Depth image of the points, (H, W) [m]; None if there is none. As in a ``Frame``, zero
             marks free space and NaN an unknown pixel.
         normals: Unit normals of arbitrary sign at the points, (N, 3); None if unknown.
+        landmarks: Measured positions of points of the body; None without any.
 
     Raises:
         DataError: If there is no point, or the arrays differ in length.
@@ -37,6 +39,7 @@ class Observation(Brief):
     camera: Camera | None = None
     depth: Array | None = None
     normals: Array | None = None
+    landmarks: Landmarks | None = None
 
     def __post_init__(self) -> None:
         """Validates the arrays.

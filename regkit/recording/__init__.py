@@ -6,10 +6,12 @@ camera.json        intrinsics and lens distortion (depth images)
 depth/000000.png   or clouds/000000.ply; numbered without gaps
 times.csv          optional: frame,time_s
 truth.csv          optional: frame,joint,x,y,z [m] in the camera's frame
+keypoints.csv      optional: frame,name,x,y,confidence [pixels], or with z [m]
 
 - ``description``: ``sequence.yaml``.
 - ``folder``: the folder of one recording; ``search`` finds those below a root.
 - ``depth_folder``, ``cloud_folder``: its frames.
+- ``keypoints``: ``keypoints.csv``, and the files of detectors.
 - ``times``: ``times.csv``.
 - ``writer``, ``png``: writes it, frame by frame.
 """

@@ -20,7 +20,7 @@ class CloudFolder(RecordingFolder):
     content: ClassVar[str] = "clouds"
     suffixes: ClassVar[tuple[str, ...]] = (".npz", ".pcd", ".ply", *TEXT)
 
-    def reader(self) -> Callable[[int], Frame]:
+    def measured(self) -> Callable[[int], Frame]:
         """Returns the function that reads a cloud (x right, y down, z forward)."""
 
         def read(index: int) -> Frame:

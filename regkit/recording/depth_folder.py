@@ -20,7 +20,7 @@ class DepthFolder(RecordingFolder):
     suffixes: ClassVar[tuple[str, ...]] = (".png",)
     beside: ClassVar[tuple[str, ...]] = (*RecordingFolder.beside, "camera.json")
 
-    def reader(self) -> Callable[[int], Frame]:
+    def measured(self) -> Callable[[int], Frame]:
         """Returns the function that reads, rectifies and back-projects an image."""
         lens = Lens.read(self.folder / "camera.json")
 

@@ -5,11 +5,14 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import ClassVar, Self
 
-from regkit.observation import Frame
+from regkit.observation import Frame, Keypoints
 from regkit.recording.description import FILE, RecordingDescription
+from regkit.recording.keypoints import read_keypoints
+from regkit.recording.keypoints.reading import FILE as KEYPOINTS
 from regkit.system.errors import DataError
 
 
@@ -27,7 +30,7 @@ class RecordingFolder(ABC):
     """Name of the folder within the recording that holds the frames."""
     suffixes: ClassVar[tuple[str, ...]]
     """Suffixes of the frames' files."""
-    beside: ClassVar[tuple[str, ...]] = (FILE, "truth.csv")
+    beside: ClassVar[tuple[str, ...]] = (FILE, "truth.csv", KEYPOINTS)
     """Files beside the frames that results depend on."""
 
     folder: Path
@@ -54,13 +57,30 @@ class RecordingFolder(ABC):
         """Name of the recording."""
         return self.description.name or self.folder.name
 
-    @abstractmethod
     def reader(self) -> Callable[[int], Frame]:
-        """Returns the function that reads the frame of a number, from 0.
+        """Returns the function that reads the frame of a number, from 0, with its landmarks.
 
         Raises:
             DataError: If what all frames share is damaged; the function raises it for a frame.
         """
+        read, keypoints = self.measured(), self._keypoints
+        if keypoints is None:
+            return read
+        return lambda number: keypoints.beside(read(number), number)
+
+    @abstractmethod
+    def measured(self) -> Callable[[int], Frame]:
+        """Returns the function that reads the frame of a number, from 0, without landmarks.
+
+        Raises:
+            DataError: If what all frames share is damaged; the function raises it for a frame.
+        """
+
+    @cached_property
+    def _keypoints(self) -> Keypoints | None:
+        """The keypoints beside the frames; None without any."""
+        file = self.folder / KEYPOINTS
+        return read_keypoints(file) if file.exists() else None
 
     def input_files(self) -> list[Path]:
         """Returns the frames' files, and those beside them that exist."""

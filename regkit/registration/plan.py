@@ -20,6 +20,7 @@ from regkit.interfaces import (
     Term,
 )
 from regkit.interfaces.compiled import BIND, EXPLAIN, RESPOND, RESPOND_JOINTS, WEIGH
+from regkit.observation import Observation
 from regkit.primitives import Primitives
 from regkit.primitives.arrays import PrimitiveArrays
 from regkit.registration.compiled_plan import PlanArrays
@@ -84,6 +85,19 @@ class Plan:
             table_rows=_ends([len(table) for table in tables]),
             state_rows=_ends([rows for rows, _ in self._shapes]),
         )
+
+    def arrays_of(self, observation: Observation) -> PlanArrays:
+        """Returns the arrays for a frame: tables that depend on its data are filled."""
+        arrays, table = self.arrays, None
+        for index, part in enumerate(self.parts):
+            if not isinstance(part, CompiledJoints) or part.of_frame is None:
+                continue
+            own = part.of_frame(observation)
+            if own is not None:
+                table = arrays.table.copy() if table is None else table
+                first, end = arrays.table_rows[index], arrays.table_rows[index + 1]
+                table[first:end, : part.table.shape[1]] = own
+        return arrays if table is None else arrays._replace(table=table)
 
     @property
     def explains(self) -> bool:

@@ -12,6 +12,7 @@ from regkit.interfaces import Multipliers
 from regkit.interfaces.compiled import SceneArrays
 from regkit.observation import Observation
 from regkit.registration.compiled_plan import (
+    PlanArrays,
     bind_to_best,
     derivatives,
     explained,
@@ -33,12 +34,14 @@ class PlannedEnergy(FrameEnergy):
 
     Attributes:
         plan: The plan.
+        parts: Its parts as compiled functions take them, with the tables of this frame.
         scene: The scene to which its parts are bound.
         prior: Pose to which unobserved joints stay close.
         states: States of the parts.
     """
 
     plan: Plan
+    parts: PlanArrays
     scene: SceneArrays
     prior: PoseArrays
     states: Array
@@ -77,9 +80,9 @@ class PlannedEnergy(FrameEnergy):
             np.empty((count, 3, 3)),
             float(smoothing),
         )
-        states = plan.states()
+        states, parts = plan.states(), plan.arrays_of(observation)
         best = bind_to_best(
-            plan.arrays,
+            parts,
             plan.body.skeleton.arrays,
             scene,
             np.array([pose.root for pose in candidates], dtype=np.float64),
@@ -87,7 +90,7 @@ class PlannedEnergy(FrameEnergy):
             np.array([pose.hinges for pose in candidates], dtype=np.float64),
             states,
         )
-        return cls(plan, scene, _arrays(prior), states), candidates[best]
+        return cls(plan, parts, scene, _arrays(prior), states), candidates[best]
 
     def total(self, pose: Pose) -> float:
         """Returns the energy of the kernel and all terms in a pose."""
@@ -99,7 +102,7 @@ class PlannedEnergy(FrameEnergy):
             return np.array([np.nan])
         skeleton = self.plan.body.skeleton.arrays
         probability = np.empty(len(self.scene.data.points))
-        explained(self.plan.arrays, skeleton, self.scene, _arrays(pose), self.states, probability)
+        explained(self.parts, skeleton, self.scene, _arrays(pose), self.states, probability)
         return probability
 
     def derivatives(self, pose: Pose, order: int) -> tuple[float, Array, Array]:
@@ -107,7 +110,7 @@ class PlannedEnergy(FrameEnergy):
         skeleton = self.plan.body.skeleton
         force, matrix = np.zeros(skeleton.dofs), np.zeros((skeleton.dofs, skeleton.dofs))
         energy = derivatives(
-            self.plan.arrays,
+            self.parts,
             skeleton.arrays,
             self.scene,
             self.prior,
@@ -158,7 +161,7 @@ class CompiledProblem(PoseProblem):
             return None
         energy = self._energy
         return ProblemArrays(
-            energy.plan.arrays,
+            energy.parts,
             energy.plan.body.skeleton.arrays,
             energy.scene,
             energy.prior,

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 
 from regkit.interfaces import Evaluation, Registrar, RegistrationResult
 from regkit.observation import Observation
+from regkit.search.landmark_fit import LandmarkFit
+from regkit.search.landmark_starts import body_starts, contradicted_limbs, limb_starts
 from regkit.search.limb_search import LimbSearch
+from regkit.skeleton import Pose
 
 SAMPLES, STARTS, GAIN = 500, 2, 0.01
 """Usual numbers of configurations per limb that are sampled and registered, and what one must
@@ -18,6 +22,8 @@ gain."""
 @dataclass(frozen=True)
 class LimbRecovery:
     """Seeks better configurations of the limbs of a registered body.
+
+    Where most landmarks of a frame contradict the pose, those of the whole body are tried too.
 
     Attributes:
         registrar: The registrar.
@@ -53,20 +59,64 @@ class LimbRecovery:
 
     def recovered(self, observation: Observation, found: RegistrationResult) -> RegistrationResult:
         """Returns the best registration after searching all limbs in turn."""
-        best, evaluation = found, None
+        found = self.corrected(observation, found)
+        contest = Contest(self.registrar, observation, found, self.gain)
         for search in self.searches:
-            starts = search.starts(
-                observation.points, best.pose, self.starts, observation.silhouette
+            pose = contest.best.pose
+            contest.try_all(
+                search.starts(observation.points, pose, self.starts, observation.silhouette)
             )
-            for start in starts:
-                if evaluation is None:
-                    evaluation = self.registrar.evaluate(observation, best.pose)
-                tried = self.registrar.register(observation, [start])
-                rival = self.registrar.evaluate(observation, tried.pose)
-                if self._better(rival, evaluation):
-                    best, evaluation = tried, rival
-        return best
+        return contest.best
 
-    def _better(self, new: Evaluation, old: Evaluation) -> bool:
-        gain = float((new.inlier_probability - old.inlier_probability).mean())
-        return new.energy < old.energy and gain > self.gain
+    def corrected(self, observation: Observation, found: RegistrationResult) -> RegistrationResult:
+        """Returns the best registration after trying what the landmarks suggest, if there are some.
+
+        A pose that agrees with them need not explain more points, but must not explain fewer.
+        """
+        fit = LandmarkFit.of(self.registrar.body, observation)
+        if fit is None:
+            return found
+        contest = Contest(self.registrar, observation, found, -self.gain)
+        contest.try_all(body_starts(fit, found.pose))
+        for search in contradicted_limbs(fit, self.searches, contest.best.pose):
+            contest.try_all(limb_starts(fit, search, contest.best.pose))
+        return contest.best
+
+
+class Contest:
+    """Registers starts one by one, and keeps the best.
+
+    Args:
+        registrar: The registrar.
+        observation: The frame's data.
+        found: The registration so far.
+        gain: Minimum increase of the mean inlier probability; a negative one is a loss.
+
+    Attributes:
+        best: The best registration so far.
+    """
+
+    def __init__(
+        self,
+        registrar: Registrar,
+        observation: Observation,
+        found: RegistrationResult,
+        gain: float,
+    ) -> None:
+        self.best = found
+        self._registrar, self._observation, self._gain = registrar, observation, gain
+        self._evaluation: Evaluation | None = None
+
+    def try_all(self, starts: Iterable[Pose]) -> None:
+        """Tries starts, one after the other."""
+        for start in starts:
+            self._try(start)
+
+    def _try(self, start: Pose) -> None:
+        if self._evaluation is None:
+            self._evaluation = self._registrar.evaluate(self._observation, self.best.pose)
+        tried = self._registrar.register(self._observation, [start])
+        rival, old = self._registrar.evaluate(self._observation, tried.pose), self._evaluation
+        gain = float((rival.inlier_probability - old.inlier_probability).mean())
+        if rival.energy < old.energy and gain > self._gain:
+            self.best, self._evaluation = tried, rival

@@ -11,6 +11,7 @@ from regkit.system.errors import DependencyError
 
 INSTALL = {
     "distributed": 'pip install "regkit[cluster]"',
+    "ezc3d": 'pip install "regkit[markers]"',
     "open3d": "pip install open3d-cpu" if sys.platform == "linux" else "pip install open3d",
     "pytest": 'pip install "regkit[testing]"',
 }

@@ -16,7 +16,7 @@ from regkit.geometry.camera import Camera
 from regkit.geometry.rigid import rigid, transformed
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.geometry.surface import SkinnedSurface
-from regkit.observation import Observation
+from regkit.observation import Landmarks, Observation
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 
@@ -81,7 +81,21 @@ def data_of(
         camera=CAMERA,
         depth=depth,
         normals=normals,
+        landmarks=landmarks_of(body, pose, random),
     )
+
+
+def landmarks_of(body: Body, pose: Pose, random: np.random.Generator) -> Landmarks:
+    """Returns landmarks of a posed body: every other one in the picture only, some centimetres off.
+
+    Their confidences are uneven.
+    """
+    names = body.markers.names
+    places = body.markers.place(body.place(pose).transforms)
+    places = places + random.normal(scale=[0.05, 0.03, 0.02], size=places.shape)
+    pixels = CAMERA.projected(np.maximum(places, [-np.inf, -np.inf, 0.1]))
+    places[::2] = np.nan
+    return Landmarks(names, places, pixels, random.uniform(0.3, 1.0, len(names)))
 
 
 def surface_data(body: Body, pose: Pose, sigma: float = 0.01) -> Observation:
@@ -90,14 +104,29 @@ def surface_data(body: Body, pose: Pose, sigma: float = 0.01) -> Observation:
     points = body.surface.place(body.place(pose).transforms)
     count = len(points)
     return Observation(
-        points, np.ones(count), np.full(count, sigma**2), normals=fitted_normals(points)
+        points,
+        np.ones(count),
+        np.full(count, sigma**2),
+        normals=fitted_normals(points),
+        landmarks=exact_landmarks(body, pose),
     )
 
 
+def exact_landmarks(body: Body, pose: Pose) -> Landmarks:
+    """Returns the markers of a posed body as landmarks in space."""
+    places = body.markers.place(body.place(pose).transforms)
+    return Landmarks.in_space(body.markers.names, places)
+
+
 def moved_data(data: Observation, motion: Array) -> Observation:
-    """Returns data after a rigid motion (4, 4), without the depth image, which cannot move."""
+    """Returns data after a rigid motion (4, 4), without its picture, which cannot move."""
     normals = None if data.normals is None else data.normals @ motion[:3, :3].T
-    return replace(data, points=transformed(motion, data.points), normals=normals, depth=None)
+    marks = data.landmarks
+    if marks is not None:
+        places = transformed(motion, marks.positions)
+        marks = Landmarks.in_space(marks.names, places, marks.confidences)
+    points = transformed(motion, data.points)
+    return replace(data, points=points, normals=normals, depth=None, landmarks=marks)
 
 
 def moved_pose(pose: Pose, motion: Array) -> Pose:

@@ -8,7 +8,7 @@ import pytest
 from regkit.interfaces import StartSearch, Template
 from regkit.observation import Observation
 from regkit.testing.laws import Laws
-from regkit.testing.samples import LINKAGE, posed
+from regkit.testing.samples import LINKAGE, exact_landmarks, posed
 from regkit.testing.verdict import copied, require, same
 
 SIZE = 1.2
@@ -31,7 +31,12 @@ class StartLaws(Laws):
         pose = posed(body, np.random.default_rng(2))
         capsules = body.capsules.place(body.place(pose).transforms)
         points = capsules.axis_points(0.02).points
-        return Observation(points, np.ones(len(points)), np.full(len(points), 1e-4))
+        return Observation(
+            points,
+            np.ones(len(points)),
+            np.full(len(points), 1e-4),
+            landmarks=exact_landmarks(body, pose),
+        )
 
     def test_start_has_a_body_within_its_limits(
         self, start: StartSearch, linkage_template: Template, seen: Observation

@@ -27,6 +27,7 @@ from regkit.skeleton import Pose
 from regkit.system.errors import ConfigError, NoBodyError, NoDataError, RegkitError
 from regkit.system.notes import note
 from regkit.tracking.extent import check_extent, check_unit, tell_bound
+from regkit.tracking.landmarks import tell_unknown
 from regkit.tracking.loop import Follower, TrackedFrame, tracked
 from regkit.tracking.segmented import segmented
 
@@ -96,6 +97,7 @@ class Session:
         """
         index, first = self._first()
         check_extent(first.points, self.template, place=self.recording.name)
+        tell_unknown(first.landmarks, self.template, place=self.recording.name)
         if isinstance(self.start, Pose):
             return _posed(self.template, self.start)
         start = self.start.find(self.template, [first, *self._later(index)])

@@ -8,6 +8,7 @@ from tempfile import TemporaryDirectory
 import numpy as np
 from bags import walk_rows, write_bag
 from kinect_files import write_kinect
+from marker_files import write_trc
 from places import DATA
 from public_layouts import SMALL, write_itop, write_pdt13, write_records
 
@@ -51,6 +52,9 @@ TestInstalled = conformance(
         "datasets.eval": {"root": str(PUBLIC / "records"), "record": RECORD.model_dump()},
         "datasets.smmc10": {"root": str(PUBLIC / "records"), "record": RECORD.model_dump()},
         "datasets.itop": {"root": str(PUBLIC / "itop")},
+        "datasets.markers": {
+            "path": str(write_trc(PUBLIC / "walk.trc", ("a", "b"), np.ones((3, 2, 3)))),
+        },
         "datasets.pdt13": {
             "root": str(PUBLIC / "pdt13"),
             "intrinsics": {"focal_px": 36.0, "centre_px": [19.0, 15.5]},
@@ -75,6 +79,7 @@ TestInstalled = conformance(
             {"shape": "sphere", "kernel": "sphere_distance", "solver": "ipopt"},
             {"shape": "mesh", "kernel": "point_to_plane", "solver": "gauss_newton"},
         ],
+        "methods.landmarks": {"terms": ["landmarks"], "shape": "sog"},
         "methods.coarse_to_fine": RIGID,
     }
 )

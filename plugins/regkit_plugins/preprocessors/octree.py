@@ -60,7 +60,12 @@ class OctreePreprocessor(Preprocessor):
         variances = np.concatenate(deviations) ** 2
         self.crop.check_downsampled(len(variances), frame, "leaf", self.leaf)
         return Observation(
-            np.concatenate(means), np.concatenate(weights), variances, frame.camera, frame.depth
+            np.concatenate(means),
+            np.concatenate(weights),
+            variances,
+            frame.camera,
+            frame.depth,
+            landmarks=frame.landmarks,
         )
 
 

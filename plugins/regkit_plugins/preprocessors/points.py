@@ -50,4 +50,5 @@ class PointsPreprocessor(Preprocessor):
             frame.depth,
             # A neighbourhood includes the point itself.
             None if self.normals is None else normals(points, self.normals + 1),
+            frame.landmarks,
         )

@@ -6,6 +6,7 @@ _FOLDER = Path(__file__).parent
 
 BEST = _FOLDER / "best.yaml"
 ICP = _FOLDER / "icp.yaml"
+MARKERS = _FOLDER / "markers.yaml"
 PAPER = _FOLDER / "paper.yaml"
 PAPER_EXACT = _FOLDER / "paper_exact.yaml"
 RIGID = _FOLDER / "rigid.yaml"

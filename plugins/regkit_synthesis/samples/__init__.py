@@ -1,4 +1,4 @@
-"""Generation of the shipped samples: depth recordings (``depth``) and clouds (``mannequin``)."""
+"""Generation of the shipped samples: ``depth`` recordings, ``mannequin`` clouds, ``keypoints``."""
 
 from regkit_synthesis.samples.depth import hand_gestures, human_walk
 

@@ -7,6 +7,7 @@ from functools import cache
 from tests.fuzz.kind import Files, Kind
 from tests.fuzz.seeds.cloud_files import CLOUDS
 from tests.fuzz.seeds.configs import CONFIGS
+from tests.fuzz.seeds.keypoint_files import KEYPOINTS
 from tests.fuzz.seeds.meshes import MESHES
 from tests.fuzz.seeds.motions import MOTIONS
 from tests.fuzz.seeds.others import OTHERS
@@ -19,6 +20,7 @@ GROUPS: dict[str, tuple[Kind, ...]] = {
     "inputs": (
         *CLOUDS,
         *RECORDINGS,
+        *KEYPOINTS,
         *OTHERS,
         *MESHES,
         *SKELETONS,

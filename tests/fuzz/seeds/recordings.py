@@ -47,6 +47,7 @@ def depth_folder() -> list[Files]:
             "camera.json": CAMERA.to_json().encode(),
             "sequence.yaml": SEQUENCE,
             "truth.csv": truth(),
+            "keypoints.csv": b"frame,name,x,y,z,confidence\n1,a,0.1,0.1,2.0,0.5\n",
         }
     ]
 
@@ -106,6 +107,7 @@ RECORDINGS = (
             "camera.json": "json",
             "sequence.yaml": "yaml",
             "truth.csv": "text",
+            "keypoints.csv": "text",
         },
         _in_folder,
         nonsense,

@@ -24,10 +24,11 @@ BEST_SHARE = 0.25
 class Recovery(Model):
     """Recovers lost limbs by trying other configurations of each limb.
 
-    It searches when a frame has more outliers than usual in the recording. Of many configurations
-    within the joint limits, it registers the few that best match the points that the rest of the
-    body does not explain, and keeps one that fits the frame better. Where limbs do not explain the
-    outliers, the whole body is sought anew.
+    It searches when a frame has more outliers than usual in the recording, or landmarks that
+    contradict the pose. Of many configurations within the joint limits, it registers the few that
+    best match the landmarks, or the points that the rest of the body does not explain, and keeps
+    one that fits the frame better. Where limbs do not explain the outliers, the whole body is
+    sought anew.
     """
 
     samples: Annotated[int, Field(ge=2, le=100_000)] = SAMPLES
@@ -72,7 +73,7 @@ class BoundRecovery:
     ) -> RegistrationResult:
         """Returns the registration, or a better one with another configuration of limbs or body."""
         if not self._alarmed(found, past):
-            return found
+            return self.limbs.corrected(observation, found)
         better = self.limbs.recovered(observation, found)
         if self.body is None:
             return better
