@@ -18,9 +18,6 @@ from regkit.system.errors import RegkitError
 from regkit.system.files import write_text
 from regkit.tuning import SampleSets, TunedList, tuned
 
-SAMPLES = 160
-"""Number of training samples of each list."""
-
 JOBS = 2
 """Number of processes."""
 
@@ -41,14 +38,20 @@ class Recipe:
     Attributes:
         name: Its name.
         method: The method to which it is tuned.
+        primitives: Number of primitives; by default those that the template lists are tuned.
+        samples: Number of training samples.
     """
 
     name: str
     method: Mapping[str, Any]
+    primitives: int | None = None
+    samples: int = 160
 
 
 RECIPES = (
     Recipe("best", {"preset": "best"}),
+    Recipe("best_26", {"preset": "best"}, 26, 240),
+    Recipe("best_41", {"preset": "best"}, 41, 240),  # One for each capsule.
     Recipe("paper_exact", PAPER),
     Recipe("paper_exact", {**PAPER, "shape": "sog"}),
 )
@@ -77,25 +80,26 @@ def tuned_by(recipe: Recipe, template: Template) -> TunedList:
         method,
         method.tracker or Tracker.parse(default, place=recipe.name, field="tracker"),
         name=recipe.name,
-        samples=SAMPLES,
+        primitives=recipe.primitives,
+        samples=recipe.samples,
         jobs=JOBS,
     )
 
 
-def lists(found: Sequence[TunedList]) -> TunedLists:
+def lists(found: Sequence[tuple[Recipe, TunedList]]) -> TunedLists:
     """Returns tuned lists, with what they change as their sources."""
     return TunedLists(
-        sources=tuple(map(_source, found)),
-        shapes={one.key: one.description.shapes[one.key] for one in found},
+        sources=tuple(_source(recipe.samples, one) for recipe, one in found),
+        shapes={one.key: one.description.shapes[one.key] for _, one in found},
     )
 
 
-def _source(one: TunedList) -> str:
+def _source(samples: int, one: TunedList) -> str:
     changes = ", ".join(
         f"{each.name} {100.0 * each.before.mean:.2f} to {100.0 * each.after.mean:.2f} cm"
         for each in one.comparisons
     )
-    return f"{one.key}: tuned on {SAMPLES} samples, seed 0; mean errors of {changes}"
+    return f"{one.key}: tuned on {samples} samples, seed 0; mean errors of {changes}"
 
 
 def main() -> int:
@@ -111,7 +115,7 @@ def main() -> int:
             template = Template.parse(
                 {"kind": "human", "build": build}, place=file, field="template"
             )
-            found = lists([tuned_by(recipe, template) for recipe in RECIPES])
+            found = lists([(recipe, tuned_by(recipe, template)) for recipe in RECIPES])
             write_text(out / file, found.text(OPENING.format(file=file)))
             print(out / file)
     except RegkitError as error:
