@@ -86,3 +86,20 @@ def test_shipped_lists_have_the_announced_number_and_are_mirror_images(build):
                 assert difference(image, nearest) < 3e-4
                 weights = (one.weight for one in (image, nearest))
                 np.testing.assert_allclose(*weights, atol=2e-4)
+
+
+def test_hands_have_a_list_of_48_and_the_left_is_the_mirror_image_of_the_right():
+    left, right = (load_template("hand", side=side).description() for side in ("left", "right"))
+    assert {key for key in right.shapes if "/" in key} == {"gsog/best_48"}
+    listed, others = (one.shapes["gsog/best_48"] for one in (right, left))
+    assert sum(map(len, listed.values())) == 48
+    assert set(listed) == set(right.shapes["gsog"])
+    for name, own in listed.items():
+        for one, other in zip(own, others[name], strict=True):
+            assert difference(one.deformed(Mirror()), other) < 1e-4
+            assert one.weight == other.weight
+
+
+def test_the_forearm_is_added_to_the_tuned_list_of_a_hand():
+    shapes = load_template("hand", forearm=True).description().shapes
+    assert shapes["gsog/best_48"]["forearm"] == shapes["gsog"]["forearm"]
