@@ -53,6 +53,7 @@ def tuned(
     primitives: int | None = None,
     samples: int = 240,
     iterations: int = 12,
+    prior: float = PRIOR,
     jobs: int = 1,
     tell: Callable[[Step], None] = lambda _: None,
 ) -> TunedList:
@@ -69,6 +70,7 @@ def tuned(
             the template lists, or one for each of its capsules.
         samples: Number of training samples.
         iterations: Maximum number of steps.
+        prior: Weight of the squared parameters, which keep near the primitives before tuning.
         jobs: Number of processes.
         tell: Called with each step.
 
@@ -94,7 +96,7 @@ def tuned(
             _check_derivative(tunable, kept[0])
             failures = workers.render()
         with working("tuning"):
-            descent = Descent(workers, sets.body.limb_radius, PRIOR, iterations)
+            descent = Descent(workers, sets.body.limb_radius, prior, iterations)
             found = descent.found(told)
         after = tunable.primitives(found)
         comparisons = []

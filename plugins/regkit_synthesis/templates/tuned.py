@@ -18,6 +18,7 @@ from regkit.sensors import CameraName
 from regkit.system.errors import RegkitError
 from regkit.system.files import write_text
 from regkit.tuning import SampleSets, TunedList, tuned
+from regkit.tuning.tuning import PRIOR
 from regkit_synthesis.templates import mirror
 
 JOBS = 2
@@ -44,6 +45,7 @@ class Recipe:
         primitives: Number of primitives; by default those that the template lists are tuned.
         samples: Number of training samples.
         iterations: Maximum number of steps.
+        prior: Weight of the squared parameters.
     """
 
     name: str
@@ -51,14 +53,18 @@ class Recipe:
     primitives: int | None = None
     samples: int = 160
     iterations: int = 12
+    prior: float = PRIOR
 
+
+STIFF = 4e-4
+"""Weight with which the lists of the template's own number of primitives were made."""
 
 PERSON = (
-    Recipe("best", {"preset": "best"}),
+    Recipe("best", {"preset": "best"}, prior=STIFF),
     Recipe("best_26", {"preset": "best"}, 26, 240),
     Recipe("best_41", {"preset": "best"}, 41, 240),  # One for each capsule.
-    Recipe("paper_exact", PAPER),
-    Recipe("paper_exact", {**PAPER, "shape": "sog"}),
+    Recipe("paper_exact", PAPER, prior=STIFF),
+    Recipe("paper_exact", {**PAPER, "shape": "sog"}, prior=STIFF),
 )
 """The lists of a person."""
 
@@ -123,6 +129,7 @@ def tuned_by(recipe: Recipe, sets: SampleSets) -> TunedList:
         primitives=recipe.primitives,
         samples=recipe.samples,
         iterations=recipe.iterations,
+        prior=recipe.prior,
         jobs=JOBS,
     )
 
