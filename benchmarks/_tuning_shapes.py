@@ -59,4 +59,5 @@ SHAPES = (
     capsules("capsules", 16, "filled_16"),
     capsules("capsules", 26, "filled_26"),
     capsules("capsules", 41, None),
+    capsules("capsules, tuned", 41, "spheres"),
 )

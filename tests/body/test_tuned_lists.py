@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from regkit import load_template
-from regkit.body import Mirror
+from regkit.body import GaussianParameters, Mirror
 from regkit.body.tuned_lists import TunedLists, tuned_lists_in
 from regkit.interfaces import Method
 from regkit.system.errors import ConfigError
@@ -44,6 +44,7 @@ def test_people_have_lists_for_the_methods_of_the_comparison(build):
         ("paper_exact", {"kind": "gsog", "tuned": "paper_exact"}),
         ("paper_exact", {"kind": "sog", "tuned": "paper_exact"}),
         *(("best", {"tuned": name}) for name in ("best", "best_26", "best_41")),
+        ("spheres", {"tuned": "spheres"}),
     ):
         method = Method.parse({"preset": name, "shape": shape}, place="test", field="method")
         plain = Method.parse({"preset": name}, place="test", field="method")
@@ -67,6 +68,7 @@ NUMBERS = {
     "gsog/best_41": 41,
     "gsog/paper_exact": 13,
     "sog/paper_exact": 58,
+    "sphere/spheres": 41,
 }
 """Number of primitives of each shipped list."""
 
@@ -82,10 +84,12 @@ def test_shipped_lists_have_the_announced_number_and_are_mirror_images(build):
             others = listed[other_side(name)]
             for image in (one.deformed(Mirror()) for one in own):
                 nearest = min(others, key=lambda other, image=image: difference(image, other))
-                # Files have four decimals, and tenths of degrees.
-                assert difference(image, nearest) < 3e-4
-                weights = (one.weight for one in (image, nearest))
-                np.testing.assert_allclose(*weights, atol=2e-4)
+                # Files have four decimals, and tenths of degrees; the template's own capsules
+                # across the middle are not quite level.
+                gaussian = isinstance(image, GaussianParameters)
+                assert difference(image, nearest) < (3e-4 if gaussian else 1e-3)
+                if gaussian:
+                    assert image.weight == pytest.approx(nearest.weight, abs=2e-4)
 
 
 def test_hands_have_a_list_of_48_and_the_left_is_the_mirror_image_of_the_right():

@@ -65,6 +65,7 @@ PERSON = (
     Recipe("best_41", {"preset": "best"}, 41, 240),  # One for each capsule.
     Recipe("paper_exact", PAPER, prior=STIFF),
     Recipe("paper_exact", {**PAPER, "shape": "sog"}, prior=STIFF),
+    Recipe("spheres", {"preset": "spheres"}),
 )
 """The lists of a person."""
 
