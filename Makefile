@@ -58,7 +58,7 @@ samples: $(ready) ## Regenerate the sample recordings
 templates: $(ready) ## Fit the shipped templates to their meshes again
 	@$(bin)/python -m regkit_synthesis.templates plugins/regkit_plugins/templates
 
-tuned: $(ready) loops ## Tune the shipped people's primitives to methods again (most of an hour)
+tuned: $(ready) loops ## Tune the shipped templates' primitives to methods again (an hour)
 	@$(bin)/python -m regkit_synthesis.templates.tuned plugins/regkit_plugins/templates/tuned
 
 schemas: $(ready) ## Regenerate the JSON Schemas

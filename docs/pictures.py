@@ -5,7 +5,9 @@ The pictures of real recordings are not among them, for the recordings are not s
 
 from __future__ import annotations
 
+import json
 import shutil
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -16,6 +18,9 @@ from playwright.sync_api import sync_playwright
 
 import regkit
 from regkit.api.viewing import scene_of
+from regkit.interfaces import Method
+from regkit.report.figures.density import projected
+from regkit.report.frame_drawing import DrawnPrimitives
 from regkit.viewer.animation.film import drawing_of, encoded
 from regkit.viewer.animation.pose import ShownPose
 from regkit.viewer.animation.view import Sheet
@@ -30,6 +35,12 @@ MILLISECONDS = 66
 
 CHROMIUM = ("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 """Options of the browser, for machines without a graphics card."""
+
+VIEWS = {
+    "from the front": np.diag([1.0, -1.0, -1.0]),
+    "from the left": np.array([[0.0, 0.0, -1.0], [0.0, -1.0, 0.0], [-1.0, 0.0, 0.0]]),
+}
+"""R_view_body (x right, y down, z away from the viewer) of an upright body that faces z."""
 
 SOLE = 0.01
 """How far the sole is below the lowest marker, at the toes [m]."""
@@ -126,6 +137,73 @@ def rooms() -> None:
     Image.open(path).convert("RGB").quantize(64).save(path, optimize=True)
 
 
+def tuned_densities() -> None:
+    """The Gaussians before and after tuning, summed along the line of sight, and the skin."""
+    body = regkit.load_template("human").body(1.7)
+    placed = body.place(body.skeleton.rest())
+    assert body.surface is not None
+    skin = body.surface.place(placed.transforms)
+    methods = {
+        "13, of the solid's moments": {"preset": "paper_exact"},
+        "13, tuned to paper_exact": {"preset": "paper_exact", "shape": {"tuned": "paper_exact"}},
+        "13, tuned to best": {"preset": "best", "shape": {"tuned": "best"}},
+        "41, tuned to best": {"preset": "best", "shape": {"tuned": "best_41"}},
+    }
+    down = np.arange(-0.95, 0.95, 0.005)
+    figure = Figure(figsize=(7.6, 8.2), layout="constrained")
+    grid = figure.subplots(len(VIEWS), len(methods), squeeze=False)
+    for column, (title, method) in enumerate(methods.items()):
+        registrar = Method.parse(method, place="picture", field="method").bind(body)
+        drawn = DrawnPrimitives.of(registrar.primitives, placed)
+        for axes, (seen, turn) in zip(grid[:, column], VIEWS.items(), strict=True):
+            x, y, _ = turn @ (skin - skin.mean(axis=0)).T
+            across = np.arange(-0.4, 0.4, 0.005) + 0.5 * float(x.min() + x.max())
+            centres = (drawn.centres - skin.mean(axis=0)) @ turn.T
+            turned = replace(drawn, centres=centres, axes=turn @ drawn.axes)
+            middle = down + 0.5 * float(y.min() + y.max())
+            density = projected(turned, across, middle)
+            extent = (across[0], across[-1], middle[-1], middle[0])
+            axes.imshow(density, cmap="cividis", extent=extent, interpolation="bilinear")
+            axes.scatter(x, y, s=0.3, color="white", alpha=0.35, linewidths=0)
+            axes.set_title(title if axes is grid[0, column] else "", fontsize=8)
+            axes.set_ylabel(seen if column == 0 else "", fontsize=8)
+            axes.set_xticks([])
+            axes.set_yticks([])
+    _save("tuned_densities", figure)
+    path = DOCS / "images" / "tuned_densities.png"
+    Image.open(path).convert("RGB").quantize(128).save(path, optimize=True)
+
+
+def tuning_curve() -> None:
+    """Error against number of primitives and time, from the figures of ``benchmarks/tuning.py``."""
+    shapes = json.loads((DOCS / "images" / "tuning_curve.json").read_text())["shapes"]
+    curves: dict[str, list[dict[str, float]]] = {}
+    for shape in shapes:
+        people, like = shape["people"], shape["smmc_like"]
+        curves.setdefault(shape["curve"], []).append({
+            "number of primitives": shape["primitives"],
+            "time per frame [ms]": shape["ms"],
+            "raw": (13 * people[0] + 28 * like[0]) / 41,
+            "adjusted": (13 * people[1] + 28 * like[1]) / 41,
+        })  # fmt: skip
+    figure = Figure(figsize=(8.0, 3.6), layout="constrained")
+    for axes, across in zip(
+        figure.subplots(1, 2, sharey=True), ("number of primitives", "time per frame [ms]"),
+        strict=True,
+    ):  # fmt: skip
+        for number, (name, points) in enumerate(curves.items()):
+            x = [point[across] for point in points]
+            colour = f"C{number}"
+            axes.plot(x, [one["raw"] for one in points], "o-", color=colour, label=name)
+            axes.plot(x, [one["adjusted"] for one in points], "o--", color=colour, markersize=3)
+        axes.set_xlabel(across)
+        axes.set_ylim(bottom=0.0)
+        axes.grid(alpha=0.3)
+    axes.legend(fontsize=8, title="solid: raw, dashed: adjusted", title_fontsize=8)
+    figure.axes[0].set_ylabel("mean error of 41 recordings [cm]")
+    _save("tuning_curve", figure)
+
+
 def _save(name: str, figure: Figure) -> None:
     figure.savefig(DOCS / "images" / f"{name}.png", dpi=100, metadata={"Software": None})
     print(f"docs/images/{name}.png")
@@ -139,3 +217,5 @@ if __name__ == "__main__":
     clouds()
     room()
     rooms()
+    tuned_densities()
+    tuning_curve()

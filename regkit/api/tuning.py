@@ -42,6 +42,7 @@ class Tuned(Summary):
         key: Key of the tuned list in its ``shapes``: ``KIND`` or ``KIND/NAME``.
         steps: Costs of each step; the first is the start.
         comparisons: Errors before and after, in trials whose samples were not seen in tuning.
+        failures: Why samples could not be rendered, in whose place there are others.
     """
 
     description: BodyDescription
@@ -50,6 +51,7 @@ class Tuned(Summary):
     key: str
     steps: tuple[Step, ...]
     comparisons: tuple[Comparison, ...]
+    failures: tuple[str, ...] = ()
 
     @property
     def worse(self) -> tuple[str, ...]:
@@ -211,6 +213,7 @@ def tuned_as(chosen: TuningChoices, method: str, jobs: int, tell: Callable[[Step
         key=found.key,
         steps=found.steps,
         comparisons=found.comparisons,
+        failures=found.failures,
     )
 
 

@@ -142,6 +142,9 @@ def tune(
         chosen = TuningChoices.of(given, places)
         called = method_name(given["method"] or Method.default())
         found = tuned_as(chosen, called, jobs or min(os.cpu_count() or 1, MOST_JOBS), _Steps())
+    if found.failures:
+        count, reason = len(found.failures), escape(found.failures[-1])
+        errors.print(f"{count} samples could not be rendered, others took their place: {reason}")
     output.print(_table(found.comparisons))
     found.check()
     found.write(out)

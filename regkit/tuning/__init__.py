@@ -3,7 +3,7 @@
 ``regkit.tune`` is the way in; the parts:
 
 - ``samples``: frames of a body in random motion, with its true poses, from a seed and an index.
-- ``sets``, ``bodies``: the samples for training, for stopping early, and for trials.
+- ``sample_set``, ``sets``, ``bodies``: those for training, for stopping early, and for trials.
 - ``layout``: how many primitives stand for a body, and where.
 - ``tunable``, ``ties``: the free parameters, of which those of both sides of a body are one.
 - ``rollouts``, ``sensitivity``: where a tracker ends, and how that moves with the parameters.
@@ -12,9 +12,9 @@
 - ``tuning``: all of it.
 """
 
-from regkit.tuning.crew import SampleSet
 from regkit.tuning.descent import Step
 from regkit.tuning.layout import divided, one_per_capsule
+from regkit.tuning.sample_set import SampleSet
 from regkit.tuning.samples import Sample, Sampler, Views
 from regkit.tuning.sets import SampleSets
 from regkit.tuning.trials import Comparison, Errors

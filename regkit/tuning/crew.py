@@ -14,7 +14,7 @@ from regkit.body import ListedShape, ShapeParameters
 from regkit.system.arrays import Array
 from regkit.system.optional import one_thread
 from regkit.tuning.rollouts import NormalEquations, Rollouts, errors_of
-from regkit.tuning.samples import Sample, Sampler
+from regkit.tuning.sample_set import SampleSet, Share
 from regkit.tuning.tunable import Tunable
 from regkit.tuning.workers import OtherProcess, ThisProcess, Worker
 
@@ -27,47 +27,6 @@ class _Kept(local):
 
 
 _KEPT = _Kept()
-
-
-@dataclass(frozen=True)
-class SampleSet:
-    """A set of samples.
-
-    Attributes:
-        name: Its name.
-        samplers: Sources of the samples, in turn.
-        count: Number of samples.
-    """
-
-    name: str
-    samplers: tuple[Sampler, ...]
-    count: int
-
-
-@dataclass(frozen=True)
-class Share:
-    """The samples of a set that one worker has.
-
-    Attributes:
-        whole: The set.
-        first: Number of its first sample.
-        every: Number of workers.
-    """
-
-    whole: SampleSet
-    first: int
-    every: int
-
-    def samples(self) -> Iterator[Sample]:
-        """Renders the samples.
-
-        Raises:
-            RegkitError: If a sample cannot be rendered.
-        """
-        samplers = self.whole.samplers
-        count = len(samplers)
-        for number in range(self.first, self.whole.count, self.every):
-            yield samplers[number % count].sample(number // count)
 
 
 @dataclass(frozen=True)
@@ -84,15 +43,19 @@ class Crew:
     workers: Sequence[Worker]
     sets: Mapping[str, SampleSet]
 
-    def render(self) -> None:
+    def render(self) -> list[str]:
         """Renders the sets that are kept.
 
+        Returns:
+            Why samples could not be rendered, in whose place there are others.
+
         Raises:
-            RegkitError: If a sample cannot be rendered.
+            RegkitError: If too many samples in succession cannot be rendered.
         """
         # One task renders all: a process whose memory grows after its first task is replaced.
         shares = zip(*(self._shares(one) for one in self.sets.values()), strict=True)
-        self._each(_render, [(self.tunable, own) for own in shares])
+        failures = self._each(_render, [(self.tunable, own) for own in shares])
+        return [reason for own in failures for reason in own]
 
     def errors(self, name: str, parameters: Array) -> Array:
         """Returns the errors of ``Rollouts.errors`` for a kept set, in its order."""
@@ -113,14 +76,21 @@ class Crew:
         total: NormalEquations = sum(others, first)
         return total
 
-    def tried(self, trial: SampleSet, each: Sequence[ListedShape[ShapeParameters]]) -> list[Array]:
+    def tried(
+        self, trial: SampleSet, each: Sequence[ListedShape[ShapeParameters]]
+    ) -> tuple[list[Array], list[str]]:
         """Returns the errors of several lists of primitives on a set that is not kept.
 
+        Returns:
+            The errors of each list, and why samples could not be rendered, as in ``render``.
+
         Raises:
-            RegkitError: If a sample cannot be rendered.
+            RegkitError: If too many samples in succession cannot be rendered.
         """
-        parts = self._each(_tried, [(self.tunable, own, each) for own in self._shares(trial)])
-        return [self._joined(of_one) for of_one in zip(*parts, strict=True)]
+        found = self._each(_tried, [(self.tunable, own, each) for own in self._shares(trial)])
+        parts = [errors for errors, _ in found]
+        failures = [reason for _, own in found for reason in own]
+        return [self._joined(of_one) for of_one in zip(*parts, strict=True)], failures
 
     def _shares(self, one: SampleSet) -> list[Share]:
         return [Share(one, first, len(self.workers)) for first in range(len(self.workers))]
@@ -162,10 +132,12 @@ def crew(tunable: Tunable, sets: Sequence[SampleSet], jobs: int) -> Iterator[Cre
             worker.end()
 
 
-def _render(tunable: Tunable, shares: Sequence[Share]) -> None:
+def _render(tunable: Tunable, shares: Sequence[Share]) -> list[str]:
     """Runs on a worker: renders its shares."""
+    failures: list[str] = []
     for share in shares:
-        _KEPT.sets[share.whole.name] = Rollouts(tunable, list(share.samples()))
+        _KEPT.sets[share.whole.name] = Rollouts(tunable, list(share.samples(failures)))
+    return failures
 
 
 def _kept(tunable: Tunable, share: Share) -> Rollouts:
@@ -185,6 +157,7 @@ def _normal_equations(tunable: Tunable, share: Share, parameters: Array) -> list
 
 def _tried(
     tunable: Tunable, share: Share, each: Sequence[ListedShape[ShapeParameters]]
-) -> list[Array]:
+) -> tuple[list[Array], list[str]]:
     # A process whose memory grows is replaced, so that no sample is kept.
-    return errors_of(tunable, share.samples(), each)
+    failures: list[str] = []
+    return errors_of(tunable, share.samples(failures), each), failures

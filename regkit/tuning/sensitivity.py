@@ -1,9 +1,9 @@
 """How the end of a registration moves with the shape: the implicit function theorem.
 
 A tracker ends where F(x, p) = 0: the gradient of the frame's energy, everything bound at the pose x
-itself, for shape parameters p. So dx/dp = -(dF/dx)^-1 dF/dp. Both derivatives are central
-differences of the exact gradient of the whole problem, bound anew for each: weights of visibility
-and mixture move with the pose and the shape, as they do in the tracker.
+itself, for shape parameters p. So dx/dp = -(dF/dx)^-1 dF/dp. Both derivatives are differences
+(central ones of poses) of the exact gradient of the whole problem, bound anew for each: weights of
+visibility and mixture move with the pose and the shape, as they do in the tracker.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ FLOOR = 0.012
 
 def sensitivity(
     registrar: Registrar,
-    varied: Sequence[tuple[Registrar, Registrar]],
+    varied: Sequence[Registrar],
     by: float,
     observation: Observation,
     pose: Pose,
@@ -49,8 +49,8 @@ def sensitivity(
 
     Args:
         registrar: The method on the body.
-        varied: The method with each shape parameter increased and decreased, (F,).
-        by: By how much they are varied.
+        varied: The method with each shape parameter increased, (F,).
+        by: By how much they are increased.
         observation: The frame's data.
         pose: The pose in which the registration has ended.
         markers: Indices of the body's markers, (M,).
@@ -76,9 +76,7 @@ def sensitivity(
         ahead, behind = coordinates.pose(step * scale), coordinates.pose(-step * scale)
         change = gradient(registrar, ahead) - gradient(registrar, behind)
         curvature[:, index] = change / (2.0 * TURN)
-    forces = np.array([
-        (gradient(more, pose) - gradient(less, pose)) / (2.0 * by) for more, less in varied
-    ]).T  # fmt: skip
+    forces = np.array([(gradient(more, pose) - own) / by for more in varied]).T
     push = PUSH * own / max(float(np.linalg.norm(own)), 1e-300)
     free = _directions(skeleton.violations(coordinates.pose(-push * scale)), steps)
     left, values, right = np.linalg.svd(free.T @ curvature @ free)

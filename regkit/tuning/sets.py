@@ -16,7 +16,7 @@ from regkit.sensors import CameraChoice
 from regkit.sensors.noise import NoiseChoice
 from regkit.system.errors import ConfigError
 from regkit.tuning.bodies import other_body
-from regkit.tuning.crew import SampleSet
+from regkit.tuning.sample_set import SampleSet
 from regkit.tuning.samples import Sampler
 from regkit.tuning.samples.views import Views
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -60,11 +59,6 @@ class Tunable:
         shapes = {**self.body.shapes, self.key: primitives}
         return self.method.bind(replace(self.body, shapes=shapes))
 
-    def varied(self, parameters: Array, by: float) -> Sequence[tuple[Registrar, Registrar]]:
-        """Returns, for each independent parameter, the method with it increased and decreased."""
-        pairs = []
-        for index in range(len(parameters)):
-            step = np.zeros(len(parameters))
-            step[index] = by
-            pairs.append((self.registrar(parameters + step), self.registrar(parameters - step)))
-        return pairs
+    def varied(self, parameters: Array, by: float) -> list[Registrar]:
+        """Returns, for each independent parameter, the method with it increased."""
+        return [self.registrar(parameters + step) for step in by * np.eye(len(parameters))]

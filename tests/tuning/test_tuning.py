@@ -8,10 +8,13 @@ import pytest
 from few_samples import make_few
 
 import regkit
-from regkit.body import BodyDescription
+from regkit.body import BodyDescription, GaussianParameters
 from regkit.body.template_file import write_template
 from regkit.config.document import Document
 from regkit.interfaces import Method, Template
+from regkit.system.errors import ConfigError, DataError
+from regkit.tuning import Sampler, one_per_capsule
+from regkit.tuning.descent import Descent
 from regkit.tuning.trials import Comparison
 
 SPHERES = "spheres"
@@ -76,6 +79,42 @@ def test_result_is_compared_with_what_the_template_had_whatever_tuning_starts_fr
 ):
     found = regkit.tune(displaced_kite, primitives=3, **FEW)
     assert [one.before for one in found.comparisons] == [one.before for one in tuned.comparisons]
+
+
+def test_as_many_primitives_as_capsules_begin_as_one_for_each(kite, monkeypatch):
+    monkeypatch.setattr(Descent, "found", lambda self, _: self.crew.tunable.start())
+    found = regkit.tune(kite, primitives=3, **FEW)
+    body = found.description.body("kite", found.description.size.value)
+    begun = one_per_capsule(body, GaussianParameters)
+    assert set(begun) == set(found.description.shapes["gsog"])
+    for name, own in begun.items():
+        for one, other in zip(own, found.description.shapes["gsog"][name], strict=True):
+            for expected, got in zip(one.moments(), other.moments(), strict=True):
+                np.testing.assert_allclose(got, expected, atol=1e-9)
+
+
+def test_sample_that_cannot_be_rendered_is_replaced_and_told(kite, monkeypatch):
+    rendered = Sampler.sample
+
+    def failing(self, index):
+        if index == 1:
+            raise ConfigError("it intersects itself")
+        return rendered(self, index)
+
+    monkeypatch.setattr(Sampler, "sample", failing)
+    monkeypatch.setattr(Descent, "found", lambda self, _: self.crew.tunable.start())
+    found = regkit.tune(kite, **FEW)
+    assert set(found.failures) == {"it intersects itself"}
+    assert [one.samples for one in found.comparisons[:1]] == [8]
+
+
+def test_samples_that_all_fail_end_tuning(kite, monkeypatch):
+    def failing(self, index):
+        raise DataError(f"nothing to see in {index}")
+
+    monkeypatch.setattr(Sampler, "sample", failing)
+    with pytest.raises(DataError, match="nothing to see"):
+        regkit.tune(kite, **FEW)
 
 
 def test_displaced_gaussians_become_better_on_samples_that_are_not_seen(tuned):

