@@ -3,8 +3,10 @@
 from regkit.geometry.camera import Camera
 from regkit.observation.frame import Frame
 from regkit.observation.observation import Observation
+from regkit.observation.sight import Sight
 from regkit.observation.silhouette import Silhouette
 from regkit.observation.timed_frame import TimedFrame
 from regkit.observation.truth import Truth
+from regkit.observation.view import View
 
-__all__ = ["Camera", "Frame", "Observation", "Silhouette", "TimedFrame", "Truth"]
+__all__ = ["Camera", "Frame", "Observation", "Sight", "Silhouette", "TimedFrame", "Truth", "View"]

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+import numpy as np
+
 from regkit.geometry.camera import Camera
+from regkit.geometry.rigid import transformed
 from regkit.observation.arrays import ObservationArrays
+from regkit.observation.sight import SharedSight, Sight
 from regkit.observation.silhouette import Silhouette
+from regkit.observation.view import View, only_view
 from regkit.system.arrays import Array
 from regkit.system.brief import Brief
 from regkit.system.errors import DataError
@@ -16,6 +22,9 @@ from regkit.system.errors import DataError
 @dataclass(frozen=True)
 class Observation(Brief):
     """Data as a sum of N isotropic Gaussians, eq. 2.
+
+    Data of several cameras have ``views``; their points, weights, variances and normals are those
+    of all views in the world, and ``camera`` and ``depth`` are None: no single camera sees them.
 
     Attributes:
         points: Means in the camera frame, (N, 3) [m].
@@ -26,6 +35,7 @@ class Observation(Brief):
         depth: Depth image of the points, (H, W) [m]; None if there is none. As in a ``Frame``, zero
             marks free space and NaN an unknown pixel.
         normals: Unit normals of arbitrary sign at the points, (N, 3); None if unknown.
+        views: What each of several cameras measured; empty for one camera at the origin.
 
     Raises:
         DataError: If there is no point, or the arrays differ in length.
@@ -37,6 +47,44 @@ class Observation(Brief):
     camera: Camera | None = None
     depth: Array | None = None
     normals: Array | None = None
+    views: tuple[View[Observation], ...] = ()
+
+    @classmethod
+    def of_views(cls, views: Sequence[View[Observation]]) -> Observation:
+        """Returns the data of several cameras in the world.
+
+        Args:
+            views: What each camera measured, at least one.
+
+        Raises:
+            DataError: If there is no view.
+        """
+        if not views:
+            raise DataError("no camera has data; a registration needs some")
+        data = [view.data for view in views]
+        known = [one.normals for one in data if one.normals is not None]
+        turned = [
+            normals @ view.T_world_camera[:3, :3].T
+            for view, normals in zip(views, known, strict=False)
+        ]
+        return cls(
+            np.concatenate([transformed(one.T_world_camera, one.data.points) for one in views]),
+            np.concatenate([one.weights for one in data]),
+            np.concatenate([one.variances for one in data]),
+            normals=np.concatenate(turned) if len(known) == len(views) else None,
+            views=tuple(views),
+        )
+
+    @property
+    def each_view(self) -> tuple[View[Observation], ...]:
+        """The views; of one camera at the origin, these data as its view."""
+        return self.views or (only_view(self),)
+
+    def seen_from(self, view: View[Observation]) -> Observation:
+        """Returns the data with the camera of one of the views as the world's origin."""
+        if not self.views:
+            return self
+        return Observation.of_views([one.moved(view.to_camera) for one in self.views])
 
     def __post_init__(self) -> None:
         """Validates the arrays.
@@ -60,6 +108,15 @@ class Observation(Brief):
         if self.camera is None or self.depth is None:
             return None
         return Silhouette(self.camera, self.depth)
+
+    @cached_property
+    def sight(self) -> Sight | None:
+        """What the cameras would show; None if everything is seen, as without a depth image."""
+        if not self.views:
+            return self.silhouette
+        known = [(one.to_camera, one.data.silhouette) for one in self.views]
+        shown = [(camera, silhouette) for camera, silhouette in known if silhouette is not None]
+        return SharedSight(shown) if len(shown) == len(known) else None
 
     @cached_property
     def arrays(self) -> ObservationArrays | None:

@@ -55,9 +55,7 @@ class LimbRecovery:
         """Returns the best registration after searching all limbs in turn."""
         best, evaluation = found, None
         for search in self.searches:
-            starts = search.starts(
-                observation.points, best.pose, self.starts, observation.silhouette
-            )
+            starts = search.starts(observation.points, best.pose, self.starts, observation.sight)
             for start in starts:
                 if evaluation is None:
                     evaluation = self.registrar.evaluate(observation, best.pose)

@@ -62,7 +62,7 @@ class Finalist:
         """Returns what was registered as it is; the arguments are those of ``of``."""
         body = limbs.registrar.body
         energy = limbs.registrar.evaluate(observation, found.pose).energy
-        fit = BodyFit.of(body, found.pose, observation.points, observation.silhouette)
+        fit = BodyFit.of(body, found.pose, observation.points, observation.sight)
         unusual = float(np.log(body.size / usual) ** 2)
         return cls(body, found, energy, fit.misfit + unusual)
 

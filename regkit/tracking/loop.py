@@ -113,7 +113,9 @@ class Follower:
         begun = time.perf_counter()
         try:
             expected = Expected.of(self._registrar.body, self._past)
-            observation = self._preprocessor.preprocess(segmented(self._segmenter, frame, expected))
+            observation = self._preprocessor.observation(
+                segmented(self._segmenter, frame, expected)
+            )
         except NoDataError as error:
             seconds = time.perf_counter() - begun
             return TrackedFrame(None, self._past.last.without_data(error.message), seconds, seconds)

@@ -168,7 +168,7 @@ class Session:
         self, index: int, frame: Frame, expected: Expected | None = None
     ) -> Observation:
         try:
-            return self.observes.preprocess(segmented(self.segmenter, frame, expected))
+            return self.observes.observation(segmented(self.segmenter, frame, expected))
         except RegkitError as error:
             raise error.at(frame.place or f"{self.recording.name}: frame {index}") from None
 

@@ -137,7 +137,7 @@ class Search:
         """
         # A body that no border cuts off is in the picture as a whole: feet beyond it are missing.
         cut = Pictures.of(observation, self._usual).cut
-        scan = Scan(observation.points, observation.silhouette if cut else None)
+        scan = Scan(observation.points, observation.sight if cut else None)
         bests = {one.body.size: one for one in reversed(finalists)}
         fits = [fit(scan, one.body, one.pose, self._usual) for one in bests.values()]
         best = resized(scan, self.template, min(fits, key=_misfit), self._sizes)
