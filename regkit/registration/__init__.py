@@ -10,7 +10,7 @@ from regkit.registration.quaternions import QuaternionCoordinates
 from regkit.registration.residuals import Residuals, ResidualSimilarity
 from regkit.registration.robust import Loss, Robust
 from regkit.registration.tangent import TangentCoordinates
-from regkit.registration.views import ViewEnergy, ViewsEnergy, seen_pose
+from regkit.registration.views import ViewEnergy, ViewsEnergy
 
 __all__ = [
     "COORDINATES",
@@ -31,5 +31,4 @@ __all__ = [
     "TangentCoordinates",
     "ViewEnergy",
     "ViewsEnergy",
-    "seen_pose",
 ]

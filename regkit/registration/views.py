@@ -15,16 +15,6 @@ from regkit.skeleton import Pose, Skeleton
 from regkit.system.arrays import Array
 
 
-def seen_pose(T_camera_world: Array, pose: Pose) -> Pose:
-    """Returns a pose in the world as a camera sees it: with T_camera_root in place of T_world_root.
-
-    Args:
-        T_camera_world: Inverse of the camera's pose, (4, 4) [m].
-        pose: The pose.
-    """
-    return Pose(T_camera_world @ pose.root, pose.balls, pose.hinges)
-
-
 @dataclass(frozen=True, eq=False)
 class ViewEnergy:
     """The energy of one view.
@@ -41,7 +31,7 @@ class ViewEnergy:
 
     def seen(self, pose: Pose) -> Pose:
         """Returns a pose in the world as the camera sees it."""
-        return seen_pose(self.T_camera_world, pose)
+        return pose.moved(self.T_camera_world)
 
 
 @dataclass(frozen=True, eq=False)

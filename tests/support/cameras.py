@@ -7,7 +7,6 @@ from regkit.geometry.camera import Camera
 from regkit.geometry.rigid import inverse, rigid
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.observation import Frame, View
-from regkit.skeleton import Pose
 
 CAMERA = Camera(88, 72, 90.0, 90.0, 44.0, 36.0)
 
@@ -27,8 +26,7 @@ def around(middle, angle):
 
 def view_of(body, pose, T_world_camera, name="camera", camera=CAMERA):
     """The exact depth image of a body in the world."""
-    seen = Pose(inverse(T_world_camera) @ pose.root, pose.balls, pose.hinges)
-    depth = depth_image(body, seen, camera)
+    depth = depth_image(body, pose.moved(inverse(T_world_camera)), camera)
     depth = np.where(np.isfinite(depth), depth, 0.0)
     frame = Frame(camera.back_projected(depth), camera, depth)
     return View(name, T_world_camera, frame)

@@ -15,7 +15,6 @@ from regkit.registration import (
     PlannedJoints,
     ViewEnergy,
     ViewsEnergy,
-    seen_pose,
 )
 from regkit.skeleton import Pose
 
@@ -64,7 +63,7 @@ def _of_views(
     total, views = float(observation.weights.sum()), []
     joints: tuple[JointEnergy, ...] | None = None
     for view in observation.views:
-        at, expected = (seen_pose(view.to_camera, one) for one in (pose, prior))
+        at, expected = (one.moved(view.to_camera) for one in (pose, prior))
         planned = plan and PlannedEnergy.of(plan.of_view, view.data, [at], expected, smoothing)
         energy: FrameEnergy
         if plan is not None and planned:
