@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 
-import numpy as np
-
 from regkit.config.plugin import Plugin
 from regkit.observation import Frame, Observation, View
 from regkit.system.errors import NoDataError
@@ -28,7 +26,7 @@ class Preprocessor(Plugin, ABC):
     def observation(self, frame: Frame) -> Observation:
         """Returns the data of a frame of any number of cameras, each preprocessed by itself.
 
-        A camera that shows too few points is left out; one at the origin alone needs no view.
+        A camera that shows too few points is left out.
 
         Raises:
             DataError: If all cameras show too few points, or one has points that are not finite.
@@ -46,6 +44,4 @@ class Preprocessor(Plugin, ABC):
                 views.append(View(view.name, view.T_world_camera, data))
         if lacking is not None and not views:
             raise lacking
-        if len(views) == 1 and np.array_equal(views[0].T_world_camera, np.eye(4)):
-            return views[0].data
         return Observation.of_views(views)

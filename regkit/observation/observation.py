@@ -53,6 +53,8 @@ class Observation(Brief):
     def of_views(cls, views: Sequence[View[Observation]]) -> Observation:
         """Returns the data of several cameras in the world.
 
+        Those of one camera at the origin are these data themselves.
+
         Args:
             views: What each camera measured, at least one.
 
@@ -61,6 +63,8 @@ class Observation(Brief):
         """
         if not views:
             raise DataError("no camera has data; a registration needs some")
+        if len(views) == 1 and np.array_equal(views[0].T_world_camera, np.eye(4)):
+            return views[0].data
         data = [view.data for view in views]
         known = [one.normals for one in data if one.normals is not None]
         turned = [

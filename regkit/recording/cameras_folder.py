@@ -99,7 +99,11 @@ class CamerasFolder:
         Raises:
             RegkitError: If the description is invalid, or a camera's folder is damaged.
         """
-        described = Cameras.read(folder)
+        return cls.of(folder, Cameras.read(folder), frames)
+
+    @classmethod
+    def of(cls, folder: Path, described: Cameras, frames: int | None = None) -> CamerasFolder:
+        """Matches the frames of described cameras; the arguments are those of ``read``."""
         shared = None
         if (folder / DESCRIPTION).is_file():
             shared = RecordingDescription.read(folder)

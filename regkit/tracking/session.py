@@ -26,6 +26,7 @@ from regkit.observation import Frame, Observation
 from regkit.skeleton import Pose
 from regkit.system.errors import ConfigError, NoBodyError, NoDataError, RegkitError
 from regkit.system.notes import note
+from regkit.tracking.clocks import ClockWatch
 from regkit.tracking.extent import check_extent, check_unit, tell_bound
 from regkit.tracking.loop import Follower, TrackedFrame, tracked
 from regkit.tracking.segmented import segmented
@@ -112,7 +113,10 @@ class Session:
             tracker: Tracker that predicts the next pose.
             pose: Pose of the body in the first frame.
         """
-        return Follower(self.segmenter, self.observes, registrar, tracker, pose)
+        recording, clocks = self.recording, None
+        if recording.cameras():
+            clocks = ClockWatch(registrar, recording.fps, recording.name)
+        return Follower(self.segmenter, self.observes, registrar, tracker, pose, clocks)
 
     def tracked(self, registrar: Registrar, tracker: Tracker, pose: Pose) -> Iterator[TrackedFrame]:
         """Yields the recording's frames, tracked one by one from a pose.

@@ -31,7 +31,7 @@ from regkit.registration import (
 )
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
-from regkit.system.errors import DataError, PluginError
+from regkit.system.errors import ConfigError, DataError, PluginError
 from regkit_plugins.methods.direct.views import best_in_views
 
 if TYPE_CHECKING:
@@ -150,6 +150,19 @@ class BoundDirect(Registrar):
         """Returns the derivative of the energy to a step of ``Skeleton.retract``, (n,)."""
         energy, _ = self._best(observation, [pose], pose, 0.0, self.derivatives)
         return energy.force(pose)
+
+    def normal_equations(self, observation: Observation, pose: Pose) -> tuple[float, Array, Array]:
+        """Returns the energy, its derivative (n,) and the Gauss-Newton matrix (n, n).
+
+        Raises:
+            ConfigError: If the kernel or a term has no curvature.
+        """
+        energy, _ = self._best(observation, [pose], pose, 0.0, self.derivatives)
+        value, force, matrix = energy.derivatives(pose, 2)
+        if matrix is None:
+            lacking = ", ".join(energy.without_curvature())
+            raise ConfigError(f"this needs curvature, which {lacking} does not provide")
+        return value, force, matrix
 
     def scene(self, observation: Observation, pose: Pose, prior: Pose) -> Scene:
         """Returns the state to which terms are bound."""

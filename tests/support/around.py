@@ -1,4 +1,4 @@
-"""Frames of one body in several cameras."""
+"""Frames of one body in cameras around it."""
 
 import numpy as np
 
