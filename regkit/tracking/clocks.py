@@ -32,6 +32,9 @@ FEWEST, MOST = 12, 24
 RARELY = 10
 """From then on, one frame of so many is compared."""
 
+LONGEST_TRIAL = 60
+"""Largest number of frames that are tracked on trial to compare the clocks."""
+
 MOVING = 0.01
 """Least mean motion of the markers over the compared poses, as a fraction of the body's size."""
 
@@ -63,6 +66,17 @@ class ClockWatch:
         if not kept or len(kept) == len(observation.views):
             return observation
         return Observation.of_views(kept)
+
+    @property
+    def is_decided(self) -> bool:
+        """Whether the clocks were compared in enough frames, or no two are right."""
+        return self._wait > 0
+
+    def restart(self) -> None:
+        """Begins with the first frame again, with what is known of the clocks."""
+        self._last.clear()
+        self._energies.clear()
+        self._wait = RARELY
 
     def pause(self) -> None:
         """Tells that the motion since the last frame is unknown."""
@@ -102,7 +116,7 @@ class ClockWatch:
             found = [half[name] for half in halves]
             if min(found) > SHIFTED or max(found) < -SHIFTED:
                 self._leave_out(name, float(np.mean(found)) / self._fps)
-        if max(counts) >= MOST:
+        if max(counts) >= MOST or len(self._energies) < 2:
             self._energies.clear()
             self._wait = RARELY
 
@@ -112,8 +126,7 @@ class ClockWatch:
         way = "behind" if seconds > 0.0 else "ahead"
         note(
             f"the clock of camera '{name}' is about {1000.0 * abs(seconds):.0f} ms {way}; it is "
-            f"left out from here on (in cameras.json, time_offset_s: {seconds:.3f} would correct "
-            "it)",
+            f"left out (in cameras.json, time_offset_s: {seconds:.3f} would correct it)",
             place=self._place,
         )
 
