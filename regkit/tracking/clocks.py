@@ -57,6 +57,8 @@ class ClockWatch:
         self._last: deque[tuple[Observation, Pose]] = deque(maxlen=len(SPAN))
         self._energies: dict[str, list[Array]] = defaultdict(list)
         self._wait = 0
+        self.is_decided = False
+        """Whether the clocks were compared in enough frames, or no two are right."""
         self.shifts: dict[str, float] = {}
         """How much later than their times the frames of cameras with a wrong clock are [s]."""
 
@@ -67,16 +69,10 @@ class ClockWatch:
             return observation
         return Observation.of_views(kept)
 
-    @property
-    def is_decided(self) -> bool:
-        """Whether the clocks were compared in enough frames, or no two are right."""
-        return self._wait > 0
-
     def restart(self) -> None:
         """Begins with the first frame again, with what is known of the clocks."""
         self._last.clear()
-        self._energies.clear()
-        self._wait = RARELY
+        self._decide()
 
     def pause(self) -> None:
         """Tells that the motion since the last frame is unknown."""
@@ -98,6 +94,7 @@ class ClockWatch:
             seen = [pose.moved(view.to_camera) for pose in poses]
             energies = [self._registrar.evaluate(view.data, one).energy for one in seen]
             self._energies[view.name].append(np.array(energies))
+        self._wait = RARELY - 1 if self.is_decided else 0
         self._judge()
 
     def _moves(self, poses: list[Pose]) -> bool:
@@ -117,8 +114,12 @@ class ClockWatch:
             if min(found) > SHIFTED or max(found) < -SHIFTED:
                 self._leave_out(name, float(np.mean(found)) / self._fps)
         if max(counts) >= MOST or len(self._energies) < 2:
-            self._energies.clear()
-            self._wait = RARELY
+            self._decide()
+
+    def _decide(self) -> None:
+        """Compares the clocks anew, but rarely."""
+        self._energies.clear()
+        self.is_decided, self._wait = True, RARELY
 
     def _leave_out(self, name: str, seconds: float) -> None:
         self.shifts[name] = seconds
