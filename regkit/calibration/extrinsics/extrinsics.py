@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
-from regkit.body import Body, BodyFit
-from regkit.body.verdict import Verdict, frame_verdict
+from regkit.body import Body
 from regkit.calibration.extrinsics.alignment import MotionAlignment, aligned
+from regkit.calibration.extrinsics.found import FoundCameras, judged
 from regkit.calibration.extrinsics.motions import Motion
 from regkit.calibration.extrinsics.paired import FirstFrames, PairedRecording
 from regkit.calibration.extrinsics.refinement import Refinement
@@ -44,32 +43,6 @@ CLOCK = 0.25
 
 VOXEL, SMALLEST_VOXEL = 0.018, 0.004
 """Voxel size as a fraction of the body's size, and its lower bound [m]."""
-
-POOR = 0.6
-"""Cameras are doubtful if the body is surely found in a smaller fraction of the frames."""
-
-
-@dataclass(frozen=True)
-class FoundCameras:
-    """The poses of several cameras, with what supports them.
-
-    Attributes:
-        poses: T_world_camera (4, 4) [m] by the cameras' names.
-        offsets: What is added to the times of each camera's frames [s], by its name.
-        rough: Distance of the markers between each camera alone and the first one [m], by its name.
-        frames: Number of frames in which all were refined.
-        distance: Median distance of the points of these frames to the body [m].
-        verdict: Whether the cameras are found.
-        reason: Why they are not surely found; empty if they are.
-    """
-
-    poses: Mapping[str, Array]
-    offsets: Mapping[str, float]
-    rough: Mapping[str, float]
-    frames: int
-    distance: float
-    verdict: Verdict
-    reason: str = ""
 
 
 class Extrinsics(Model):
@@ -156,7 +129,7 @@ class Extrinsics(Model):
             place, fps, len(instants), each=each, poses=poses, instants=instants
         )
         refinement = self._refined(paired)
-        verdict, reason, distance = _judged(refinement)
+        verdict, reason, distance = judged(refinement)
         final = {
             name: world @ inverse(T_camera_world)
             for name, T_camera_world in refinement.cameras.items()
@@ -252,23 +225,3 @@ def _aligned(
             place=f"camera '{name}'",
         )
     return best
-
-
-def _judged(refinement: Refinement) -> tuple[Verdict, str, float]:
-    """Returns the verdict of the refined cameras, the reason, and the points' distance [m]."""
-    body, verdicts, distances = refinement.registrar.body, [], []
-    for frame, pose in zip(refinement.frames, refinement.poses, strict=True):
-        fit = BodyFit.of(body, pose, frame.points, frame.sight)
-        count = len(frame.points)
-        verdicts.append(
-            frame_verdict(count, fit.inlier_share, fit.coverage, fit.misfit, fit.relief)
-        )
-        distances.append(fit.distance)
-    surely = float(np.mean([one is Verdict.FOUND for one in verdicts]))
-    reasons = []
-    if surely < POOR:
-        reasons.append(f"the body is surely found in {100.0 * surely:.0f} % of the frames only")
-    if not refinement.rested:
-        reasons.append(f"the cameras still move after {refinement.rounds} rounds")
-    verdict = Verdict.DOUBTFUL if reasons else Verdict.FOUND
-    return verdict, "; ".join(reasons), float(np.median(distances))
