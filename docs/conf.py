@@ -86,7 +86,7 @@ nitpick_ignore_regex = [
     # What starts and trackers share inside regkit is no part of its API.
     (r"py:class", r"regkit\.(body\.distance|search)\..*"),
     # So is what tracks a stream, and keeps what was tracked.
-    (r"py:class", r"regkit\.tracking\.(live|recorder|rows)\..*"),
+    (r"py:class", r"regkit\.tracking\.(live|recorder|rows|clocks)\..*"),
     # Tables of fields describe the content of YAML files.
     (r"py:class", r"(regkit\.(body|skeleton)\..*\.)?\w+Description"),
     (r"py:class", r"regkit\.sensors\.noise\..*"),
@@ -96,5 +96,5 @@ nitpick_ignore_regex = [
     (r"py:class", r"regkit\.registration\.constraints\._Rows"),
     (r"py:class", r"regkit\.config\.model\._from_its_folder"),
     (r"py:class", r"regkit\.testing\.conformance\.Conformance"),
-    (r"py:(class|obj)", r"(.*\.)?(P|S|M|T|P_co|S_co)"),
+    (r"py:(class|obj)", r"(.*\.)?(D|P|S|M|T|P_co|S_co)"),
 ]

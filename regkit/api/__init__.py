@@ -15,6 +15,7 @@ from regkit.api.several import track_each
 from regkit.api.sources import open_source
 from regkit.api.tracking import Tracking, TrackingError
 from regkit.api.tuning import Tuned, tune
+from regkit.api.views import frame_of_views
 from regkit.geometry.camera import Camera
 from regkit.observation import Keypoints, Landmarks, Truth
 from regkit.system.errors import RegkitError
@@ -40,6 +41,7 @@ __all__ = [
     "Verdict",
     "align",
     "examples_folder",
+    "frame_of_views",
     "load_frame",
     "load_keypoints",
     "load_recording",

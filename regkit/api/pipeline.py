@@ -141,7 +141,11 @@ def _search(start: Beginning | None, place: str) -> StartSearch | Pose:
 
 
 def preprocessor_for(frame: Frame) -> Preprocessor:
-    """Returns a preprocessor that downsamples to about ``POINTS``, each half a voxel wide."""
-    voxel = voxel_for(frame.points, POINTS)
-    data = Preprocessor.default(voxel=voxel, sigma=WIDTH * (voxel or spacing(frame.points)))
+    """Returns a preprocessor that downsamples to about ``POINTS``, each half a voxel wide.
+
+    Of several cameras, the one with most points has so many.
+    """
+    points = max((view.data.points for view in frame.each_view), key=len)
+    voxel = voxel_for(points, POINTS)
+    data = Preprocessor.default(voxel=voxel, sigma=WIDTH * (voxel or spacing(points)))
     return Preprocessor.parse(data, place=frame.place or "frame", field="preprocessor")

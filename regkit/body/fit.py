@@ -9,7 +9,7 @@ from scipy.spatial import KDTree
 
 from regkit.body.body import Body
 from regkit.clouds.compiled_nearest import nearest_distances
-from regkit.observation.silhouette import Silhouette
+from regkit.observation.sight import Sight
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array, loop_input
 
@@ -51,16 +51,14 @@ class BodyFit:
         return cls(*(5 * [float("nan")]))
 
     @classmethod
-    def of(
-        cls, body: Body, pose: Pose, points: Array, silhouette: Silhouette | None = None
-    ) -> BodyFit:
+    def of(cls, body: Body, pose: Pose, points: Array, sight: Sight | None = None) -> BodyFit:
         """Returns the fit of a body.
 
         Args:
             body: The body.
             pose: Its pose.
             points: The data, (N, 3) [m].
-            silhouette: What the camera shows; None if everything is seen.
+            sight: What the cameras show; None if everything is seen.
         """
         points, transforms = loop_input(points), body.place(pose).transforms
         if len(body.capsules):
@@ -69,8 +67,8 @@ class BodyFit:
             near, axes = body.limb_radius, body.required_axes
             spheres = axes.place(transforms)
             bare = np.maximum(nearest_distances(spheres, points, np.inf) - axes.radii, 0.0)
-            if silhouette is not None:
-                bare = bare[silhouette.observable(spheres, axes.radii + near)]
+            if sight is not None:
+                bare = bare[sight.observable(spheres, axes.radii + near)]
             # A body of which nothing is visible is not in sight.
             bare = bare if len(bare) else np.array([np.inf])
             coverage = float((bare <= near).mean())

@@ -65,8 +65,13 @@ def spread(track: Iterable[TrackedFrame], length: int, count: int) -> Looks:
             best[part] = _Look(Cloud.of(frame.observation), found.pose, found.inlier_share)
     if first is None:
         raise NoDataError("no frame of the recording has data")
-    looks = best.values()
-    return Looks(first, tuple(look.cloud for look in looks), tuple(look.pose for look in looks))
+    # Every camera's view of a frame is a look of its own, in the camera's frame.
+    looks = [
+        (Cloud.of(view.data), look.pose.moved(view.to_camera))
+        for look in best.values()
+        for view in look.cloud.observation.each_view
+    ]
+    return Looks(first, tuple(cloud for cloud, _ in looks), tuple(pose for _, pose in looks))
 
 
 def distances(body: Body, looks: Looks) -> Array:

@@ -60,16 +60,35 @@ def calibrate(
             show_default=False,
         ),
     ] = None,
+    extrinsics: Annotated[
+        bool,
+        typer.Option(
+            "--extrinsics",
+            help="Find the poses of the recording's cameras instead, and write its cameras.json.",
+        ),
+    ] = False,
     out: Annotated[
-        Path, typer.Option(metavar="FILE", help="Template to write; an existing one is replaced.")
-    ] = Path("subject.yaml"),
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help="File to write; an existing one is replaced. (default: subject.yaml, or the "
+            "recording's cameras.json)",
+            show_default=False,
+        ),
+    ] = None,
     recording: Annotated[
         str | None,
         typer.Option(metavar="NAME", help="Name of the recording, if there are several."),
     ] = None,
     frames: Annotated[
-        int, typer.Option(min=1, metavar="N", help="Number of frames, spread over the recording.")
-    ] = 12,
+        int | None,
+        typer.Option(
+            min=1,
+            metavar="N",
+            help="Number of frames, spread over the recording. (default: 12, of cameras 40)",
+            show_default=False,
+        ),
+    ] = None,
     markers: Annotated[
         Path | None,
         typer.Option(
@@ -91,8 +110,21 @@ def calibrate(
     strict: Strict = False,
     plugin: PluginFiles = None,
 ) -> None:
-    """Create a template with the body proportions of the person or hand in a recording."""
+    """Create a template with the body proportions of the person or hand in a recording.
+
+    With ``--extrinsics``: find where several cameras are, from the body that moves before them.
+    """
     run_plugin_files(plugin)
+    if extrinsics:
+        from regkit.cli.calibrate_cameras import calibrate_cameras
+
+        given = {"--recording": recording, "--set": settings}
+        for option in (name for name, value in given.items() if value):
+            raise ConfigError("--extrinsics takes the folder of one recording", place=option)
+        calibrate_cameras(source, template, out, segmentation, frames, strict=strict)
+        return
+    out = out or Path("subject.yaml")
+    frames = frames or 12
     check_replaceable(out)
     found = Source.read(source, template, settings or ())
     if segmentation is not None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -66,7 +67,15 @@ class Lens:
         Raises:
             DataError: If the file is missing, or does not describe such a camera.
         """
-        content = camera_content(path)
+        return cls.described_by(camera_content(path), path)
+
+    @classmethod
+    def described_by(cls, content: dict[str, Any], path: Path) -> Lens:
+        """Returns the camera of a file's content, with the optional field ``distortion``.
+
+        Raises:
+            DataError: If it does not describe such a camera.
+        """
         with reading(path, "a camera file"):
             lens = cls(Camera.described_by(content), distortion_of(content.get("distortion")))
         tell_unread(content, path, besides=("distortion",))

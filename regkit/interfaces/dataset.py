@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import islice
 from pathlib import Path
@@ -49,6 +49,13 @@ class Recording(Brief, ABC):
         Raises:
             RegkitError: If the preparation fails.
         """
+
+    def cameras(self) -> Mapping[str, Recording]:
+        """Returns the recording of each of several cameras by its name, in its own frame.
+
+        Their frames need not be at the same times. The default is none: there is one camera.
+        """
+        return {}
 
     @abstractmethod
     def frames(self) -> Iterator[Frame]:
@@ -136,8 +143,9 @@ class Dataset(Plugin, ABC):
         """Returns data for the dataset of a path.
 
         Args:
-            path: A folder, of clouds if it has ``clouds/``, else of depth images; a file of
-                markers; or a file or folder that a source reads.
+            path: A folder, of clouds if it has ``clouds/``, of several cameras if it has
+                ``cameras.json``, else of depth images; a file of markers; or a file or folder that
+                a source reads.
             fields: Fields of the dataset.
 
         Raises:

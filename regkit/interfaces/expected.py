@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -41,6 +41,16 @@ class Expected(Brief):
         """Returns what the past tells of a body."""
         before = None if past.before is None else past.before.pose
         return cls(body, past.last.pose, before, past.missed)
+
+    def seen_from(self, T_camera_world: Array) -> Expected:
+        """Returns the same in the frame of a camera.
+
+        Args:
+            T_camera_world: Inverse of the camera's pose, (4, 4) [m].
+        """
+        pose = self.pose.moved(T_camera_world)
+        before = None if self.before is None else self.before.moved(T_camera_world)
+        return replace(self, pose=pose, before=before)
 
     @cached_property
     def motion(self) -> float:

@@ -144,3 +144,20 @@ class Registrar(Brief, ABC):
             f"{type(self).__name__} has no energy with a derivative to the pose, by which shapes "
             "are tuned; take a method of the kind that has, such as the default one"
         )
+
+    def normal_equations(self, observation: Observation, pose: Pose) -> tuple[float, Array, Array]:
+        """Returns the energy, its derivative (n,) as ``gradient``, and the curvature (n, n).
+
+        Everything is bound to the frame at this pose.
+
+        Args:
+            observation: The frame's data.
+            pose: The pose.
+
+        Raises:
+            ConfigError: If the method has no energy with a curvature.
+        """
+        raise ConfigError(
+            f"{type(self).__name__} has no energy with a curvature, which this needs; take a "
+            "method of the kind that has, such as the default one"
+        )

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 from regkit.config.plugin import Plugin
 from regkit.interfaces.dataset import Recording
 from regkit.interfaces.expected import Expected
 from regkit.interfaces.template import Template
 from regkit.observation import Frame, Truth
+from regkit.system.errors import ConfigError
 
 
 class BoundSegmenter(ABC):
@@ -71,6 +72,12 @@ def each_body(
     Raises:
         RegkitError: If a frame cannot be read, or the recording does not suit a segmenter.
     """
+    if recording.cameras():
+        raise ConfigError(
+            "several bodies are told apart in the frames of one camera only; track the folder of a "
+            "camera, or one body",
+            place=recording.name,
+        )
     for at, segmenter in enumerate(segmenters):
         before = Chain.of(segmenters[:at], recording, template)
         left = SegmentedRecording.of(recording, before) if at else recording
@@ -96,9 +103,15 @@ class Chain(BoundSegmenter):
     def of(cls, segmenters: Sequence[Segmenter], recording: Recording, template: Template) -> Chain:
         """Binds segmenters to a recording, each to what those before it leave.
 
+        Of several cameras, each has a chain of its own.
+
         Raises:
             RegkitError: If a frame cannot be read, or the recording does not suit a segmenter.
         """
+        cameras = recording.cameras()
+        if cameras and segmenters:
+            each = {name: cls.of(segmenters, one, template) for name, one in cameras.items()}
+            return cls((ViewSegmenter(each),), ("each camera",))
         chain = cls()
         for segmenter in segmenters:
             left = SegmentedRecording.of(recording, chain) if chain.steps else recording
@@ -111,6 +124,8 @@ class Chain(BoundSegmenter):
         for name, step in zip(self.names, self.steps, strict=True):
             if isinstance(step, Chain):
                 yield from step.named_steps()
+            elif isinstance(step, ViewSegmenter) and step.steps:
+                yield from step.steps
             else:
                 yield name, step
 
@@ -119,6 +134,43 @@ class Chain(BoundSegmenter):
         for step in self.steps:
             frame = step.segmented(frame, expected)
         return frame
+
+
+@dataclass(frozen=True)
+class ViewSegmenter(BoundSegmenter):
+    """Segments the view of each camera by what is bound to that camera's own recording.
+
+    A camera of which nothing is left is left out of the frame.
+
+    Attributes:
+        cameras: What is bound to each camera, by its name.
+    """
+
+    cameras: Mapping[str, Chain]
+
+    @property
+    def steps(self) -> list[tuple[str, ViewSegmenter]]:
+        """Names and segmenters of the steps; none if the cameras have different ones."""
+        each = {name: list(chain.named_steps()) for name, chain in self.cameras.items()}
+        names = [[step for step, _ in steps] for steps in each.values()]
+        if any(one != names[0] for one in names):
+            return []
+        return [
+            (step, ViewSegmenter({
+                name: Chain((steps[at][1],), (step,)) for name, steps in each.items()
+            }))
+            for at, step in enumerate(names[0])
+        ]  # fmt: skip
+
+    def segmented(self, frame: Frame, expected: Expected | None) -> Frame:
+        """Returns the frame with the points of each view that may be the body's."""
+        views = []
+        for view in frame.views:
+            seen = None if expected is None else expected.seen_from(view.to_camera)
+            left = self.cameras[view.name].segmented(view.data, seen)
+            if len(left.points):
+                views.append(replace(view, data=left))
+        return Frame.of_views(views, place=frame.place, landmarks=frame.landmarks)
 
 
 @dataclass(frozen=True)

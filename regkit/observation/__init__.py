@@ -5,9 +5,11 @@ from regkit.observation.frame import Frame
 from regkit.observation.keypoints import Keypoints
 from regkit.observation.landmarks import Landmarks
 from regkit.observation.observation import Observation
+from regkit.observation.sight import Sight
 from regkit.observation.silhouette import Silhouette
 from regkit.observation.timed_frame import TimedFrame
 from regkit.observation.truth import Truth
+from regkit.observation.view import View
 
 __all__ = [
     "Camera",
@@ -15,7 +17,9 @@ __all__ = [
     "Keypoints",
     "Landmarks",
     "Observation",
+    "Sight",
     "Silhouette",
     "TimedFrame",
     "Truth",
+    "View",
 ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -10,8 +11,10 @@ from numpy.typing import NDArray
 
 from regkit.geometry.camera import Camera
 from regkit.geometry.lens import Lens
+from regkit.geometry.rigid import transformed
 from regkit.observation.compiled_removal import kept_points, remaining_depth
-from regkit.observation.landmarks import Landmarks
+from regkit.observation.landmarks import Landmarks, surest
+from regkit.observation.view import View, only_view
 from regkit.system.arrays import Array, Indices, loop_input
 from regkit.system.brief import Brief
 
@@ -23,6 +26,9 @@ FARTHEST = 98.0
 class Frame(Brief):
     """One measurement of a recording.
 
+    Several cameras, or one that is not at the world's origin, are its ``views``: then the points
+    are those of all views in the world, and ``camera`` and ``depth`` are None.
+
     Attributes:
         points: Points in the camera frame (x right, y down, z forward), (N, 3) [m].
         camera: Intrinsics, if the points come from a depth image.
@@ -31,6 +37,7 @@ class Frame(Brief):
             else may hide the body there, or a camera in a room measures nothing.
         place: Source of the frame, for error messages.
         landmarks: Measured positions of points of the body; None without any.
+        views: What each of several cameras measured; empty for one camera at the origin.
     """
 
     points: Array
@@ -38,6 +45,33 @@ class Frame(Brief):
     depth: Array | None = None
     place: str | None = None
     landmarks: Landmarks | None = None
+    views: tuple[View[Frame], ...] = ()
+
+    @classmethod
+    def of_views(
+        cls,
+        views: Sequence[View[Frame]],
+        *,
+        place: str | None = None,
+        landmarks: Landmarks | None = None,
+    ) -> Frame:
+        """Returns the frame of several cameras.
+
+        Args:
+            views: What each camera measured.
+            place: Source of the frame, for error messages.
+            landmarks: Landmarks in the world; by default those of the views.
+
+        Raises:
+            DataError: If a view has landmarks in the picture alone.
+        """
+        points = [transformed(view.T_world_camera, view.data.points) for view in views]
+        return cls(
+            np.concatenate([np.zeros((0, 3)), *points]),
+            place=place,
+            landmarks=landmarks or _in_world(views),
+            views=tuple(views),
+        )
 
     @classmethod
     def of_image(cls, depth: Array, lens: Lens, *, place: str | None = None) -> Frame:
@@ -54,6 +88,11 @@ class Frame(Brief):
         rectified = lens.rectified(depth, place=place)
         points = lens.camera.back_projected(rectified, place=place)
         return cls(points, lens.camera, rectified, place)
+
+    @property
+    def each_view(self) -> tuple[View[Frame], ...]:
+        """The views; of one camera at the origin, this frame as its view."""
+        return self.views or (only_view(self),)
 
     @cached_property
     def pixels(self) -> Indices | None:
@@ -76,6 +115,8 @@ class Frame(Brief):
         """
         if kept.all():
             return self
+        if self.views:
+            return self._only_in_views(kept, free)
         left = kept_points(loop_input(self.points), kept)
         if self.depth is None:
             return replace(self, points=left)
@@ -84,3 +125,30 @@ class Frame(Brief):
         free = np.zeros_like(kept) if free is None else free
         depth, of_image = remaining_depth(loop_input(self.depth), kept, free, farthest)
         return replace(self, points=left, depth=depth if of_image else self.depth)
+
+    def _only_in_views(self, kept: NDArray[np.bool_], free: NDArray[np.bool_] | None) -> Frame:
+        ends = np.cumsum([len(view.data.points) for view in self.views])[:-1]
+        masks = np.split(kept, ends)
+        frees = [None] * len(masks) if free is None else np.split(free, ends)
+        return Frame.of_views(
+            [
+                replace(view, data=view.data.only(mask, free=unhidden))
+                for view, mask, unhidden in zip(self.views, masks, frees, strict=True)
+            ],
+            place=self.place,
+            landmarks=self.landmarks,
+        )
+
+
+def _in_world(views: Sequence[View[Frame]]) -> Landmarks | None:
+    """Returns the landmarks of all views in the world; None without any.
+
+    Raises:
+        DataError: If a view has landmarks in the picture alone.
+    """
+    known = [
+        view.data.landmarks.moved(view.T_world_camera)
+        for view in views
+        if view.data.landmarks is not None
+    ]
+    return surest(known) if known else None

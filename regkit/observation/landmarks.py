@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
+from regkit.geometry.rigid import transformed
 from regkit.system.arrays import Array
 from regkit.system.brief import Brief
 from regkit.system.errors import DataError
@@ -74,6 +75,26 @@ class Landmarks(Brief):
         sure = np.ones(len(names)) if confidences is None else confidences
         return cls(names, np.full((len(names), 3), np.nan), pixels, sure)
 
+    def moved(self, T_new_old: Array) -> Landmarks:
+        """Returns the landmarks in another frame, in which no camera is at the origin.
+
+        Args:
+            T_new_old: Pose of this frame in the other one, (4, 4) [m].
+
+        Raises:
+            DataError: If a landmark is known in the picture alone, which says little without its
+                camera.
+        """
+        unknown = np.isnan(self.positions).any(axis=1) & (self.confidences > 0.0)
+        if unknown.any():
+            raise DataError(
+                f"the landmark '{self.names[int(np.flatnonzero(unknown)[0])]}' is known in the "
+                "picture alone; with several cameras, landmarks need positions in space"
+            )
+        return Landmarks.in_space(
+            self.names, transformed(T_new_old, self.positions), self.confidences
+        )
+
     @cached_property
     def rows(self) -> dict[str, int]:
         """Row of each name."""
@@ -82,3 +103,25 @@ class Landmarks(Brief):
     def renamed(self, name: Callable[[str], str]) -> Landmarks:
         """Returns the landmarks by other names."""
         return replace(self, names=tuple(map(name, self.names)))
+
+
+def surest(several: Sequence[Landmarks]) -> Landmarks:
+    """Returns each landmark where it is known with the greatest confidence.
+
+    Args:
+        several: Landmarks of one frame and one body, in the same frame of reference.
+    """
+    best: dict[str, tuple[Landmarks, int]] = {}
+    for found in several:
+        for row, name in enumerate(found.names):
+            if name not in best or found.confidences[row] > _confidence(*best[name]):
+                best[name] = found, row
+    return Landmarks.in_space(
+        tuple(best),
+        np.array([found.positions[row] for found, row in best.values()]).reshape(-1, 3),
+        np.array([_confidence(*one) for one in best.values()]),
+    )
+
+
+def _confidence(found: Landmarks, row: int) -> float:
+    return float(found.confidences[row])

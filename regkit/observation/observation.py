@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 
+import numpy as np
+
 from regkit.geometry.camera import Camera
+from regkit.geometry.rigid import transformed
 from regkit.observation.arrays import ObservationArrays
 from regkit.observation.landmarks import Landmarks
+from regkit.observation.sight import SharedSight, Sight
 from regkit.observation.silhouette import Silhouette
+from regkit.observation.view import View, only_view
 from regkit.system.arrays import Array
 from regkit.system.brief import Brief
 from regkit.system.errors import DataError
@@ -17,6 +23,9 @@ from regkit.system.errors import DataError
 @dataclass(frozen=True)
 class Observation(Brief):
     """Data as a sum of N isotropic Gaussians, eq. 2.
+
+    Data of several cameras have ``views``; their points, weights, variances and normals are those
+    of all views in the world, and ``camera`` and ``depth`` are None: no single camera sees them.
 
     Attributes:
         points: Means in the camera frame, (N, 3) [m].
@@ -28,6 +37,7 @@ class Observation(Brief):
             marks free space and NaN an unknown pixel.
         normals: Unit normals of arbitrary sign at the points, (N, 3); None if unknown.
         landmarks: Measured positions of points of the body; None without any.
+        views: What each of several cameras measured; empty for one camera at the origin.
 
     Raises:
         DataError: If there is no point, or the arrays differ in length.
@@ -40,6 +50,54 @@ class Observation(Brief):
     depth: Array | None = None
     normals: Array | None = None
     landmarks: Landmarks | None = None
+    views: tuple[View[Observation], ...] = ()
+
+    @classmethod
+    def of_views(
+        cls, views: Sequence[View[Observation]], landmarks: Landmarks | None = None
+    ) -> Observation:
+        """Returns the data of several cameras in the world.
+
+        Those of one camera at the origin are these data themselves.
+
+        Args:
+            views: What each camera measured, at least one.
+            landmarks: Landmarks in the world, if there are some.
+
+        Raises:
+            DataError: If there is no view.
+        """
+        if not views:
+            raise DataError("no camera has data; a registration needs some")
+        if len(views) == 1 and np.array_equal(views[0].T_world_camera, np.eye(4)):
+            alone = views[0].data
+            return alone if landmarks is None else replace(alone, landmarks=landmarks)
+        data = [view.data for view in views]
+        known = [one.normals for one in data if one.normals is not None]
+        turned = [
+            normals @ view.T_world_camera[:3, :3].T
+            for view, normals in zip(views, known, strict=False)
+        ]
+        return cls(
+            np.concatenate([transformed(one.T_world_camera, one.data.points) for one in views]),
+            np.concatenate([one.weights for one in data]),
+            np.concatenate([one.variances for one in data]),
+            normals=np.concatenate(turned) if len(known) == len(views) else None,
+            landmarks=landmarks,
+            views=tuple(views),
+        )
+
+    @property
+    def each_view(self) -> tuple[View[Observation], ...]:
+        """The views; of one camera at the origin, these data as its view."""
+        return self.views or (only_view(self),)
+
+    def seen_from(self, view: View[Observation]) -> Observation:
+        """Returns the data with the camera of one of the views as the world's origin."""
+        if not self.views:
+            return self
+        landmarks = None if self.landmarks is None else self.landmarks.moved(view.to_camera)
+        return Observation.of_views([one.moved(view.to_camera) for one in self.views], landmarks)
 
     def __post_init__(self) -> None:
         """Validates the arrays.
@@ -63,6 +121,15 @@ class Observation(Brief):
         if self.camera is None or self.depth is None:
             return None
         return Silhouette(self.camera, self.depth)
+
+    @cached_property
+    def sight(self) -> Sight | None:
+        """What the cameras would show; None if everything is seen, as without a depth image."""
+        if not self.views:
+            return self.silhouette
+        known = [(one.to_camera, one.data.silhouette) for one in self.views]
+        shown = [(camera, silhouette) for camera, silhouette in known if silhouette is not None]
+        return SharedSight(shown) if len(shown) == len(known) else None
 
     @cached_property
     def arrays(self) -> ObservationArrays | None:

@@ -8,6 +8,7 @@ from typing import ClassVar
 
 from regkit.clouds import read_measured
 from regkit.clouds.reading import TEXT
+from regkit.geometry.lens import Lens
 from regkit.observation import Frame
 from regkit.observation.organised import organised_frame
 from regkit.recording.folder import RecordingFolder
@@ -20,7 +21,7 @@ class CloudFolder(RecordingFolder):
     content: ClassVar[str] = "clouds"
     suffixes: ClassVar[tuple[str, ...]] = (".npz", ".pcd", ".ply", *TEXT)
 
-    def measured(self) -> Callable[[int], Frame]:
+    def measured(self, lens: Lens | None = None) -> Callable[[int], Frame]:
         """Returns the function that reads a cloud (x right, y down, z forward)."""
 
         def read(index: int) -> Frame:

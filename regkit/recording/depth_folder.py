@@ -20,13 +20,13 @@ class DepthFolder(RecordingFolder):
     suffixes: ClassVar[tuple[str, ...]] = (".png",)
     beside: ClassVar[tuple[str, ...]] = (*RecordingFolder.beside, "camera.json")
 
-    def measured(self) -> Callable[[int], Frame]:
+    def measured(self, lens: Lens | None = None) -> Callable[[int], Frame]:
         """Returns the function that reads, rectifies and back-projects an image."""
-        lens = Lens.read(self.folder / "camera.json")
+        camera = lens or Lens.read(self.folder / "camera.json")
 
         def read(index: int) -> Frame:
             place = str(self.files[index])
             depth = read_depth(self.files[index]) / self.description.depth_scale
-            return Frame.of_image(depth, lens, place=place)
+            return Frame.of_image(depth, camera, place=place)
 
         return read

@@ -9,6 +9,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import ClassVar, Self
 
+from regkit.geometry.lens import Lens
 from regkit.observation import Frame, Keypoints
 from regkit.recording.description import FILE, RecordingDescription
 from regkit.recording.keypoints import read_keypoints
@@ -38,17 +39,23 @@ class RecordingFolder(ABC):
     files: tuple[Path, ...]
 
     @classmethod
-    def read(cls, folder: Path, frames: int | None = None) -> Self:
+    def read(
+        cls,
+        folder: Path,
+        frames: int | None = None,
+        description: RecordingDescription | None = None,
+    ) -> Self:
         """Reads the description and lists the frames.
 
         Args:
             folder: The recording's folder.
             frames: Maximum number of frames, from the first; all by default.
+            description: The description, by default that in the folder.
 
         Raises:
             RegkitError: If the description is invalid, there is no frame, or one is missing.
         """
-        description = RecordingDescription.read(folder)
+        description = description or RecordingDescription.read(folder)
         files = numbered_files(folder / cls.content, cls.suffixes)[:frames]
         return cls(folder, description, tuple(files))
 
@@ -57,20 +64,26 @@ class RecordingFolder(ABC):
         """Name of the recording."""
         return self.description.name or self.folder.name
 
-    def reader(self) -> Callable[[int], Frame]:
+    def reader(self, lens: Lens | None = None) -> Callable[[int], Frame]:
         """Returns the function that reads the frame of a number, from 0, with its landmarks.
+
+        Args:
+            lens: The camera of images; by default that in the folder.
 
         Raises:
             DataError: If what all frames share is damaged; the function raises it for a frame.
         """
-        read, keypoints = self.measured(), self._keypoints
+        read, keypoints = self.measured(lens), self._keypoints
         if keypoints is None:
             return read
         return lambda number: keypoints.beside(read(number), number)
 
     @abstractmethod
-    def measured(self) -> Callable[[int], Frame]:
+    def measured(self, lens: Lens | None = None) -> Callable[[int], Frame]:
         """Returns the function that reads the frame of a number, from 0, without landmarks.
+
+        Args:
+            lens: As for ``reader``.
 
         Raises:
             DataError: If what all frames share is damaged; the function raises it for a frame.

@@ -6,13 +6,19 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
 
+from regkit.recording.cameras import FILE as CAMERAS
 from regkit.system.errors import DataError, RegkitError
 
 R = TypeVar("R")
 
 
-def recording_folders(root: Path, content: str) -> list[Path]:
+def recording_folders(root: Path, content: str, *, several: bool = False) -> list[Path]:
     """Returns ``root`` if it is a recording, or the recordings in it, with a folder ``content``.
+
+    Args:
+        root: The folder.
+        content: Name of the folder within a recording that holds the frames.
+        several: Whether a recording may have several cameras.
 
     Raises:
         DataError: If there is none.
@@ -23,9 +29,20 @@ def recording_folders(root: Path, content: str) -> list[Path]:
         )
     if not root.is_dir():
         raise DataError("there is no such folder", place=str(root))
+    if (root / CAMERAS).is_file():
+        if several:
+            return [root]
+        raise DataError(
+            "this is a recording of several cameras, which the dataset kind 'depth' reads, with "
+            "their images or clouds",
+            place=str(root),
+        )
     if (root / content).is_dir():
         return [root]
-    folders = sorted(folder.parent for folder in root.glob(f"*/{content}") if folder.is_dir())
+    found = {folder.parent for folder in root.glob(f"*/{content}") if folder.is_dir()}
+    if several:
+        found |= {file.parent for file in root.glob(f"*/{CAMERAS}") if file.is_file()}
+    folders = sorted(found)
     if not folders:
         raise DataError(
             f"no recording here: neither this folder nor one in it contains '{content}/' "
@@ -36,15 +53,22 @@ def recording_folders(root: Path, content: str) -> list[Path]:
 
 
 def recordings_in(
-    root: Path, content: str, read: Callable[[Path], R], wanted: Callable[[str], bool]
+    root: Path,
+    content: str,
+    read: Callable[[Path], R],
+    wanted: Callable[[str], bool],
+    *,
+    several: bool = False,
 ) -> list[R]:
     """Returns the result of ``read`` for each folder; damaged ones matter only if requested.
+
+    The arguments are those of ``recording_folders``.
 
     Raises:
         DataError: If there is none, or a requested one is damaged.
     """
     found = []
-    for folder in recording_folders(root, content):
+    for folder in recording_folders(root, content, several=several):
         try:
             found.append(read(folder))
         except RegkitError:

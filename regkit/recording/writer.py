@@ -77,6 +77,11 @@ class FolderWriter(Closing):
                 before it; or if the folder cannot be written.
         """
         frame = timed.frame
+        if frame.views:
+            raise DataError(
+                "the frame is that of several cameras; record each camera by itself",
+                place=frame.place,
+            )
         if frame.depth is None or frame.camera is None:
             raise DataError(
                 "the frame is a cloud without a depth image; only depth images are recorded",

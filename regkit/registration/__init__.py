@@ -4,12 +4,13 @@ from regkit.registration.charts import COORDINATES, CoordinatesName
 from regkit.registration.coordinates import Coordinates
 from regkit.registration.energy import FrameEnergy, SummedEnergy
 from regkit.registration.plan import Plan
-from regkit.registration.planned_energy import CompiledProblem, PlannedEnergy
+from regkit.registration.planned_energy import CompiledProblem, PlannedEnergy, PlannedJoints
 from regkit.registration.problem import RegistrationProblem
 from regkit.registration.quaternions import QuaternionCoordinates
 from regkit.registration.residuals import Residuals, ResidualSimilarity
 from regkit.registration.robust import Loss, Robust
 from regkit.registration.tangent import TangentCoordinates
+from regkit.registration.views import ViewEnergy, ViewsEnergy
 
 __all__ = [
     "COORDINATES",
@@ -20,6 +21,7 @@ __all__ = [
     "Loss",
     "Plan",
     "PlannedEnergy",
+    "PlannedJoints",
     "QuaternionCoordinates",
     "RegistrationProblem",
     "ResidualSimilarity",
@@ -27,4 +29,6 @@ __all__ = [
     "Robust",
     "SummedEnergy",
     "TangentCoordinates",
+    "ViewEnergy",
+    "ViewsEnergy",
 ]

@@ -115,7 +115,7 @@ def bind_parts(
             BIND(plan.functions[part, 0], scene, plan.numbers[part], table, state)
 
 
-@compiled(python=False)
+@compiled
 def kernel_energy(
     plan: PlanArrays, skeleton: SkeletonArrays, scene: SceneArrays, pose: PoseArrays, states: Matrix
 ) -> float:

@@ -23,8 +23,21 @@ class FrameEnergy(ABC):
     """The kernel and all terms, bound to a frame."""
 
     @abstractmethod
+    def of_kernel(self, pose: Pose) -> float:
+        """Returns the energy of the kernel alone in a pose."""
+
+    @abstractmethod
     def total(self, pose: Pose) -> float:
         """Returns the energy of the kernel and all terms in a pose."""
+
+    @abstractmethod
+    def derivatives(self, pose: Pose, order: int) -> tuple[float, Array, Array | None]:
+        """Returns energy, force (n,) and Gauss-Newton matrix (n, n) of a pose.
+
+        Args:
+            pose: The pose.
+            order: 1 for the force, 2 for the matrix too; it is None if a part has none.
+        """
 
     @abstractmethod
     def inlier_probability(self, pose: Pose) -> Array:
@@ -34,9 +47,13 @@ class FrameEnergy(ABC):
     def problem(self, coordinates: Coordinates, multipliers: Multipliers | None) -> PoseProblem:
         """Returns the registration problem in given coordinates of the pose."""
 
-    @abstractmethod
     def force(self, pose: Pose) -> Array:
         """Returns the derivative of the energy to a step of ``Skeleton.retract``, (n,)."""
+        return self.derivatives(pose, 1)[1]
+
+    def without_curvature(self) -> tuple[str, ...]:
+        """Returns the names of the parts without Gauss-Newton blocks."""
+        return ()
 
 
 @dataclass(frozen=True)
@@ -84,10 +101,16 @@ class SummedEnergy(FrameEnergy):
             multipliers,
         )
 
-    def force(self, pose: Pose) -> Array:
-        """Returns the derivative of the energy to a step of ``Skeleton.retract``, (n,)."""
-        coordinates = TangentCoordinates(self.body.skeleton, pose)
-        return self.problem(coordinates, None).value_and_force(pose)[1]
+    def derivatives(self, pose: Pose, order: int) -> tuple[float, Array, Array | None]:
+        """Returns energy, force (n,) and Gauss-Newton matrix (n, n), up to an order."""
+        problem = self.problem(TangentCoordinates(self.body.skeleton, pose), None)
+        found = problem.value_force_and_matrix(pose) if order == 2 else None
+        return found or (*problem.value_and_force(pose), None)
+
+    def without_curvature(self) -> tuple[str, ...]:
+        """Returns the names of the kernel and terms without Gauss-Newton blocks."""
+        rest = self.body.skeleton.rest()
+        return self.problem(TangentCoordinates(self.body.skeleton, rest), None).without_curvature()
 
     def _placed(self, pose: Pose) -> Placed[Primitives]:
         return self.primitives.place(self.body.place(pose).transforms)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -98,6 +98,18 @@ class Plan:
                 first, end = arrays.table_rows[index], arrays.table_rows[index + 1]
                 table[first:end, : part.table.shape[1]] = own
         return arrays if table is None else arrays._replace(table=table)
+
+    @cached_property
+    def of_view(self) -> Plan:
+        """The plan of a view, without the energies of the joints."""
+        parts = tuple(part for part in self.parts if not isinstance(part, CompiledJoints))
+        return self if len(parts) == len(self.parts) else replace(self, parts=parts)
+
+    @cached_property
+    def of_joints(self) -> Plan | None:
+        """The plan of the energies of the joints alone; None without any."""
+        parts = tuple(part for part in self.parts if isinstance(part, CompiledJoints))
+        return replace(self, parts=parts) if parts else None
 
     @property
     def explains(self) -> bool:

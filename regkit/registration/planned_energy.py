@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from regkit.interfaces import Multipliers
+from regkit.interfaces import JointEnergy, JointResponse, Multipliers
 from regkit.interfaces.compiled import SceneArrays
 from regkit.observation import Observation
 from regkit.registration.compiled_plan import (
@@ -16,6 +16,7 @@ from regkit.registration.compiled_plan import (
     bind_to_best,
     derivatives,
     explained,
+    kernel_energy,
 )
 from regkit.registration.compiled_problem import ProblemArrays
 from regkit.registration.coordinates import Coordinates
@@ -92,6 +93,11 @@ class PlannedEnergy(FrameEnergy):
         )
         return cls(plan, parts, scene, _arrays(prior), states), candidates[best]
 
+    def of_kernel(self, pose: Pose) -> float:
+        """Returns the energy of the kernel alone in a pose."""
+        skeleton = self.plan.body.skeleton.arrays
+        return kernel_energy(self.parts, skeleton, self.scene, _arrays(pose), self.states)
+
     def total(self, pose: Pose) -> float:
         """Returns the energy of the kernel and all terms in a pose."""
         return self.derivatives(pose, 0)[0]
@@ -122,13 +128,42 @@ class PlannedEnergy(FrameEnergy):
         )
         return energy, force, matrix
 
-    def force(self, pose: Pose) -> Array:
-        """Returns the derivative of the energy to a step of ``Skeleton.retract``, (n,)."""
-        return self.derivatives(pose, 1)[1]
-
     def problem(self, coordinates: Coordinates, multipliers: Multipliers | None) -> CompiledProblem:
         """Returns the registration problem in given coordinates of the pose."""
         return CompiledProblem(self, coordinates, multipliers)
+
+
+@dataclass(frozen=True, eq=False)
+class PlannedJoints(JointEnergy):
+    """The energies of the joints in a plan.
+
+    Attributes:
+        energy: The energies, bound to a prior.
+    """
+
+    energy: PlannedEnergy
+
+    @classmethod
+    def of(
+        cls, plan: Plan, observation: Observation, scene: SceneArrays, prior: Pose
+    ) -> tuple[PlannedJoints, ...]:
+        """Returns the energy of the joints; none if the plan has no such part.
+
+        Args:
+            plan: The plan.
+            observation: The frame's data in the world.
+            scene: A scene with the plan's primitives.
+            prior: Pose to which unobserved joints stay close.
+        """
+        joints = plan.of_joints
+        if joints is None:
+            return ()
+        parts = joints.arrays_of(observation)
+        return (cls(PlannedEnergy(joints, parts, scene, _arrays(prior), joints.states())),)
+
+    def __call__(self, pose: Pose) -> JointResponse:
+        """Returns the energy of a pose, its derivative and its curvature."""
+        return JointResponse(*self.energy.derivatives(pose, 2))
 
 
 class CompiledProblem(PoseProblem):

@@ -63,9 +63,7 @@ class LimbRecovery:
         contest = Contest(self.registrar, observation, found, self.gain)
         for search in self.searches:
             pose = contest.best.pose
-            contest.try_all(
-                search.starts(observation.points, pose, self.starts, observation.silhouette)
-            )
+            contest.try_all(search.starts(observation.points, pose, self.starts, observation.sight))
         return contest.best
 
     def corrected(self, observation: Observation, found: RegistrationResult) -> RegistrationResult:

@@ -11,7 +11,7 @@ import numpy as np
 from regkit.body import Body
 from regkit.clouds.compiled_nearest import nearest_distances
 from regkit.geometry.capsules import AxisPoints, Capsules
-from regkit.observation.silhouette import Silhouette
+from regkit.observation.sight import Sight
 from regkit.search.compiled import mean_gaps, unexplained
 from regkit.search.limbs import Limb, limbs_of
 from regkit.skeleton import Placement, Pose
@@ -76,7 +76,7 @@ class LimbSearch:
             yield cls(body, limb, axes, body.capsules.selected(~own), balls, hinges, singles)
 
     def starts(
-        self, points: Array, pose: Pose, most: int, silhouette: Silhouette | None = None
+        self, points: Array, pose: Pose, most: int, sight: Sight | None = None
     ) -> Iterator[Pose]:
         """Yields up to ``most`` poses whose limb best covers what the rest leaves unexplained.
 
@@ -84,7 +84,7 @@ class LimbSearch:
             points: The frame's points, (N, 3) [m].
             pose: Pose of the body, in which the limb is in doubt.
             most: Maximum number of poses.
-            silhouette: What the frame's picture shows: a limb out of the picture is not absent.
+            sight: What the cameras show: a limb out of the picture is not absent.
         """
         points, transforms = loop_input(points), self.body.place(pose).transforms
         rotation, origin = transforms[self.limb.parent, :3, :3], transforms[self.limb.parent, :3, 3]
@@ -94,11 +94,11 @@ class LimbSearch:
             return
         present = self.axes.place(transforms)[None]
         now = self._data_to_model(present.transpose(1, 2, 0), bare)
-        now += self._model_to_data(present, points, silhouette)
+        now += self._model_to_data(present, points, sight)
         uncovered = self._data_to_model(self.places, (bare - origin) @ rotation)
         likely = np.argsort(uncovered)[:LIKELY]
         places = self.places[:, :, likely].transpose(2, 0, 1) @ rotation.T + origin
-        misfits = uncovered[likely] + self._model_to_data(places, points, silhouette)
+        misfits = uncovered[likely] + self._model_to_data(places, points, sight)
         for index in np.argsort(misfits)[:most]:
             if misfits[index] < BETTER * now[0]:
                 chosen = likely[index]
@@ -117,14 +117,14 @@ class LimbSearch:
         )
         return mean_gaps(centres, radii, points, np.float32(self._cutoff))
 
-    def _model_to_data(self, places: Array, points: Array, silhouette: Silhouette | None) -> Array:
+    def _model_to_data(self, places: Array, points: Array, sight: Sight | None) -> Array:
         """Returns the misfit (N,) of the limb's surface (N, P, 3) to the points."""
         spheres = loop_input(places).reshape(-1, 3)
         # Beyond the cutoff from the surface, all distances count alike.
         distances = nearest_distances(spheres, points, 1.5 * self._cutoff)
         gaps = (distances.reshape(places.shape[:2]) - self.axes.radii).clip(0.0, self._cutoff)
-        if silhouette is not None:
-            gaps *= silhouette.observable(spheres).reshape(gaps.shape)
+        if sight is not None:
+            gaps *= sight.observable(spheres).reshape(gaps.shape)
         return np.asarray(gaps.mean(axis=1) / self._cutoff)
 
     @cached_property

@@ -27,6 +27,14 @@ class Pose:
     balls: Array
     hinges: Array
 
+    def moved(self, T_new_world: Array) -> Pose:
+        """Returns the pose in another world, such as the frame of a camera.
+
+        Args:
+            T_new_world: Pose of the world in the new one, (4, 4) [m].
+        """
+        return Pose(T_new_world @ self.root, self.balls, self.hinges)
+
 
 class RootDescription(Model):
     """Position and orientation of the root in the world."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from regkit.interfaces import RegistrationResult
 from regkit.observation import Observation
 from regkit.search.limb_recovery import LimbRecovery
 from regkit.skeleton import Pose
+from regkit.system.arrays import Array
 
 
 @dataclass(frozen=True)
@@ -62,9 +63,17 @@ class Finalist:
         """Returns what was registered as it is; the arguments are those of ``of``."""
         body = limbs.registrar.body
         energy = limbs.registrar.evaluate(observation, found.pose).energy
-        fit = BodyFit.of(body, found.pose, observation.points, observation.silhouette)
+        fit = BodyFit.of(body, found.pose, observation.points, observation.sight)
         unusual = float(np.log(body.size / usual) ** 2)
         return cls(body, found, energy, fit.misfit + unusual)
+
+    def moved(self, T_new_world: Array) -> Finalist:
+        """Returns the same pose in another world.
+
+        Args:
+            T_new_world: Pose of the world in the new one, (4, 4) [m].
+        """
+        return replace(self, result=replace(self.result, pose=self.pose.moved(T_new_world)))
 
     @property
     def pose(self) -> Pose:

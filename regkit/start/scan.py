@@ -8,7 +8,7 @@ import scipy
 from regkit.body import Body
 from regkit.body.distance import SurfaceDistances, data_to_model, model_to_data
 from regkit.observation import Observation
-from regkit.observation.silhouette import Silhouette
+from regkit.observation.sight import Sight
 from regkit.skeleton import Placement
 from regkit.system.arrays import Array
 
@@ -27,20 +27,20 @@ class Scan:
 
     Args:
         points: The cloud, (N, 3) [m].
-        silhouette: What the camera shows; None if everything is seen.
+        sight: What the cameras show; None if everything is seen.
     """
 
-    def __init__(self, points: Array, silhouette: Silhouette | None = None) -> None:
+    def __init__(self, points: Array, sight: Sight | None = None) -> None:
         step = max(1, len(points) // MOST_POINTS)
         self._centre = points.mean(axis=0)
         self._points = points[::step]
         self._tree = scipy.spatial.KDTree(points)
-        self._silhouette = silhouette
+        self._sight = sight
 
     @classmethod
     def of(cls, observation: Observation) -> Scan:
         """Returns the cloud of a frame."""
-        return cls(observation.points, observation.silhouette)
+        return cls(observation.points, observation.sight)
 
     def centres(self, size: float) -> list[Array]:
         """Returns possible centres (3,) of a body of this size [m].
@@ -62,7 +62,7 @@ class Scan:
         """Returns the distances of the data to the body, and of the body to the data."""
         capsules = body.capsules.place(placement.transforms)
         axes = body.required.place(placement.transforms).axis_points(SPACING * body.size)
-        seen = None if self._silhouette is None else self._silhouette.observable(axes.points)
+        seen = None if self._sight is None else self._sight.observable(axes.points)
         return data_to_model(capsules, self._points), model_to_data(axes, self._tree, seen)
 
     def misfit(self, body: Body, placement: Placement, cutoff: float) -> float:

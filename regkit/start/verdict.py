@@ -62,7 +62,7 @@ def judged(
         margin: Cost of the best other pose less that of this one; NaN if there was none.
         doubts: More reasons for doubt.
     """
-    fit = BodyFit.of(body, pose, observation.points, observation.silhouette)
+    fit = BodyFit.of(body, pose, observation.points, observation.sight)
     shares = (fit.inlier_share, fit.coverage, fit.misfit, fit.relief)
     (verdict,) = frame_verdicts(np.ones(1), *(np.array([share]) for share in shares))
     reasons = [*_misfits(fit), *doubts]
@@ -107,8 +107,8 @@ def _planar_excess(body: Body, pose: Pose, points: Array) -> float:
 
 def _share_inside(body: Body, pose: Pose, observation: Observation) -> float:
     """Returns the fraction of the body that is inside the picture."""
-    if observation.silhouette is None or not len(body.capsules):
+    if observation.sight is None or not len(body.capsules):
         return 1.0
     capsules = body.capsules.place(body.place(pose).transforms)
     points = capsules.axis_points(SPACING * body.size).points
-    return float(observation.silhouette.observable(points).mean())
+    return float(observation.sight.observable(points).mean())

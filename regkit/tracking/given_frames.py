@@ -28,6 +28,16 @@ class GivenFrames(Recording):
                 place=self.name,
             )
 
+    def cameras(self) -> dict[str, Recording]:
+        """Returns the recording of each of several cameras, in its own frame."""
+        seen: dict[str, list[Frame]] = {}
+        for view in (view for frame in self.given for view in frame.views):
+            seen.setdefault(view.name, []).append(view.data)
+        return {
+            name: _CameraFrames(f"{self.name}: {name}", self.fps, len(frames), tuple(frames))
+            for name, frames in seen.items()
+        }
+
     def frames(self) -> Iterator[Frame]:
         """Yields all frames."""
         yield from self.given
@@ -39,3 +49,10 @@ class GivenFrames(Recording):
 
     def truth(self) -> None:
         """Returns None: arrays have no reference joints."""
+
+
+class _CameraFrames(GivenFrames):
+    """The frames of one of several cameras, which may show nothing."""
+
+    def __post_init__(self) -> None:
+        """Accepts a camera that shows nothing: another may."""

@@ -20,6 +20,7 @@ from regkit.observation import Frame, Observation
 from regkit.skeleton import Pose
 from regkit.system.compilations import loaded_loops
 from regkit.system.errors import NoDataError, RegkitError
+from regkit.tracking.clocks import ClockWatch
 from regkit.tracking.segmented import segmented
 
 LONG = 1.0
@@ -57,6 +58,7 @@ class Follower:
         registrar: Method bound to the body.
         tracker: Tracker that predicts the next pose.
         start: Pose of the body in the first frame.
+        clocks: Watches the clocks of several cameras.
     """
 
     def __init__(
@@ -66,12 +68,14 @@ class Follower:
         registrar: Registrar,
         tracker: Tracker,
         start: Pose,
+        clocks: ClockWatch | None = None,
     ) -> None:
         self._segmenter = segmenter
         self._preprocessor = preprocessor
         self._registrar = registrar
         self._tracker = tracker.bind(registrar)
         self._past = Past.start(start)
+        self._clocks = clocks
 
     def follow(self, frame: Frame) -> TrackedFrame:
         """Returns the next frame, tracked; one without data keeps the last pose.
@@ -86,9 +90,11 @@ class Follower:
             # its true time.
             found = self._step(frame)
         if found.observation is None:
-            self._past = self._past.interrupted()
+            self._interrupt()
         else:
             self._past = self._past.followed_by(found.registered)
+            if self._clocks is not None:
+                self._clocks.add(found.observation, found.registered.pose)
         return found
 
     def skip(self, reason: str) -> TrackedFrame:
@@ -97,7 +103,7 @@ class Follower:
         Args:
             reason: Why it cannot be read.
         """
-        self._past = self._past.interrupted()
+        self._interrupt()
         return TrackedFrame(None, self._past.last.without_data(reason), 0.0, 0.0)
 
     def pause(self, seconds: float) -> None:
@@ -106,14 +112,24 @@ class Follower:
         Args:
             seconds: Duration of the gap [s].
         """
-        long = seconds >= LONG
-        self._past = self._past.interrupted() if long else self._past.paused()
+        if seconds >= LONG:
+            self._interrupt()
+        else:
+            self._past = self._past.paused()
+
+    def _interrupt(self) -> None:
+        self._past = self._past.interrupted()
+        if self._clocks is not None:
+            self._clocks.pause()
 
     def _step(self, frame: Frame) -> TrackedFrame:
         begun = time.perf_counter()
         try:
             expected = Expected.of(self._registrar.body, self._past)
-            observation = self._preprocessor.preprocess(segmented(self._segmenter, frame, expected))
+            left = segmented(self._segmenter, frame, expected)
+            observation = self._preprocessor.observation(left)
+            if self._clocks is not None:
+                observation = self._clocks.trusted(observation)
         except NoDataError as error:
             seconds = time.perf_counter() - begun
             return TrackedFrame(None, self._past.last.without_data(error.message), seconds, seconds)

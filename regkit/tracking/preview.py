@@ -68,6 +68,15 @@ def previewed(recording: Recording, segmenter: Chain, count: int) -> Iterator[Pr
 
 def _kept(before: Frame, after: Frame) -> NDArray[np.bool_]:
     """Returns a mask (N,) of the points of a frame that are left in another."""
+    if before.views:
+        left_in = {view.name: view.data for view in after.views}
+        masks = [
+            _kept(view.data, left_in[view.name])
+            if view.name in left_in
+            else np.zeros(len(view.data.points), dtype=bool)
+            for view in before.views
+        ]
+        return np.concatenate(masks)
     if (pixels := before.pixels) is not None and (left := after.pixels) is not None:
         return np.isin(pixels, left)
     rows = {row.tobytes() for row in after.points}

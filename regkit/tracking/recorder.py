@@ -120,7 +120,7 @@ class TrackRecorder:
             points = frame.observation.points
             supports = segment_supports(body, transforms, points)
             self.sample.add(len(self), frame.observation)
-            fit = BodyFit.of(body, found.pose, points, frame.observation.silhouette)
+            fit = BodyFit.of(body, found.pose, points, frame.observation.sight)
         markers = body.markers.place(transforms)
         count = 0 if points is None else len(points)
         self._rows.append(

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import islice
 
 import numpy as np
 
@@ -26,6 +27,7 @@ from regkit.observation import Frame, Observation
 from regkit.skeleton import Pose
 from regkit.system.errors import ConfigError, NoBodyError, NoDataError, RegkitError
 from regkit.system.notes import note
+from regkit.tracking.clocks import LONGEST_TRIAL, ClockWatch
 from regkit.tracking.extent import check_extent, check_unit, tell_bound
 from regkit.tracking.landmarks import tell_unknown
 from regkit.tracking.loop import Follower, TrackedFrame, tracked
@@ -106,15 +108,38 @@ class Session:
             note(f"{start.summary}: {start.reason}", place=self.recording.name)
         return start
 
-    def follower(self, registrar: Registrar, tracker: Tracker, pose: Pose) -> Follower:
+    def follower(
+        self,
+        registrar: Registrar,
+        tracker: Tracker,
+        pose: Pose,
+        early: Callable[[], Iterable[Frame]] = tuple,
+    ) -> Follower:
         """Returns what tracks the body from a pose, frame by frame.
+
+        Of several cameras, the first frames are tracked on trial if they are known already, so that
+        one with a wrong clock is left out from the first frame on.
 
         Args:
             registrar: Method bound to the body.
             tracker: Tracker that predicts the next pose.
             pose: Pose of the body in the first frame.
+            early: Returns the first frames, if they can be read in advance.
         """
-        return Follower(self.segmenter, self.observes, registrar, tracker, pose)
+        recording = self.recording
+        parts = (self.segmenter, self.observes, registrar, tracker, pose)
+        if not recording.cameras():
+            return Follower(*parts)
+        clocks = ClockWatch(registrar, recording.fps, recording.name)
+        trial = Follower(*parts, clocks)
+        for frame in islice(early(), LONGEST_TRIAL):
+            # An error is reported when the frame is tracked.
+            with suppress(RegkitError):
+                trial.follow(frame)
+            if clocks.is_decided:
+                break
+        clocks.restart()
+        return Follower(*parts, clocks)
 
     def tracked(self, registrar: Registrar, tracker: Tracker, pose: Pose) -> Iterator[TrackedFrame]:
         """Yields the recording's frames, tracked one by one from a pose.
@@ -127,7 +152,8 @@ class Session:
         Raises:
             RegkitError: If a frame cannot be read or registered; the error names it.
         """
-        return tracked(self.recording, self.follower(registrar, tracker, pose))
+        follower = self.follower(registrar, tracker, pose, self.recording.frames)
+        return tracked(self.recording, follower)
 
     def observation(self, index: int, expected: Expected | None = None) -> Observation:
         """Returns the data of a frame.
@@ -170,7 +196,7 @@ class Session:
         self, index: int, frame: Frame, expected: Expected | None = None
     ) -> Observation:
         try:
-            return self.observes.preprocess(segmented(self.segmenter, frame, expected))
+            return self.observes.observation(segmented(self.segmenter, frame, expected))
         except RegkitError as error:
             raise error.at(frame.place or f"{self.recording.name}: frame {index}") from None
 

@@ -14,10 +14,12 @@ from pydantic import Field, model_validator
 
 from regkit.config.model import misplaced
 from regkit.config.quantities import Rate, Seed
+from regkit.geometry.rigid import inverse
 from regkit.interfaces import Dataset, Recording
-from regkit.observation import Frame, Truth
+from regkit.observation import Frame, Truth, View
 from regkit.sensors import CameraChoice, Sensor
 from regkit.sensors.noise import NoiseChoice, noise_of
+from regkit.system.arrays import Array
 from regkit.system.errors import DataError, RegkitError
 from regkit_plugins.datasets.depth import DepthFolders
 from regkit_synthesis.bodies.hand import ShippedHand
@@ -118,7 +120,7 @@ class SyntheticRecording(Recording):
     """One take.
 
     Attributes:
-        take: Body, motion and view.
+        take: Body, motion and views.
         dataset: The dataset, with its camera.
     """
 
@@ -127,20 +129,44 @@ class SyntheticRecording(Recording):
 
     def prepare(self) -> None:
         """Renders the images, unless they are in the cache."""
-        self.folder()
+        for view in range(len(self.take.viewpoints)):
+            self.folder(view)
+
+    def cameras(self) -> dict[str, Recording]:
+        """Returns the recording of each of several cameras, in its own frame."""
+        if self.take.views is None:
+            return {}
+        return {
+            camera_name(view): DepthFolders(root=self.folder(view)).only()
+            for view in range(len(self.take.views))
+        }
 
     def frames(self) -> Iterator[Frame]:
         """Yields the images from the cache, rendered on first use."""
-        (recorded,) = DepthFolders(root=self.folder()).found()
-        yield from recorded.frames()
+        if self.take.views is None:
+            yield from DepthFolders(root=self.folder()).only().frames()
+            return
+        names, poses = zip(*self.camera_poses().items(), strict=True)
+        each = (one.frames() for one in self.cameras().values())
+        for index, frames in enumerate(zip(*each, strict=True)):
+            views = [View(*one) for one in zip(names, poses, frames, strict=True)]
+            yield Frame.of_views(views, place=f"{self.name}: instant {index}")
+
+    def camera_poses(self) -> dict[str, Array]:
+        """Returns T_world_camera (4, 4) [m] of each camera by its name."""
+        grounds = [self._scene(view).T_camera_ground for view in range(len(self.take.viewpoints))]
+        poses = [grounds[0] @ inverse(ground) for ground in grounds]
+        # The first camera is the world, to the last bit.
+        poses[0] = np.eye(4)
+        return {camera_name(view): pose for view, pose in enumerate(poses)}
 
     def input_files(self) -> list[Path]:
         """Returns no file: the fingerprint covers what is rendered."""
         return []
 
     def fingerprint(self) -> str:
-        """Returns the digest of the scene, under which its images are cached."""
-        return self._key
+        """Returns the digests of the scenes, under which their images are cached."""
+        return "-".join(self._key(view) for view in range(len(self.take.viewpoints)))
 
     def truth(self) -> Truth | None:
         """Returns the exact positions of joints and markers; None if the body is left out."""
@@ -149,40 +175,56 @@ class SyntheticRecording(Recording):
         scene = self._scene()
         return Truth(scene.joints, scene.truth())
 
-    def labels(self) -> Iterator[NDArray[np.uint8]]:
+    def labels(self, view: int = 0) -> Iterator[NDArray[np.uint8]]:
         """Yields what each pixel of every frame shows, (H, W): an index in ``label_names``.
 
         Labels are exact: where noise moves depths between pixels, they differ at outlines.
+
+        Args:
+            view: Index of the camera.
         """
-        return self._scene().labels()
+        return self._scene(view).labels()
 
     def label_names(self) -> tuple[str, ...]:
         """Returns the names of the labels: nothing, the body, and the parts of the room."""
         return ("nothing", "body", *self.take.parts(self.dataset.room))
 
-    def folder(self) -> Path:
-        """Returns the depth folder in the cache, rendered on first use."""
-        key = self._key
+    def folder(self, view: int = 0) -> Path:
+        """Returns the depth folder in the cache, rendered on first use.
+
+        Args:
+            view: Index of the camera.
+        """
+        key = self._key(view)
         try:
-            return RecordingCache.of_user().entry(key, lambda: self._rendered(self._scene()))
+            cache = RecordingCache.of_user()
+            return cache.entry(key, lambda: self._rendered(self._scene(view), view))
         except RegkitError as error:
             raise self._located(error) from None
 
-    @cached_property
-    def _key(self) -> str:
-        """The digest of the scene as this recording renders it."""
-        return digest(self._scene(), self.dataset.seed, self.take.noise_stream)
+    def _key(self, view: int) -> str:
+        """Returns the digest of a scene as this recording renders it."""
+        if view not in self._keys:
+            stream = self.take.noise_stream_of(view)
+            self._keys[view] = digest(self._scene(view), self.dataset.seed, stream)
+        return self._keys[view]
 
-    def _scene(self) -> Scene:
+    @cached_property
+    def _keys(self) -> dict[int, str]:
+        """The digests that are known, by the index of the camera."""
+        return {}
+
+    def _scene(self, view: int = 0) -> Scene:
         try:
             sensor = self.dataset.sensor()
             if self.take.noise is not None:
                 sensor = replace(sensor, noise=noise_of(self.take.noise))
-            return self.take.scene(self.name, sensor, self.fps, self.length, self.dataset.room)
+            room = self.dataset.room
+            return self.take.scene(self.name, sensor, self.fps, self.length, room, view)
         except RegkitError as error:
             raise self._located(error) from None
 
-    def _rendered(self, scene: Scene) -> DepthRecording:
+    def _rendered(self, scene: Scene, view: int) -> DepthRecording:
         """Returns the rendered scene.
 
         Raises:
@@ -194,7 +236,7 @@ class SyntheticRecording(Recording):
                 "the room or the view (with a negative elevation_deg the camera may be below the "
                 "floor)"
             )
-        recording = scene.rendered(self.take.random(self.name, self.dataset.seed))
+        recording = scene.rendered(self.take.random(self.name, self.dataset.seed, view))
         blank = np.flatnonzero(~recording.depth.any(axis=(1, 2)))
         if len(blank) and not scene.empty:
             raise DataError(
@@ -207,3 +249,8 @@ class SyntheticRecording(Recording):
         return type(error)(
             f"this take cannot be rendered: {error}", place=f"dataset.takes.{self.name}"
         )
+
+
+def camera_name(view: int) -> str:
+    """Returns the name of a camera from its index."""
+    return f"camera_{view}"

@@ -21,6 +21,10 @@ def completed(take: Mapping[str, Any], defaults: Mapping[str, Any]) -> dict[str,
             if isinstance(own[field], dict) and not _SOURCES.isdisjoint(own[field]):
                 # These fields exclude each other.
                 common[field] = {k: v for k, v in common[field].items() if k not in _SOURCES}
+    if "views" in own and "view" not in own:
+        common.pop("view", None)
+    if "view" in own and "views" not in own:
+        common.pop("views", None)
     if isinstance(common.get("room"), str) and isinstance(own.get("room"), dict):
         del common["room"]  # Parts replace a room by its name, and are added to other parts.
     # A preset's name is invalid in a take; it is kept here to be refused by validation.

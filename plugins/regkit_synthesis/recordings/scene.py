@@ -46,6 +46,7 @@ class Scene:
         markers: Additional markers, by name: vertices of the mesh with recorded positions.
         room: The parts of the room in camera axes, by name.
         empty: Whether the body is left out.
+        T_camera_ground: Pose of the ground in the camera's frame, (4, 4) [m].
     """
 
     name: str
@@ -60,6 +61,7 @@ class Scene:
     markers: Mapping[str, int] = field(default_factory=dict)
     room: Mapping[str, Surface] = field(default_factory=dict)
     empty: bool = False
+    T_camera_ground: Array = field(default_factory=lambda: np.eye(4))
 
     @property
     def joints(self) -> tuple[str, ...]:

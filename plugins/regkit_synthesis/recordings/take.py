@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Annotated
+from typing import Annotated, Self
 
 import numpy as np
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from regkit.config.model import Model
 from regkit.geometry.skinned_mesh import SkinnedMesh
@@ -35,6 +35,9 @@ class Take(Model):
     """The motion: the name of a shipped clip, or a motion by its ``kind``."""
     view: Viewpoint = Viewpoint()
     """The viewpoint of the camera."""
+    views: Annotated[tuple[Viewpoint, ...], Field(min_length=1, max_length=16)] | None = None
+    """The viewpoints of several cameras, instead of ``view``. The frame of the first camera is the
+    world, in which truth and results are; the room stands as that camera sees it."""
     frames: Annotated[int, Field(ge=1, le=100_000)] = 60
     """Number of frames."""
     subject: str | None = None
@@ -56,6 +59,17 @@ class Take(Model):
     difficulty: str = ""
     """A note on the difficulty of the take."""
 
+    @model_validator(mode="after")
+    def _one_or_several(self) -> Self:
+        if self.views is not None and "view" in self.model_fields_set:
+            raise ValueError("give view or views, not both")
+        return self
+
+    @property
+    def viewpoints(self) -> tuple[Viewpoint, ...]:
+        """The viewpoints of all cameras."""
+        return (self.view,) if self.views is None else self.views
+
     def subject_name(self) -> str | None:
         """Returns the name of the subject, if it has one."""
         body = self.body
@@ -71,15 +85,26 @@ class Take(Model):
         """
         return room_of(room if self.room is None else self.room)
 
-    def random(self, name: str, seed: int) -> Callable[[int], np.random.Generator]:
+    def random(self, name: str, seed: int, view: int = 0) -> Callable[[int], np.random.Generator]:
         """Returns the random generator of each frame's noise, for the recording ``name``.
 
         The returned function must be called for the frames in order.
+
+        Args:
+            name: Name of the recording.
+            seed: Seed of the dataset.
+            view: Index of the camera.
         """
-        if self.noise_stream is None:
+        stream_name = self.noise_stream_of(view)
+        if stream_name is None:
+            name = camera_of(name, view)
             return lambda frame: np.random.default_rng([seed, frame, *name.encode()])
-        stream = np.random.default_rng([seed, *self.noise_stream.encode()])
+        stream = np.random.default_rng([seed, *stream_name.encode()])
         return lambda frame: stream
+
+    def noise_stream_of(self, view: int) -> str | None:
+        """Returns the name of the random stream of one of the cameras; None without any."""
+        return None if self.noise_stream is None else camera_of(self.noise_stream, view)
 
     def scene(
         self,
@@ -88,6 +113,7 @@ class Take(Model):
         fps: float,
         frames: int,
         room: RoomName | Mapping[str, Part] = "none",
+        view: int = 0,
     ) -> Scene:
         """Returns the scene to render.
 
@@ -97,6 +123,7 @@ class Take(Model):
             fps: Frames per second.
             frames: Number of frames; the camera's pose is that for all frames of the take.
             room: The room of a take that names none.
+            view: Index of the camera.
 
         Raises:
             RegkitError: If a file is missing or invalid, or the motion does not fit the body.
@@ -113,9 +140,9 @@ class Take(Model):
             skin = some_vertices(body.mesh, np.arange(0, len(body.mesh.vertices), _SPARSE))
             return np.concatenate([skin.posed(moved(frame / fps)) for frame in range(self.frames)])
 
-        T_camera_ground = self.view.placed(sensor.camera, surface)
+        T_camera_ground = self.viewpoints[view].placed(sensor.camera, surface)
         return Scene(
-            name=name,
+            name=camera_of(name, view),
             source=f"Rendered by regkit: {_told(body_config)}, moved by {_told(motion_config)}",
             licence="That of the body and of the motion",
             mesh=body.mesh,
@@ -127,6 +154,7 @@ class Take(Model):
             markers=self.markers,
             room=self._surroundings(self.parts(room), body.mesh, moved, fps, T_camera_ground),
             empty=self.empty,
+            T_camera_ground=T_camera_ground,
         )
 
     def _surroundings(
@@ -140,12 +168,17 @@ class Take(Model):
         """Returns the parts of a room in camera axes, placed beside the region of the motion."""
         if not parts:
             return {}
-        T_room_ground, times = self.view.turned(), np.arange(self.frames) / fps
+        T_room_ground, times = self.viewpoints[0].turned(), np.arange(self.frames) / fps
         T_camera_room = T_camera_ground @ np.linalg.inv(T_room_ground)
         region = Region.around(mesh.posed(T_room_ground @ moved(time)) for time in times)
         return {
             name: part.surface(region, times).moved(T_camera_room) for name, part in parts.items()
         }
+
+
+def camera_of(name: str, view: int) -> str:
+    """Returns a recording's name for one of its cameras; the first has the name itself."""
+    return name if view == 0 else f"{name}-{view}"
 
 
 def _told(config: Model) -> str:

@@ -6,9 +6,12 @@ import time
 from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
+from itertools import islice
 from math import ceil
 
 from regkit.interfaces import RegistrationResult, Start, Stream
+from regkit.observation import Frame
 from regkit.system.brief import Brief
 from regkit.system.errors import DataError, NoBodyError, RegkitError, SourceLostError
 from regkit.tracking.live.beginning import Beginning, beginning_in
@@ -208,7 +211,14 @@ class LiveTracking:
 
     def _follower(self, begun: Beginning) -> Follower:
         registrar, tracker = self.recorder.registrar, self._setup.tracker
-        return begun.session.follower(registrar, tracker, begun.start.pose)
+        early = tuple if self.stream.live else partial(self._frames_since, begun.opening.first)
+        return begun.session.follower(registrar, tracker, begun.start.pose, early)
+
+    def _frames_since(self, first: int) -> Iterator[Frame]:
+        """Yields the frames of a recording from a number on, read in advance."""
+        with self._source() as stream:
+            for timed in islice(stream, first, None):
+                yield timed.frame
 
     def _frames_from(self, begun: Beginning) -> Iterator[Arrived]:
         """Yields the frames to track."""
@@ -219,7 +229,9 @@ class LiveTracking:
             self._early.clear()
         else:
             # Everything that a step needs is loaded, so that no camera's frame waits for it.
-            self._follower(begun).follow(opening.recording.given[0])
+            begun.session.follower(
+                self.recorder.registrar, self._setup.tracker, begun.start.pose
+            ).follow(opening.recording.given[0])
             if self.stream.live and (found := opening.arrived[0]).frame is not None:
                 # Since then the body has moved.
                 self.watch.gap(found.number, found.frame)

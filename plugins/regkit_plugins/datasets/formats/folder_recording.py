@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Self
 
+from regkit.geometry.lens import Lens
 from regkit.interfaces import Recording
 from regkit.observation import Frame, Truth
 from regkit.recording import RecordingFolder
@@ -19,14 +20,21 @@ class FolderRecording(Recording):
 
     Attributes:
         content: Its folder.
+        lens: The camera of its images, if it is not that in the folder.
     """
 
     content: RecordingFolder
+    lens: Lens | None = None
 
     @classmethod
-    def of(cls, content: RecordingFolder) -> Self:
-        """Returns the recording of a folder."""
-        return cls(content.name, content.description.fps, len(content.files), content)
+    def of(cls, content: RecordingFolder, lens: Lens | None = None) -> Self:
+        """Returns the recording of a folder.
+
+        Args:
+            content: The folder.
+            lens: The camera of its images; by default that in the folder.
+        """
+        return cls(content.name, content.description.fps, len(content.files), content, lens)
 
     def frames(self) -> Iterator[Frame]:
         """Yields the frames in the camera's frame (x right, y down, z forward)."""
@@ -35,7 +43,7 @@ class FolderRecording(Recording):
 
     def some(self, indices: Iterable[int]) -> Iterator[tuple[int, Frame]]:
         """Yields and reads only the frames of ``indices``."""
-        read = self.content.reader()
+        read = self.content.reader(self.lens)
         for index in sorted(set(indices)):
             yield index, read(index)
 

@@ -22,10 +22,17 @@ from regkit.interfaces import (
 from regkit.interfaces.term import Effect
 from regkit.observation import Observation
 from regkit.primitives import Primitives
-from regkit.registration import COORDINATES, FrameEnergy, Plan, PlannedEnergy, SummedEnergy
+from regkit.registration import (
+    COORDINATES,
+    FrameEnergy,
+    Plan,
+    PlannedEnergy,
+    SummedEnergy,
+)
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
-from regkit.system.errors import DataError, PluginError
+from regkit.system.errors import ConfigError, DataError, PluginError
+from regkit_plugins.methods.direct.views import best_in_views
 
 if TYPE_CHECKING:
     from regkit_plugins.methods.direct.direct import Direct
@@ -107,16 +114,18 @@ class BoundDirect(Registrar):
 
         All candidates are compared with the kernel bound to the first one.
         """
+        if observation.views:
+            return best_in_views(self, observation, candidates, prior, smoothing, plan)
         if plan is not None:
             planned = PlannedEnergy.of(plan, observation, candidates, prior, smoothing)
             if planned is not None:
                 return planned
         first = candidates[0]
-        energy = self._summed(observation, first, prior, smoothing)
+        energy = self.summed(observation, first, prior, smoothing)
         if len(candidates) > 1:
             best = min(candidates, key=energy.of_kernel)
             if best is not first:
-                return self._summed(observation, best, prior, smoothing), best
+                return self.summed(observation, best, prior, smoothing), best
         return energy, first
 
     def _check_limits(self, pose: Pose) -> None:
@@ -142,13 +151,40 @@ class BoundDirect(Registrar):
         energy, _ = self._best(observation, [pose], pose, 0.0, self.derivatives)
         return energy.force(pose)
 
-    def _summed(
+    def normal_equations(self, observation: Observation, pose: Pose) -> tuple[float, Array, Array]:
+        """Returns the energy, its derivative (n,) and the Gauss-Newton matrix (n, n).
+
+        Raises:
+            ConfigError: If the kernel or a term has no curvature.
+        """
+        energy, _ = self._best(observation, [pose], pose, 0.0, self.derivatives)
+        value, force, matrix = energy.derivatives(pose, 2)
+        if matrix is None:
+            lacking = ", ".join(energy.without_curvature())
+            raise ConfigError(f"this needs curvature, which {lacking} does not provide")
+        return value, force, matrix
+
+    def scene(self, observation: Observation, pose: Pose, prior: Pose) -> Scene:
+        """Returns the state to which terms are bound."""
+        placed = self.primitives.place(self.body.place(pose).transforms)
+        return Scene(self.body, observation, prior, placed)
+
+    def summed(
         self, observation: Observation, pose: Pose, prior: Pose, smoothing: float
     ) -> SummedEnergy:
         """Returns the sum of the kernel and all terms, bound to a frame at a pose."""
-        placed = self.primitives.place(self.body.place(pose).transforms)
-        scene = Scene(self.body, observation, prior, placed)
+        scene = self.scene(observation, pose, prior)
+        effects = self.effects(scene)
         primitives = self.primitives
+        if effects.weights is not primitives.weights:
+            primitives = replace(primitives, weights=effects.weights)
+        placed = replace(scene.placed, primitives=primitives)
+        kernel = self.method.kernel.bind(observation, placed, smoothing=smoothing)
+        return SummedEnergy(self.body, primitives, kernel, effects.terms, effects.joints)
+
+    def effects(self, scene: Scene) -> Effects:
+        """Returns the effects of all terms."""
+        weights = self.primitives.weights
         terms: dict[str, Similarity] = {}
         joints: list[JointEnergy] = []
         for index, term in enumerate(self.method.terms):
@@ -156,14 +192,27 @@ class BoundDirect(Registrar):
             if isinstance(effect, VisibilityWeights) is not term.weighs:
                 raise _undeclared(term, effect)
             if isinstance(effect, VisibilityWeights):
-                primitives = replace(primitives, weights=primitives.weights * effect.factors)
+                weights = weights * effect.factors
             elif isinstance(effect, JointEnergy):
                 joints.append(effect)
             else:
                 terms[f"terms[{index}] ({term.kind})"] = effect
-        placed = replace(placed, primitives=primitives)
-        kernel = self.method.kernel.bind(observation, placed, smoothing=smoothing)
-        return SummedEnergy(self.body, primitives, kernel, terms, tuple(joints))
+        return Effects(weights, terms, tuple(joints))
+
+
+@dataclass(frozen=True)
+class Effects:
+    """The effects of all terms.
+
+    Attributes:
+        weights: Weights of the primitives in this frame, (K,).
+        terms: The bound terms on primitives, by their places in the YAML.
+        joints: The bound terms on joints.
+    """
+
+    weights: Array
+    terms: dict[str, Similarity]
+    joints: tuple[JointEnergy, ...]
 
 
 def _undeclared(term: Term, effect: Effect) -> PluginError:

@@ -55,8 +55,13 @@ class Comparison:
         self, body: Body, result: RegistrationResult, observation: Observation
     ) -> Finalist:
         found = Finalist.registered(self._limbs(body), result, observation, self.usual)
-        prior = prior_cost(body, found.pose, one_sided=observation.camera is not None)
-        return replace(found, prior=prior)
+        priors = [
+            prior_cost(
+                body, found.pose.moved(view.to_camera), one_sided=view.data.camera is not None
+            )
+            for view in observation.views
+        ] or [prior_cost(body, found.pose, one_sided=observation.camera is not None)]
+        return replace(found, prior=float(np.mean(priors)))
 
     def registered(self, body: Body, pose: Pose, observation: Observation) -> Pose:
         """Returns the pose after registration alone; the arguments are those of ``finalist``."""

@@ -59,7 +59,7 @@ class Search:
     def sized(self, body: Body, observation: Observation) -> list[Finalist]:
         """Returns the finalists of a body of known size, the best first."""
         found = self._finalists([body], observation, self.finalists)
-        if found[0].misfit > POOR and not Pictures.of(observation, self._usual).cut:
+        if found[0].misfit > POOR and not self._is_cut(observation):
             found += self._finalists([body], observation, self.finalists, THOROUGH)
         return sorted(found, key=cost_of)
 
@@ -79,11 +79,15 @@ class Search:
 
     def doubts(self, body: Body, observation: Observation) -> list[str]:
         """Returns what speaks against a body of this size in a frame, whatever its pose."""
-        pictures, doubts = Pictures.of(observation, body.size), []
+        doubts = []
         if len(self._sizes) > 1 and not self._sizes[0] < body.size < self._sizes[-1]:
             doubts.append(f"the size, {body.size:.3g} m, is at an end of the template's range")
-        share = pictures.area / (self.atlas.least_area() * body.size**2)
-        if not pictures.cut and share < 1.0:
+        pictures = [Pictures.of(view.data, body.size) for view in observation.each_view]
+        least = self.atlas.least_area() * body.size**2
+        shares = [one.area / least for one in pictures if not one.cut]
+        # What one camera hardly shows another may show well.
+        share = max(shares, default=1.0)
+        if share < 1.0:
             told = f"the data show {100.0 * share:.0f} % of the least area that such a body shows"
             doubts.append(told)
         return doubts
@@ -105,13 +109,31 @@ class Search:
     ) -> list[Finalist]:
         """Returns the registered poses, the best first.
 
+        Candidates are sought in the view of each camera, and registered to all of them.
+
         Args:
             bodies: The body in one or more sizes.
             observation: The frame.
-            each: Number of finalists of each size.
+            each: Number of finalists of each size, in each view.
             variation: How much refined poses are varied.
         """
-        pictures = Pictures.of(observation, self._usual)
+        found: list[Finalist] = []
+        for view in observation.each_view:
+            local = observation.seen_from(view)
+            own = self._in_view(bodies, local, view.data, each, variation)
+            found += [one.moved(view.T_world_camera) for one in own] if observation.views else own
+        return sorted(found, key=cost_of)
+
+    def _in_view(
+        self,
+        bodies: Sequence[Body],
+        observation: Observation,
+        seen: Observation,
+        each: int,
+        variation: Variation,
+    ) -> list[Finalist]:
+        """Returns the registered poses in the frame of a camera, of which it sees the data."""
+        pictures = Pictures.of(seen, self._usual)
         # A size between the candidates resembles fewer exemplars, a part of a body more of them.
         more = 1 if len(bodies) == 1 and variation == BRIEF else MORE
         kept = MORE if pictures.cut else more
@@ -128,6 +150,10 @@ class Search:
         contest = Contest(self.comparison, finder, observation, pictures)
         return contest.finalists(finder.candidates(pictures), each)
 
+    def _is_cut(self, observation: Observation) -> bool:
+        """Returns whether every picture cuts the body off."""
+        return all(Pictures.of(view.data, self._usual).cut for view in observation.each_view)
+
     def _resized(self, observation: Observation, finalists: Sequence[Finalist]) -> Finalist:
         """Returns the best pose in sizes between the candidates.
 
@@ -136,8 +162,8 @@ class Search:
             finalists: Finalists of all sizes, the best first.
         """
         # A body that no border cuts off is in the picture as a whole: feet beyond it are missing.
-        cut = Pictures.of(observation, self._usual).cut
-        scan = Scan(observation.points, observation.silhouette if cut else None)
+        cut = self._is_cut(observation)
+        scan = Scan(observation.points, observation.sight if cut else None)
         bests = {one.body.size: one for one in reversed(finalists)}
         fits = [fit(scan, one.body, one.pose, self._usual) for one in bests.values()]
         best = resized(scan, self.template, min(fits, key=_misfit), self._sizes)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import Literal
 
 import numpy as np
@@ -47,8 +48,23 @@ class Stances(StartSearch):
         if rigid is not None:
             return rigid
         with one_blas_thread():
-            best = _found(template, [Scan.of(one) for one in observations])
+            best = min(_in_views(template, observations), key=_misfit)
         return judged(best.body, best.pose, observations[0])
+
+
+def _in_views(template: Template, observations: Sequence[Observation]) -> Iterator[Candidate]:
+    """Yields the best fit of stances that face each camera, in the world."""
+    for view in observations[0].each_view:
+        scans = [
+            Scan.of(one.seen_from(other))
+            for one in observations
+            for other in one.each_view
+            if other.name == view.name
+        ]
+        found = _found(template, scans)
+        # A start in the frame of the only camera needs no motion, nor its rounding.
+        moved = found.pose.moved(view.T_world_camera) if observations[0].views else found.pose
+        yield replace(found, pose=moved)
 
 
 def _found(template: Template, scans: list[Scan]) -> Candidate:

@@ -138,10 +138,10 @@ class BoundReinitialization:
         # A body that was turned meanwhile may have kept its pose.
         atlas = atlas_of(body, AtlasSettings(settings.exemplars)).with_pose(body, last, VIEWS)
         finder = Finder([body], atlas, even_rolls(), settings.looked_up, settings.refined)
-        candidates = finder.candidates(Pictures.of(observation, body.size))
         return [
-            Finalist.of(self.limbs, one.pose, observation, body.size)
-            for one in candidates[: settings.finalists]
+            Finalist.of(self.limbs, one.pose.moved(view.T_world_camera), observation, body.size)
+            for view in observation.each_view
+            for one in finder.candidates(Pictures.of(view.data, body.size))[: settings.finalists]
         ]
 
     def _better(self, new: Finalist, old: Finalist) -> bool:
