@@ -6,11 +6,13 @@ from regkit.interfaces.compiled import (
     CompiledPart,
     CompiledWeights,
 )
+from regkit.interfaces.curvature import Curvature
 from regkit.interfaces.dataset import Dataset, Recording
 from regkit.interfaces.expected import Expected
 from regkit.interfaces.kernel import Kernel, Response, RigidComparison, RigidSimilarity, Similarity
 from regkit.interfaces.method import Method
 from regkit.interfaces.preprocessor import Preprocessor
+from regkit.interfaces.prior import Prior
 from regkit.interfaces.registrar import Evaluation, Registrar, RegistrationResult
 from regkit.interfaces.segmenter import (
     BoundSegmenter,
@@ -64,6 +66,7 @@ __all__ = [
     "CompiledPart",
     "CompiledWeights",
     "Constraints",
+    "Curvature",
     "Dataset",
     "Evaluation",
     "Expected",
@@ -76,6 +79,7 @@ __all__ = [
     "Multipliers",
     "Past",
     "Preprocessor",
+    "Prior",
     "Problem",
     "Recording",
     "Registrar",

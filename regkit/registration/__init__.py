@@ -2,9 +2,11 @@
 
 from regkit.registration.charts import COORDINATES, CoordinatesName
 from regkit.registration.coordinates import Coordinates
+from regkit.registration.effective_points import effective_points, thinned
 from regkit.registration.energy import FrameEnergy, SummedEnergy
 from regkit.registration.plan import Plan
 from regkit.registration.planned_energy import CompiledProblem, PlannedEnergy
+from regkit.registration.posterior import PoseCurvature, marker_covariances
 from regkit.registration.problem import RegistrationProblem
 from regkit.registration.quaternions import QuaternionCoordinates
 from regkit.registration.residuals import Residuals, ResidualSimilarity
@@ -20,6 +22,7 @@ __all__ = [
     "Loss",
     "Plan",
     "PlannedEnergy",
+    "PoseCurvature",
     "QuaternionCoordinates",
     "RegistrationProblem",
     "ResidualSimilarity",
@@ -27,4 +30,7 @@ __all__ = [
     "Robust",
     "SummedEnergy",
     "TangentCoordinates",
+    "effective_points",
+    "marker_covariances",
+    "thinned",
 ]

@@ -61,6 +61,10 @@ class SummedEnergy(FrameEnergy):
         """Returns the energy of the kernel alone in a pose."""
         return self.kernel.energy(self._placed(pose))
 
+    def whitened(self, pose: Pose) -> tuple[Array, Array] | None:
+        """Returns the kernel's whitened residuals (N, D) in a pose and shares (N,); or None."""
+        return self.kernel.whitened(self._placed(pose))
+
     def total(self, pose: Pose) -> float:
         """Returns the energy of the kernel and all terms in a pose."""
         placed = self._placed(pose)

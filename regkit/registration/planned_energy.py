@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from regkit.interfaces import Multipliers
+from regkit.interfaces import Multipliers, Prior
 from regkit.interfaces.compiled import SceneArrays
 from regkit.observation import Observation
 from regkit.registration.compiled_plan import (
@@ -24,7 +24,7 @@ from regkit.registration.pose_problem import PoseProblem
 from regkit.registration.tangent import TangentCoordinates
 from regkit.skeleton import Pose
 from regkit.skeleton.arrays import PoseArrays
-from regkit.system.arrays import Array, loop_input
+from regkit.system.arrays import Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,13 +34,13 @@ class PlannedEnergy(FrameEnergy):
     Attributes:
         plan: The plan.
         scene: The scene to which its parts are bound.
-        prior: Pose to which unobserved joints stay close.
+        prior: What is known of the pose before the frame.
         states: States of the parts.
     """
 
     plan: Plan
     scene: SceneArrays
-    prior: PoseArrays
+    prior: Prior
     states: Array
 
     @classmethod
@@ -49,7 +49,7 @@ class PlannedEnergy(FrameEnergy):
         plan: Plan,
         observation: Observation,
         candidates: Sequence[Pose],
-        prior: Pose,
+        prior: Prior,
         smoothing: float = 0.0,
     ) -> tuple[PlannedEnergy, Pose] | None:
         """Binds a plan to a frame at the best candidate; None if its points differ in variance.
@@ -60,7 +60,7 @@ class PlannedEnergy(FrameEnergy):
             plan: The plan.
             observation: The frame's data.
             candidates: Poses, at least one.
-            prior: Pose to which unobserved joints stay close.
+            prior: What is known of the pose before the frame.
             smoothing: Standard deviation of a Gaussian that smooths the energy over space [m].
 
         Returns:
@@ -87,7 +87,7 @@ class PlannedEnergy(FrameEnergy):
             np.array([pose.hinges for pose in candidates], dtype=np.float64),
             states,
         )
-        return cls(plan, scene, _arrays(prior), states), candidates[best]
+        return cls(plan, scene, prior, states), candidates[best]
 
     def total(self, pose: Pose) -> float:
         """Returns the energy of the kernel and all terms in a pose."""
@@ -99,7 +99,9 @@ class PlannedEnergy(FrameEnergy):
             return np.array([np.nan])
         skeleton = self.plan.body.skeleton.arrays
         probability = np.empty(len(self.scene.data.points))
-        explained(self.plan.arrays, skeleton, self.scene, _arrays(pose), self.states, probability)
+        explained(
+            self.plan.arrays, skeleton, self.scene, PoseArrays.of(pose), self.states, probability
+        )
         return probability
 
     def derivatives(self, pose: Pose, order: int) -> tuple[float, Array, Array]:
@@ -110,8 +112,8 @@ class PlannedEnergy(FrameEnergy):
             self.plan.arrays,
             skeleton.arrays,
             self.scene,
-            self.prior,
-            _arrays(pose),
+            self.prior.arrays,
+            PoseArrays.of(pose),
             self.states,
             order,
             force,
@@ -161,14 +163,9 @@ class CompiledProblem(PoseProblem):
             energy.plan.arrays,
             energy.plan.body.skeleton.arrays,
             energy.scene,
-            energy.prior,
-            _arrays(self._coordinates.start),
+            energy.prior.arrays,
+            PoseArrays.of(self._coordinates.start),
             energy.states,
             self.lower,
             self.upper,
         )
-
-
-def _arrays(pose: Pose) -> PoseArrays:
-    """Returns a pose as compiled functions take it."""
-    return PoseArrays(loop_input(pose.root), loop_input(pose.balls), loop_input(pose.hinges))

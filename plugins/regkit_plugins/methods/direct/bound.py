@@ -12,17 +12,30 @@ from regkit.body import Body
 from regkit.interfaces import (
     Evaluation,
     JointEnergy,
+    Prior,
     Registrar,
     RegistrationResult,
     Scene,
     Similarity,
+    Solution,
     Term,
     VisibilityWeights,
 )
 from regkit.interfaces.term import Effect
 from regkit.observation import Observation
 from regkit.primitives import Primitives
-from regkit.registration import COORDINATES, FrameEnergy, Plan, PlannedEnergy, SummedEnergy
+from regkit.registration import (
+    COORDINATES,
+    Coordinates,
+    FrameEnergy,
+    Plan,
+    PlannedEnergy,
+    PoseCurvature,
+    SummedEnergy,
+    TangentCoordinates,
+    effective_points,
+    thinned,
+)
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError, PluginError
@@ -57,7 +70,7 @@ class BoundDirect(Registrar):
         observation: Observation,
         candidates: Sequence[Pose],
         *,
-        prior: Pose | None = None,
+        prior: Prior | None = None,
         warm_start: RegistrationResult | None = None,
     ) -> RegistrationResult:
         """Minimises the energy near the best candidate, from smooth to sharp.
@@ -66,7 +79,7 @@ class BoundDirect(Registrar):
             DataError: If the pose violates a limit although ``hard_limits`` is set.
         """
         annealing = self.method.annealing
-        prior = prior or candidates[0]
+        prior = prior or Prior(candidates[0])
         energy, pose = self._best(observation, candidates, prior, annealing[0], self.plan)
         evaluations = len(candidates) if len(candidates) > 1 else 0
         iterations = 0
@@ -93,13 +106,15 @@ class BoundDirect(Registrar):
             evaluations=evaluations,
             message=solution.message,
             multipliers=multipliers,
+            curvature=self._curvature(coordinates, pose, solution, prior),
+            effective_points=prior.points,
         )
 
     def _best(
         self,
         observation: Observation,
         candidates: Sequence[Pose],
-        prior: Pose,
+        prior: Prior,
         smoothing: float,
         plan: Plan | None,
     ) -> tuple[FrameEnergy, Pose]:
@@ -132,26 +147,52 @@ class BoundDirect(Registrar):
                 f"{np.degrees(violation):.3g} degrees, which hard_limits forbids"
             )
 
+    def _curvature(
+        self, coordinates: Coordinates, pose: Pose, solution: Solution, prior: Prior
+    ) -> PoseCurvature | None:
+        """Returns the curvature at a solution; None if solver or coordinates have none."""
+        if not isinstance(coordinates, TangentCoordinates):
+            return None
+        informed = prior.informed and any(term.informed for term in self.method.terms)
+        return PoseCurvature.of(coordinates, pose, solution, prior if informed else None)
+
+    def effective_points(self, observation: Observation, pose: Pose) -> float:
+        """Returns the effective number of independent points; NaN if the kernel has no residuals.
+
+        It is estimated from the correlation of some points' residuals.
+        """
+        some = thinned(observation)
+        weights = [term for term in self.method.terms if term.weighs]
+        found = self._summed(some, pose, Prior(pose), 0.0, weights).whitened(pose)
+        if found is None:
+            return float("nan")
+        return effective_points(some.points, *found, self.body.size, len(observation.points))
+
     def evaluate(self, observation: Observation, pose: Pose) -> Evaluation:
         """Returns the energy of a pose, with everything bound to the frame at this pose."""
-        energy, _ = self._best(observation, [pose], pose, 0.0, self.plan)
+        energy, _ = self._best(observation, [pose], Prior(pose), 0.0, self.plan)
         return Evaluation(energy.total(pose), energy.inlier_probability(pose))
 
     def gradient(self, observation: Observation, pose: Pose) -> Array:
         """Returns the derivative of the energy to a step of ``Skeleton.retract``, (n,)."""
-        energy, _ = self._best(observation, [pose], pose, 0.0, self.derivatives)
+        energy, _ = self._best(observation, [pose], Prior(pose), 0.0, self.derivatives)
         return energy.force(pose)
 
     def _summed(
-        self, observation: Observation, pose: Pose, prior: Pose, smoothing: float
+        self,
+        observation: Observation,
+        pose: Pose,
+        prior: Prior,
+        smoothing: float,
+        terms: Sequence[Term] | None = None,
     ) -> SummedEnergy:
-        """Returns the sum of the kernel and all terms, bound to a frame at a pose."""
+        """Returns the sum of the kernel and terms, by default all, bound to a frame at a pose."""
         placed = self.primitives.place(self.body.place(pose).transforms)
         scene = Scene(self.body, observation, prior, placed)
         primitives = self.primitives
-        terms: dict[str, Similarity] = {}
+        energies: dict[str, Similarity] = {}
         joints: list[JointEnergy] = []
-        for index, term in enumerate(self.method.terms):
+        for index, term in enumerate(self.method.terms if terms is None else terms):
             effect = term.bind(scene)
             if isinstance(effect, VisibilityWeights) is not term.weighs:
                 raise _undeclared(term, effect)
@@ -160,10 +201,10 @@ class BoundDirect(Registrar):
             elif isinstance(effect, JointEnergy):
                 joints.append(effect)
             else:
-                terms[f"terms[{index}] ({term.kind})"] = effect
+                energies[f"terms[{index}] ({term.kind})"] = effect
         placed = replace(placed, primitives=primitives)
         kernel = self.method.kernel.bind(observation, placed, smoothing=smoothing)
-        return SummedEnergy(self.body, primitives, kernel, terms, tuple(joints))
+        return SummedEnergy(self.body, primitives, kernel, energies, tuple(joints))
 
 
 def _undeclared(term: Term, effect: Effect) -> PluginError:

@@ -45,7 +45,7 @@ class Continuity(Term):
     def bind(self, scene: Scene) -> BoundContinuity:
         """Binds the term to the prior pose."""
         weights = self._weights(scene.body.skeleton)
-        return BoundContinuity(scene.body.skeleton, scene.prior, weights, np.diag(weights))
+        return BoundContinuity(scene.body.skeleton, scene.prior.pose, weights, np.diag(weights))
 
     def compiled(self, body: Body, primitives: Primitives) -> CompiledJoints:
         """Returns the term as a compiled function."""

@@ -1,0 +1,29 @@
+"""The curvature of an energy at a registered pose, from which its covariance follows."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+
+from regkit.system.arrays import Array
+
+
+class Curvature(ABC):
+    """The Gauss-Newton matrix of an energy at its minimum, with the prior and the active limits."""
+
+    @abstractmethod
+    def covariance(self, points: float) -> Array:
+        """Returns the covariance of the pose, (n, n), on the tangent space at the pose.
+
+        Args:
+            points: Effective number N of independent points, by which the energy is multiplied.
+        """
+
+    @abstractmethod
+    def information(self, points: float) -> Array:
+        """Returns what the data alone tell of the m independent degrees of freedom, (m, m).
+
+        A coupled hinge is none of them.
+
+        Args:
+            points: As for ``covariance``.
+        """

@@ -1,0 +1,97 @@
+"""The curvature at a registered pose, and the covariance that follows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from regkit.interfaces import Curvature, Prior, Solution
+from regkit.registration.compiled_posterior import (
+    add_active_limits,
+    contracted,
+    expanded,
+    inverted,
+    to_tangent,
+)
+from regkit.registration.tangent import TangentCoordinates
+from regkit.skeleton import Pose, Skeleton
+from regkit.skeleton.arrays import PoseArrays
+from regkit.system.arrays import Array
+
+
+@dataclass(frozen=True, eq=False)
+class PoseCurvature(Curvature):
+    """The curvature of a frame's energy at the pose that minimises it.
+
+    With the Gauss-Newton matrix H of the mean energy and N independent points, the information of
+    the pose is N H + L, where L is that of the prior. Without a prior's information, L is that of
+    poses spread evenly over the joint limits, which only matters where the data tell nothing.
+    Couplings map the covariance of the independent degrees of freedom to all; an active limit has
+    no variance beyond it.
+
+    Attributes:
+        skeleton: The skeleton.
+        pose: The pose.
+        gradient: Gradient of the energy on the independent degrees of freedom, (m,).
+        matrix: Gauss-Newton matrix of the energy without the prior's, (m, m).
+        prior: What was known of the pose before; None for the spread of the limits.
+    """
+
+    skeleton: Skeleton
+    pose: Pose
+    gradient: Array
+    matrix: Array
+    prior: Prior | None = None
+
+    @classmethod
+    def of(
+        cls, coordinates: TangentCoordinates, pose: Pose, solution: Solution, prior: Prior | None
+    ) -> PoseCurvature | None:
+        """Returns the curvature at a solution; None if the solver does not return it.
+
+        Args:
+            coordinates: Coordinates of the solution.
+            pose: Pose of the solution.
+            solution: The solution.
+            prior: The prior whose information the energy contains; None if it contains none.
+        """
+        if solution.gradient is None or solution.curvature is None:
+            return None
+        skeleton = coordinates.skeleton
+        gradient, matrix = solution.gradient.copy(), solution.curvature.copy()
+        first, hinges = 3 if skeleton.free else 0, skeleton.hinge_dofs.start
+        to_tangent(solution.x, first, hinges, gradient, matrix)
+        stiffness = None if prior is None else prior.stiffness
+        if stiffness is not None:
+            matrix -= contracted(skeleton.arrays.limits, hinges, stiffness, len(matrix))
+        return cls(skeleton, pose, gradient, matrix, prior)
+
+    def information(self, points: float) -> Array:
+        """Returns N H, what the data alone tell of the independent degrees of freedom, (m, m)."""
+        return points * self.matrix
+
+    def covariance(self, points: float) -> Array:
+        """Returns the covariance (n, n) on the tangent space at the pose; NaN if it is unknown."""
+        arrays, hinges = self.skeleton.arrays, self.skeleton.hinge_dofs.start
+        matrix = points * self.matrix
+        matrix += contracted(arrays.limits, hinges, self._before, len(matrix))
+        add_active_limits(arrays, PoseArrays.of(self.pose), points * self.gradient, matrix)
+        return expanded(arrays.limits, hinges, inverted(matrix))
+
+    @property
+    def _before(self) -> Array:
+        """Information before the frame, (n, n)."""
+        if self.prior is not None and self.prior.information is not None:
+            return self.prior.information
+        return self.skeleton.spread_information
+
+
+def marker_covariances(jacobian: Array, covariance: Array) -> Array:
+    """Returns the covariances J P J^T (M, 3, 3) [m^2] of markers.
+
+    Args:
+        jacobian: Derivative of the markers to the degrees of freedom, (M, 3, n).
+        covariance: Covariance of the degrees of freedom, (n, n).
+    """
+    return np.asarray(jacobian @ covariance @ jacobian.transpose(0, 2, 1))
