@@ -106,6 +106,22 @@ class Tracking(Summary):
         """Positions of the markers in the camera's frame, (T, M, 3) [m]."""
         return self.track.markers
 
+    @cached_property
+    def deviations(self) -> Array | None:
+        """Standard deviations of the markers along the camera's axes, (T, M, 3) [m].
+
+        NaN for a frame without data; None if the method does not know how sure it is.
+        """
+        return self.track.marker_deviations(self.body)
+
+    @property
+    def covariances(self) -> Array | None:
+        """Covariances of the degrees of freedom, (T, n, n), on the tangent space; None if unknown.
+
+        They are those of the step of ``Skeleton.retract`` from each pose, in [m] and [rad].
+        """
+        return self.track.covariances
+
     @property
     def numbers(self) -> tuple[int, ...]:
         """Numbers of the frames in the recording, (T,); a camera's dropped frames are missing."""

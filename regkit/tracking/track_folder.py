@@ -121,7 +121,7 @@ class TrackDescription(Model):
         # The poses of a former track in the folder would contradict the new description.
         (folder / POSES).unlink(missing_ok=True)
         self.write(folder)
-        return RowsInFile(Track.layout(body), folder / ROWS, {"format": FORMAT})
+        return RowsInFile(Track.layout(body, information=False), folder / ROWS, {"format": FORMAT})
 
     def motion(self, folder: Path, fps: float | None = None) -> TrackedMotion:
         """Returns the motion in a folder, at a constant rate.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import exp, isnan, log
+from math import isnan
 from typing import Annotated, Literal
 
 import numpy as np
@@ -17,12 +17,6 @@ from regkit.system.arrays import Array
 from regkit_plugins.trackers.constant_velocity.recovery import BoundRecovery, Recovery
 from regkit_plugins.trackers.constant_velocity.repetition import repeated
 from regkit_plugins.trackers.filter.compiled import predicted_information
-
-RARELY = 64
-"""Number of frames between estimates of the effective number of points."""
-
-SETTLED = 4
-"""Frame in which it is estimated once more: the first pose may not be as good as the others."""
 
 
 class Filter(Tracker):
@@ -112,8 +106,8 @@ class BoundFilter(BoundTracker):
         gain = self.settings.gain if kept.pose is found.pose else 0.0
         if past.before is None:
             gain = float(past.frames > 0 and gain > 0.0 and not past.missed)
-        points = self._points(observation, kept, past)
-        return replace(kept, effective_points=points, velocity=velocity + gain * moved)
+        kept = past.counted(self.registrar, observation, kept)
+        return replace(kept, velocity=velocity + gain * moved)
 
     def _velocity(self, past: Past) -> Array:
         """Returns the step (n,) that the body is expected to take."""
@@ -136,13 +130,3 @@ class BoundFilter(BoundTracker):
             self.registrar.body.skeleton.ball_dofs.start,
         )
         return Prior(predicted, information, points)
-
-    def _points(self, observation: Observation, found: RegistrationResult, past: Past) -> float:
-        """Returns the effective number of points, estimated anew in some frames."""
-        before, frame = past.last.effective_points, past.frames
-        if not isnan(before) and frame % RARELY and frame != SETTLED:
-            return before
-        now = self.registrar.effective_points(observation, found.pose)
-        if isnan(before) or isnan(now):
-            return now
-        return exp(0.5 * (log(before) + log(now)))
