@@ -19,7 +19,15 @@ from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError, DataError, RegkitError
 from regkit.system.files import write_arrays
-from regkit.tracking import Snapshot, Track, TrackRecorder, TrackVerdict, Verdict
+from regkit.tracking import (
+    Smoothing,
+    Snapshot,
+    Track,
+    TrackRecorder,
+    TrackVerdict,
+    Verdict,
+    smoothed,
+)
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -185,6 +193,20 @@ class Tracking(Summary):
             raise DataError("no joint is visible in any frame", place="truth")
         return float(np.nanmean(distances))
 
+    def smoothed(self, settings: Smoothing | None = None) -> Tracking:
+        """Returns the same frames with the poses that are most likely, given all of them.
+
+        Hidden limbs and frames without data are interpolated, and there is less noise; the verdicts
+        of the frames stay.
+
+        Args:
+            settings: How the body moves; by default as people and hands do.
+
+        Raises:
+            ConfigError: If the method does not know how sure its poses are.
+        """
+        return replace(self, track=smoothed(self.track, self.body, settings))
+
     def plot(self, truth: Reference | None = None) -> Figure:
         """Returns a figure of the first, the worst and the last frame, from the front and the side.
 
@@ -273,7 +295,8 @@ class Tracking(Summary):
         Raises:
             RegkitError: If the frame can no longer be read.
         """
-        return replace(self.recorder.snapshot(self.indices[index]), frame=index)
+        kept = self.recorder.snapshot(self.indices[index])
+        return replace(kept, frame=index, pose=self.track.pose(index))
 
     def message(self, index: int) -> str:
         """Returns why the registration of a frame ended."""

@@ -27,3 +27,11 @@ class Curvature(ABC):
         Args:
             points: As for ``covariance``.
         """
+
+    @abstractmethod
+    def pull(self, points: float) -> Array:
+        """Returns how the data alone pull at the pose, (m,): the gradient of their log-likelihood.
+
+        Args:
+            points: As for ``covariance``.
+        """

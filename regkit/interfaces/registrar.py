@@ -71,6 +71,13 @@ class RegistrationResult:
             return None
         return self.curvature.information(self.effective_points)
 
+    @property
+    def pull(self) -> Array | None:
+        """How the frame's data alone pull at the pose, (m,), as ``Curvature.pull``; or None."""
+        if self.curvature is None or np.isnan(self.effective_points):
+            return None
+        return self.curvature.pull(self.effective_points)
+
     @classmethod
     def given(cls, pose: Pose) -> RegistrationResult:
         """Returns the result for a given pose, which no registration found."""

@@ -17,6 +17,7 @@ from regkit.registration.compiled_posterior import (
 from regkit.registration.tangent import TangentCoordinates
 from regkit.skeleton import Pose, Skeleton
 from regkit.skeleton.arrays import PoseArrays
+from regkit.skeleton.compiled_difference import add_at_end
 from regkit.system.arrays import Array
 
 
@@ -70,6 +71,20 @@ class PoseCurvature(Curvature):
     def information(self, points: float) -> Array:
         """Returns N H, what the data alone tell of the independent degrees of freedom, (m, m)."""
         return points * self.matrix
+
+    def pull(self, points: float) -> Array:
+        """Returns minus N times the gradient of the data's energy, (m,)."""
+        gradient, prior = self.gradient, self.prior
+        stiffness = None if prior is None else prior.stiffness
+        if prior is None or stiffness is None:
+            return -points * gradient
+        skeleton = self.skeleton
+        step = skeleton.difference(prior.pose, self.pose)
+        force = np.zeros(skeleton.dofs)
+        first, hinges = 3 if skeleton.free else 0, skeleton.hinge_dofs.start
+        add_at_end(step, stiffness @ step, force, first, hinges)
+        # A prior of the filter has no information on coupled hinges.
+        return -points * (gradient - force[skeleton.independent_dofs])
 
     def covariance(self, points: float) -> Array:
         """Returns the covariance (n, n) on the tangent space at the pose; NaN if it is unknown."""

@@ -145,6 +145,7 @@ class TrackRecorder:
                 "preprocessing": frame.preprocessing,
                 "effective_points": found.effective_points,
                 "covariances": np.nan if found.covariance is None else found.covariance,
+                "pulls": np.nan if found.pull is None else found.pull,
                 "information": np.nan if found.information is None else found.information,
             }
         )

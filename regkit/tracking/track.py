@@ -17,8 +17,11 @@ from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit.system.brief import Brief
 
-UNCERTAINTY = ("effective_points", "covariances", "information")
+UNCERTAINTY = ("effective_points", "covariances", "information", "pulls")
 """Arrays that a track has only if its method knows how sure it is."""
+
+EVIDENCE = ("information", "pulls")
+"""Those of them that only smoothing needs."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +57,9 @@ class Track(Brief):
         covariances: Covariances of the degrees of freedom, on the tangent space at the poses,
             (T, n, n) in [m] and [rad]; NaN for a frame without data, None if the method has none.
         information: What each frame's data alone tell of the independent degrees of freedom,
-            (T, m, m), as ``Curvature.information``; zero without data, None if it is not kept.
+            (T, m, m), as ``Curvature.information``; NaN without data, None if it is not kept.
+        pulls: How each frame's data alone pull at its pose, (T, m), as ``Curvature.pull``; None if
+            it is not kept.
     """
 
     numbers: Array
@@ -78,6 +83,7 @@ class Track(Brief):
     effective_points: Array | None = None
     covariances: Array | None = None
     information: Array | None = None
+    pulls: Array | None = None
 
     @staticmethod
     def layout(body: Body, *, information: bool = True) -> dict[str, tuple[int, ...]]:
@@ -97,9 +103,10 @@ class Track(Brief):
             "supports": (len(body.skeleton.names),),
             "covariances": (dofs, dofs),
             "information": (own, own),
+            "pulls": (own,),
         }
         names = [field.name for field in fields(Track)]
-        kept = names if information else [name for name in names if name != "information"]
+        kept = [name for name in names if information or name not in EVIDENCE]
         return {name: shapes.get(name, ()) for name in kept}
 
     @classmethod
@@ -169,8 +176,8 @@ class Track(Brief):
         """Returns these arrays, verdicts, names of markers and joints, and the size, for a file."""
         arrays = self._arrays()
         # It is only needed to smooth the track, and as large as all others together.
-        arrays.pop("information", None)
-        return arrays | {
+        kept = {name: array for name, array in arrays.items() if name not in EVIDENCE}
+        return kept | {
             "verdicts": np.array(self.verdicts, dtype=np.str_),
             "marker_names": np.array(body.markers.names, dtype=np.str_),
             "ball_names": np.array(body.skeleton.ball_names, dtype=np.str_),

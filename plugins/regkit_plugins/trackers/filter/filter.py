@@ -30,11 +30,11 @@ class Filter(Tracker):
 
     kind: Literal["filter"] = "filter"
 
-    joint_deg: Spread = 3.0
+    joint_deg: Spread = 5.0
     """Process noise of a joint: what its motion changes unforeseen in a frame [deg]."""
     joints_deg: dict[str, Spread] = Field(default_factory=dict)
     """Process noise of individual joints, by segment [deg]."""
-    root_m: Length = 0.05
+    root_m: Length = 0.1
     """Process noise of the root's position [m]."""
     root_deg: Spread = 20.0
     """Process noise of the root's orientation [deg]."""
