@@ -7,6 +7,7 @@ import math
 from pathlib import Path
 from typing import Annotated, Any
 
+import numpy as np
 import typer
 from rich.markup import escape
 from rich.table import Table
@@ -168,6 +169,7 @@ def _figures(found: Alignment, method: str, verdict: Verdict) -> dict[str, Any]:
         "fitness_at_start": found.before.fitness,
         "start": found.start,
         "hidden_motion": found.hidden,
+        "covariance": found.covariance.tolist(),
         "method": method,
         "voxel": found.voxel,
         "points": list(found.points),
@@ -188,6 +190,7 @@ def _table(found: Alignment, method: str, matrix: list[str]) -> Table:
         ("", f"({100 * found.before.fitness:.1f} % at the start)"),
         ("inlier RMSE", f"{agreement.inlier_rmse:.4g}"),
         ("overlap", f"{100 * agreement.overlap:.1f} % of the target {within} of the source"),
+        ("deviation", _deviation(found)),
         ("method", method),
         ("start", found.start),
         ("points", f"{found.points[0]} and {found.points[1]}, {downsampled}"),
@@ -196,3 +199,14 @@ def _table(found: Alignment, method: str, matrix: list[str]) -> Table:
     ):
         table.add_row(name, escape(value))
     return table
+
+
+def _deviation(found: Alignment) -> str:
+    """Returns the standard deviations along and about the target's axes, in words."""
+    shift, turn = found.deviations[:3], np.degrees(found.deviations[3:])
+    return (
+        ", ".join(f"{value:.2g}" for value in shift)
+        + " of the source's centroid along x, y, z; "
+        + ", ".join(f"{value:.2g}" for value in turn)
+        + " degrees about them"
+    )
