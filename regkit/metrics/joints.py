@@ -17,6 +17,11 @@ HALF_WIDTH = 1.6448536269514722
 """Half the width of a normal distribution's central 90 % interval, in standard deviations."""
 
 
+RADIUS = 2.5002777108094148
+"""Radius of the ball that holds 90 % of an isotropic normal distribution in space, in standard
+deviations along an axis."""
+
+
 @dataclass(frozen=True)
 class JointErrors:
     """Distances between the body's markers and the reference joints, in T frames for J joints.
@@ -39,6 +44,18 @@ class JointErrors:
     adjusted: Array
     deviations: Array | None = None
     covered: Array | None = None
+
+    def expected(self) -> Array | None:
+        """Returns the distance within which a joint is expected in 9 of 10 cases, (T,) [m].
+
+        The mean over the joints in each frame; None if the method does not know how sure it is.
+        """
+        if self.deviations is None:
+            return None
+        known = np.isfinite(self.deviations)
+        sums = np.where(known, self.deviations, 0.0).sum(axis=1)
+        counts = known.sum(axis=1)
+        return np.where(counts > 0, RADIUS * sums / np.maximum(counts, 1), np.nan)
 
     def of_frames(self) -> Array:
         """Returns the mean raw distance in each frame, (T,) [m]; NaN where no joint is known."""
