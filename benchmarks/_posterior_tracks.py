@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from _suite import own_template
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from regkit.body import Body
 from regkit.body.support import WEAK
@@ -20,6 +21,7 @@ from regkit.metrics import JointErrors, joint_errors
 from regkit.metrics.matching import matched
 from regkit.observation import Truth
 from regkit.skeleton import Pose
+from regkit.system.arrays import Array
 from regkit.tracking import Session, Track, TrackRecorder, smoothed
 from regkit_plugins.datasets.synthetic import Synthetic
 from regkit_plugins.presets import HANDS, PEOPLE, SMMC_LIKE
@@ -30,6 +32,10 @@ SUITES: dict[str, tuple[str, Path]] = {
     "hands": ("hand", HANDS),
 }
 """Type of body and dataset of each suite."""
+
+FEWEST, NEARBY = 3, 0.06
+"""A joint is measured if so many points are within this part of the body's size, 10 cm of a person.
+"""
 
 POINTS = {
     "human": {"kind": "points", "voxel": 0.03, "sigma": 0.01},
@@ -45,25 +51,35 @@ class Tracked:
     Attributes:
         errors: Joint errors, and how the method's intervals cover them.
         hidden: Whether a joint's segment has little data of its own, (T, J).
+        unmeasured: Whether the true joint has no measurements nearby, (T, J): fewer than
+            ``FEWEST`` points within ``NEARBY`` of the body's size.
         jitter: Root mean square difference of the joints' accelerations to the true ones, in
             [m] per frame squared.
-        seconds: Processor time of a frame's registration, or of its smoothing [s].
+        seconds: Usual time of a frame's registration, or mean processor time of smoothing it [s].
     """
 
     errors: JointErrors
     hidden: NDArray[np.bool_]
+    unmeasured: NDArray[np.bool_]
     jitter: float
     seconds: float
 
     @classmethod
-    def of(cls, track: Track, body: Body, truth: Truth, seconds: float) -> Tracked:
+    def of(
+        cls,
+        track: Track,
+        body: Body,
+        truth: Truth,
+        unmeasured: NDArray[np.bool_],
+        seconds: float,
+    ) -> Tracked:
         """Returns how a track compares with the true joints."""
         columns, markers = matched(body, truth, {})
         hidden = track.supports[:, body.markers.segments[markers]] < WEAK
         off = track.markers[:, markers] - truth.positions[: len(track), columns]
         acceleration = np.diff(off, n=2, axis=0)
         jitter = float(np.sqrt((acceleration**2).sum(axis=2).mean()))
-        return cls(joint_errors(track, body, truth, {}), hidden, jitter, seconds)
+        return cls(joint_errors(track, body, truth, {}), hidden, unmeasured, jitter, seconds)
 
     @property
     def raw(self) -> float:
@@ -104,25 +120,40 @@ def _compared(suite: str, recording: Recording, session: Session) -> Compared:
     assert truth is not None
     start = session.begin()
     tracks, seconds = {}, {}
+    columns, _ = matched(start.body, truth, {})
+    places = truth.positions[:, columns]
     for name in ("best", "filtered"):
-        tracks[name], seconds[name] = _track(session, name, start.body, start.pose)
+        tracks[name], seconds[name], unmeasured = _track(
+            session, name, start.body, start.pose, places
+        )
     begun = time.process_time()
     smooth = smoothed(tracks["filtered"], start.body)
     seconds["smoothed"] = (time.process_time() - begun) / len(smooth)
     tracks["smoothed"] = smooth
     kinds = {
-        name: Tracked.of(track, start.body, truth, seconds[name]) for name, track in tracks.items()
+        name: Tracked.of(track, start.body, truth, unmeasured, seconds[name])
+        for name, track in tracks.items()
     }
     return Compared(suite, recording.name, **kinds)
 
 
-def _track(session: Session, name: str, body: Body, pose: Pose) -> tuple[Track, float]:
-    """Returns a track by a preset, and the time of a frame without preprocessing [s]."""
+def _track(
+    session: Session, name: str, body: Body, pose: Pose, places: Array
+) -> tuple[Track, float, NDArray[np.bool_]]:
+    """Returns a track by a preset, the time of a frame's registration, and unmeasured joints."""
     method = method_named(name)
     registrar = method.bind(body)
     assert method.tracker is not None
     recorder = TrackRecorder(registrar, session.recording.fps)
-    for frame in session.tracked(registrar, method.tracker, pose):
+    unmeasured = []
+    for frame, joints in zip(
+        session.tracked(registrar, method.tracker, pose), places, strict=False
+    ):
         recorder.add(frame)
+        assert frame.observation is not None
+        near = cKDTree(frame.observation.points).query_ball_point(joints, NEARBY * body.size)
+        unmeasured.append([len(found) < FEWEST for found in near])
     track = recorder.track()
-    return track, float((track.seconds - track.preprocessing).mean())
+    # The median is that of a frame in which no limb is sought.
+    usual = float(np.median(track.seconds - track.preprocessing))
+    return track, usual, np.array(unmeasured)

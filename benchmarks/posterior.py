@@ -4,10 +4,11 @@
 
 The 13 recordings of ``people``, the 28 of ``smmc_like`` and the 6 of ``hands``, with templates of
 the true lengths, are tracked by ``best`` and by ``filtered`` from the same starts, and the latter
-is smoothed. A joint is hidden in a frame if its segment has little data of its own. An interval is
-that of one coordinate of a joint, 1.64 standard deviations to both sides of the marker; it has to
-hold the joint's coordinate after subtraction of the marker's constant displacement. Then 200 pairs
-of bunnies are aligned as in ``benchmarks/rigid.py``, with intervals of the six components of the
+is smoothed. A joint is hidden in a frame if its segment has little data of its own, else visible;
+it is unmeasured if no data are near the true joint, as also inside of a trunk. An interval is that
+of one coordinate of a joint, 1.64 standard deviations to both sides of the marker; it has to hold
+the joint's coordinate after subtraction of the marker's constant displacement. Then 200 pairs of
+bunnies are aligned as in ``benchmarks/rigid.py``, with intervals of the six components of the
 error's twist. With ``--utd``, the recordings of UTD-MHAD in a folder are tracked in the same ways.
 """
 
@@ -63,41 +64,39 @@ def suite_table(suite: str) -> list[Compared]:
     return rows
 
 
+GROUPS = ("visible", "hidden", "unmeasured")
+
+
 def coverage(rows: Sequence[Compared]) -> dict[str, Any]:
-    """Prints the coverage of the intervals, visible and hidden joints apart; returns it."""
-    print("\n| 90 % intervals of | suite | visible [%] | hidden [%] | visible [mm] | hidden [mm] |")
-    print("|---|---|" + "--:|" * 4)
+    """Prints the coverage of the intervals in the groups of joints; returns that of the filter."""
+    heads = [f"{group} [{unit}]" for unit in ("%", "mm") for group in GROUPS]
+    print(f"\n| 90 % intervals of | suite | {' | '.join(heads)} |")
+    print("|---|---|" + "--:|" * len(heads))
     figures: dict[str, Any] = {}
     for way in ("best", "filtered", "smoothed"):
         for suite in (*SUITES, "all"):
             own = [getattr(row, way) for row in rows if suite in (row.suite, "all")]
-            seen, hidden, narrow, wide = _covered(own)
-            print(f"| {way} | {suite} | {seen:.1f} | {hidden:.1f} | {narrow:.1f} | {wide:.1f} |")
-            if way == "filtered":
-                figures.setdefault("coverage_visible_percent", {})[suite] = round(seen, 1)
-                figures.setdefault("coverage_hidden_percent", {})[suite] = round(hidden, 1)
-                figures.setdefault("hidden_over_visible_deviation", {})[suite] = round(
-                    wide / narrow, 2
-                )
+            covered = {group: _covered(own, group) for group in GROUPS}
+            held = [f"{covered[group][0]:.1f}" for group in GROUPS]
+            wide = [f"{covered[group][1]:.1f}" for group in GROUPS]
+            print(f"| {way} | {suite} | {' | '.join([*held, *wide])} |")
+            for group, (share, _) in covered.items() if way == "filtered" else ():
+                figures.setdefault(f"coverage_{group}_percent", {})[suite] = round(share, 1)
     return figures
 
 
-def _covered(kinds: Sequence[Tracked]) -> tuple[float, float, float, float]:
-    """Returns the percentages that visible and hidden intervals hold, and their deviations [mm]."""
-    hidden = np.concatenate([kind.hidden.ravel() for kind in kinds])
-    covered = np.concatenate([_known(kind.errors.covered) for kind in kinds])
-    deviations = np.concatenate([_known(kind.errors.deviations) for kind in kinds])
-    return (
-        100.0 * float(np.nanmean(covered[~hidden])),
-        100.0 * float(np.nanmean(covered[hidden])),
-        1000.0 * float(np.nanmedian(deviations[~hidden])),
-        1000.0 * float(np.nanmedian(deviations[hidden])),
-    )
-
-
-def _known(values: Any) -> Any:
-    assert values is not None
-    return values.ravel()
+def _covered(kinds: Sequence[Tracked], group: str) -> tuple[float, float]:
+    """Returns the percentage that the intervals of a group hold, and the usual deviation [mm]."""
+    shares, deviations = [], []
+    for kind in kinds:
+        covered, sides = kind.errors.covered, kind.errors.deviations
+        assert covered is not None
+        assert sides is not None
+        own = ~kind.hidden if group == "visible" else getattr(kind, group)
+        shares.append(covered[own])
+        deviations.append(sides[own])
+    held = 100.0 * float(np.nanmean(np.concatenate(shares)))
+    return held, 1000.0 * float(np.nanmedian(np.concatenate(deviations)))
 
 
 def motion(rows: Sequence[Compared]) -> dict[str, Any]:

@@ -3,9 +3,11 @@
 import numpy as np
 import pytest
 from made_tracks import made_track
+from places import ROOT
 
+from regkit.experiment import Experiment
 from regkit.system.errors import ConfigError
-from regkit.tracking import smoothed
+from regkit.tracking import Smoothing, smoothed
 from regkit.tracking.kalman import Motion, smoothed_states
 
 
@@ -77,3 +79,13 @@ def test_gap_is_filled_along_the_motion_and_is_the_least_certain(random):
 def test_track_without_information_is_refused(linkage):
     with pytest.raises(ConfigError, match="cannot be smoothed"):
         smoothed(made_track(linkage, 5), linkage)
+
+
+def test_experiment_names_the_refinement_or_its_settings():
+    file = ROOT / "docs" / "examples" / "demo.yaml"
+    assert Experiment.read(file).refine is None
+    assert Experiment.read(file, ("refine=smooth",)).refine == Smoothing()
+    found = Experiment.read(file, ("refine={joint_deg: 2}",)).refine
+    assert found == Smoothing(joint_deg=2.0)
+    with pytest.raises(ConfigError, match="refine"):
+        Experiment.read(file, ("refine=sharpen",))

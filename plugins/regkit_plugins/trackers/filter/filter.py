@@ -92,7 +92,9 @@ class BoundFilter(BoundTracker):
         """Registers a frame from the better of the last and the predicted pose."""
         skeleton, last = self.registrar.body.skeleton, past.last
         velocity = self._velocity(past)
-        predicted = skeleton.limits.projected(skeleton.retract(last.pose, velocity))
+        predicted = last.pose
+        if velocity.any():
+            predicted = skeleton.limits.projected(skeleton.retract(last.pose, velocity))
         prior = self._prior(past, predicted)
         candidates = [last.pose]
         if past.before is not None:
