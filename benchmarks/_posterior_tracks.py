@@ -55,7 +55,7 @@ class Tracked:
             ``FEWEST`` points within ``NEARBY`` of the body's size.
         jitter: Root mean square difference of the joints' accelerations to the true ones, in
             [m] per frame squared.
-        seconds: Usual time of a frame's registration, or mean processor time of smoothing it [s].
+        seconds: Usual time of a frame from the depth image on, or of smoothing it [s].
     """
 
     errors: JointErrors
@@ -140,7 +140,7 @@ def _compared(suite: str, recording: Recording, session: Session) -> Compared:
 def _track(
     session: Session, name: str, body: Body, pose: Pose, places: Array
 ) -> tuple[Track, float, NDArray[np.bool_]]:
-    """Returns a track by a preset, the time of a frame's registration, and unmeasured joints."""
+    """Returns a track by a preset, the usual time of a frame [s], and unmeasured joints."""
     method = method_named(name)
     registrar = method.bind(body)
     assert method.tracker is not None
@@ -155,5 +155,4 @@ def _track(
         unmeasured.append([len(found) < FEWEST for found in near])
     track = recorder.track()
     # The median is that of a frame in which no limb is sought.
-    usual = float(np.median(track.seconds - track.preprocessing))
-    return track, usual, np.array(unmeasured)
+    return track, float(np.median(track.seconds)), np.array(unmeasured)

@@ -116,7 +116,7 @@ def motion(rows: Sequence[Compared]) -> dict[str, Any]:
             "raw_cm": round(mean, 3),
             "largest_increase_cm": round(more, 2),
             "hidden_arm_cm": round(arm, 1),
-            "registering_time_over_best": round(seconds, 2),
+            "frame_time_over_best": round(seconds, 2),
         }
     ratios = [row.smoothed.jitter / row.filtered.jitter for row in rows]
     print(f"\njitter of the smoothed track over the filtered one: {np.mean(ratios):.2f}")

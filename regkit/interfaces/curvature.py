@@ -19,6 +19,17 @@ class Curvature(ABC):
         """
 
     @abstractmethod
+    def carried(self, points: float) -> Array:
+        """Returns the covariance (n, n) by which a filter holds the pose in the next frame.
+
+        It also counts what points tell of hidden parts, which is too little to be believed, and
+        enough to keep a limb where it may be.
+
+        Args:
+            points: As for ``covariance``.
+        """
+
+    @abstractmethod
     def information(self, points: float) -> Array:
         """Returns what the data alone tell of the m independent degrees of freedom, (m, m).
 

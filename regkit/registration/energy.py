@@ -22,6 +22,11 @@ from regkit.system.arrays import Array
 class FrameEnergy(ABC):
     """The kernel and all terms, bound to a frame."""
 
+    @property
+    @abstractmethod
+    def weights(self) -> Array:
+        """Weights of the primitives in this frame, with their visibility, (K,)."""
+
     @abstractmethod
     def total(self, pose: Pose) -> float:
         """Returns the energy of the kernel and all terms in a pose."""
@@ -56,6 +61,11 @@ class SummedEnergy(FrameEnergy):
     kernel: Similarity
     terms: Mapping[str, Similarity]
     joints: tuple[JointEnergy, ...]
+
+    @property
+    def weights(self) -> Array:
+        """Weights of the primitives in this frame, with their visibility, (K,)."""
+        return self.primitives.weights
 
     def of_kernel(self, pose: Pose) -> float:
         """Returns the energy of the kernel alone in a pose."""

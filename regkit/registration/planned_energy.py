@@ -89,6 +89,11 @@ class PlannedEnergy(FrameEnergy):
         )
         return cls(plan, scene, prior, states), candidates[best]
 
+    @property
+    def weights(self) -> Array:
+        """Weights of the primitives in this frame, with their visibility, (K,)."""
+        return self.scene.weights
+
     def total(self, pose: Pose) -> float:
         """Returns the energy of the kernel and all terms in a pose."""
         return self.derivatives(pose, 0)[0]

@@ -37,17 +37,26 @@ class PoseCurvature(Curvature):
         gradient: Gradient of the energy on the independent degrees of freedom, (m,).
         matrix: Gauss-Newton matrix of the energy without the prior's, (m, m).
         prior: What was known of the pose before; None for the spread of the limits.
+        shown: Share of each independent degree of freedom that is seen, (m,), from 0 to 1: the mean
+            visibility of the primitives that it moves. What points tell of primitives that are
+            hidden is no information on these, so the matrix counts by the share on both sides.
     """
 
     skeleton: Skeleton
     pose: Pose
     gradient: Array
     matrix: Array
-    prior: Prior | None = None
+    prior: Prior | None
+    shown: Array
 
     @classmethod
     def of(
-        cls, coordinates: TangentCoordinates, pose: Pose, solution: Solution, prior: Prior | None
+        cls,
+        coordinates: TangentCoordinates,
+        pose: Pose,
+        solution: Solution,
+        prior: Prior | None,
+        shown: Array,
     ) -> PoseCurvature | None:
         """Returns the curvature at a solution; None if the solver does not return it.
 
@@ -56,6 +65,7 @@ class PoseCurvature(Curvature):
             pose: Pose of the solution.
             solution: The solution.
             prior: The prior whose information the energy contains; None if it contains none.
+            shown: Share of each independent degree of freedom that is seen, (m,).
         """
         if solution.gradient is None or solution.curvature is None:
             return None
@@ -66,10 +76,10 @@ class PoseCurvature(Curvature):
         stiffness = None if prior is None else prior.stiffness
         if stiffness is not None:
             matrix -= contracted(skeleton.arrays.limits, hinges, stiffness, len(matrix))
-        return cls(skeleton, pose, gradient, matrix, prior)
+        return cls(skeleton, pose, gradient, matrix, prior, shown)
 
     def information(self, points: float) -> Array:
-        """Returns N H, what the data alone tell of the independent degrees of freedom, (m, m)."""
+        """Returns what the data alone tell of the independent degrees of freedom, (m, m)."""
         return points * self.matrix
 
     def pull(self, points: float) -> Array:
@@ -88,8 +98,16 @@ class PoseCurvature(Curvature):
 
     def covariance(self, points: float) -> Array:
         """Returns the covariance (n, n) on the tangent space at the pose; NaN if it is unknown."""
+        believed = points * self.matrix * self.shown * self.shown[:, None]
+        return self._inverse(points, np.asarray(believed))
+
+    def carried(self, points: float) -> Array:
+        """Returns the covariance (n, n) that also counts what points tell of hidden parts."""
+        return self._inverse(points, self.information(points))
+
+    def _inverse(self, points: float, matrix: Array) -> Array:
+        """Returns the covariance (n, n) with the information (m, m) of the data, overwritten."""
         arrays, hinges = self.skeleton.arrays, self.skeleton.hinge_dofs.start
-        matrix = points * self.matrix
         matrix += contracted(arrays.limits, hinges, self._before, len(matrix))
         add_active_limits(arrays, PoseArrays.of(self.pose), points * self.gradient, matrix)
         return expanded(arrays.limits, hinges, inverted(matrix))

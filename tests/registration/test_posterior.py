@@ -1,5 +1,7 @@
 """The covariance of a registered pose agrees with what noise does to it, and keeps the limits."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -193,3 +195,20 @@ def test_inverse_is_the_inverse_or_not_a_number(random):
     matrix = root.T @ root
     np.testing.assert_allclose(inverted(matrix) @ matrix, np.eye(12), atol=1e-5)
     assert np.isnan(inverted(-matrix)).all()
+
+
+def test_what_is_hidden_is_believed_less_and_held_as_before(body, random):
+    registrar, bones = method().bind(body), body.skeleton
+    truth = pose_of(body, 20.0)
+    found = registrar.register(drawn(registrar, truth, random), [truth], prior=Prior(truth))
+    seen = found.curvature
+    np.testing.assert_allclose(seen.carried(50.0), seen.covariance(50.0))
+    (hinge,) = bones.dofs_of("finger")
+    shown = np.ones(10)
+    shown[9] = 0.1  # The only independent hinge.
+    hidden = replace(seen, shown=shown)
+    np.testing.assert_allclose(hidden.carried(50.0), seen.carried(50.0))
+    wider = hidden.covariance(50.0)
+    assert wider[hinge, hinge] > 20.0 * seen.covariance(50.0)[hinge, hinge]
+    assert wider[0, 0] == pytest.approx(seen.covariance(50.0)[0, 0], rel=0.2)
+    assert wider[hinge, hinge] < bones.spread[hinge, hinge]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -106,7 +107,7 @@ class BoundDirect(Registrar):
             evaluations=evaluations,
             message=solution.message,
             multipliers=multipliers,
-            curvature=self._curvature(coordinates, pose, solution, prior),
+            curvature=self._curvature(coordinates, pose, solution, prior, energy),
             effective_points=prior.points,
         )
 
@@ -148,13 +149,26 @@ class BoundDirect(Registrar):
             )
 
     def _curvature(
-        self, coordinates: Coordinates, pose: Pose, solution: Solution, prior: Prior
+        self,
+        coordinates: Coordinates,
+        pose: Pose,
+        solution: Solution,
+        prior: Prior,
+        energy: FrameEnergy,
     ) -> PoseCurvature | None:
         """Returns the curvature at a solution; None if solver or coordinates have none."""
         if not isinstance(coordinates, TangentCoordinates):
             return None
         informed = prior.informed and any(term.informed for term in self.method.terms)
-        return PoseCurvature.of(coordinates, pose, solution, prior if informed else None)
+        shown = self._moving @ (energy.weights / self.primitives.weights)
+        return PoseCurvature.of(coordinates, pose, solution, prior if informed else None, shown)
+
+    @cached_property
+    def _moving(self) -> Array:
+        """Share of each primitive among those that an independent dof moves, (m, K)."""
+        skeleton = self.body.skeleton
+        moved = skeleton.dof_mask[skeleton.independent_dofs][:, self.primitives.segments]
+        return np.asarray(moved / np.maximum(moved.sum(axis=1, keepdims=True), 1.0))
 
     def effective_points(self, observation: Observation, pose: Pose) -> float:
         """Returns the effective number of independent points; NaN if the kernel has no residuals.

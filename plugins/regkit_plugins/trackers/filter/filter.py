@@ -119,12 +119,12 @@ class BoundFilter(BoundTracker):
 
     def _prior(self, past: Past, predicted: Pose) -> Prior:
         """Returns the last posterior, one frame later; a pose alone in the first frame."""
-        covariance, points = past.last.covariance, past.last.effective_points
-        if covariance is None or isnan(points):
+        curvature, points = past.last.curvature, past.last.effective_points
+        if curvature is None or isnan(points):
             return Prior(past.last.pose, points=points)
         velocity = past.last.velocity
         information = predicted_information(
-            covariance,
+            curvature.carried(points),
             self.noise * (1 + past.missed),
             np.zeros(len(self.noise)) if velocity is None else self.settings.share * velocity,
             self.spread,
