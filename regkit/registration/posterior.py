@@ -75,7 +75,7 @@ class PoseCurvature(Curvature):
         to_tangent(solution.x, first, hinges, gradient, matrix)
         stiffness = None if prior is None else prior.stiffness
         if stiffness is not None:
-            matrix -= contracted(skeleton.arrays.limits, hinges, stiffness, len(matrix))
+            matrix -= _independent(skeleton, stiffness)
         return cls(skeleton, pose, gradient, matrix, prior, shown)
 
     def information(self, points: float) -> Array:
@@ -107,10 +107,14 @@ class PoseCurvature(Curvature):
 
     def _inverse(self, points: float, matrix: Array) -> Array:
         """Returns the covariance (n, n) with the information (m, m) of the data, overwritten."""
-        arrays, hinges = self.skeleton.arrays, self.skeleton.hinge_dofs.start
-        matrix += contracted(arrays.limits, hinges, self._before, len(matrix))
-        add_active_limits(arrays, PoseArrays.of(self.pose), points * self.gradient, matrix)
-        return expanded(arrays.limits, hinges, inverted(matrix))
+        skeleton = self.skeleton
+        matrix += _independent(skeleton, self._before)
+        pose = PoseArrays.of(self.pose)
+        add_active_limits(skeleton.arrays, pose, points * self.gradient, matrix)
+        inverse = inverted(matrix)
+        if not len(skeleton.limits.couplings):
+            return inverse
+        return expanded(skeleton.arrays.limits, skeleton.hinge_dofs.start, inverse)
 
     @property
     def _before(self) -> Array:
@@ -118,6 +122,15 @@ class PoseCurvature(Curvature):
         if self.prior is not None and self.prior.information is not None:
             return self.prior.information
         return self.skeleton.spread_information
+
+
+def _independent(skeleton: Skeleton, matrix: Array) -> Array:
+    """Returns K^T A K (m, m) of a matrix A (n, n) with the couplings K, (n, m)."""
+    couplings = skeleton.limits.couplings
+    if not len(couplings):
+        return matrix
+    count = len(skeleton.independent_dofs)
+    return contracted(skeleton.arrays.limits, skeleton.hinge_dofs.start, matrix, count)
 
 
 def marker_covariances(jacobian: Array, covariance: Array) -> Array:
