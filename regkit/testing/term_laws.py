@@ -68,7 +68,7 @@ class TermLaws(Laws):
         placed = primitives.place(body.place(start).transforms)
         dofs = bones.dofs
         root = random.normal(size=(dofs, dofs))
-        prior = Prior(posed(body, random), root @ root.T, 2.0)
+        prior = Prior(start, root @ root.T, 2.0)
         return Scene(body, data_of(body, start, random), prior, placed), primitives
 
     @checked_on_every("option")
