@@ -16,7 +16,7 @@ from collections.abc import Callable
 import numpy as np
 
 from regkit.body import Body
-from regkit.interfaces import Kernel
+from regkit.interfaces import Kernel, Prior
 from regkit.interfaces.compiled import RESPOND, SceneArrays
 from regkit.observation import Observation
 from regkit.primitives import Placed, Primitives
@@ -63,7 +63,7 @@ class CompiledKernel:
         primitives = GeneralizedSumOfGaussians().bind(body)
         plan = Plan.of(body, primitives, kernel, ())
         assert plan is not None
-        found = PlannedEnergy.of(plan, data, [pose], pose)
+        found = PlannedEnergy.of(plan, data, [pose], Prior(pose))
         assert found is not None
         bound, _ = found
         self.scene, self.state, self.plan = bound.scene, bound.states, plan.arrays

@@ -23,6 +23,7 @@ from regkit.interfaces import (
     Evaluation,
     Method,
     Preprocessor,
+    Prior,
     Recording,
     Registrar,
     RegistrationResult,
@@ -87,7 +88,7 @@ class Stub(Registrar):
         observation: Observation,
         candidates: Sequence[Pose],
         *,
-        prior: Pose | None = None,
+        prior: Prior | None = None,
         warm_start: RegistrationResult | None = None,
     ) -> RegistrationResult:
         """Returns the first candidate."""

@@ -75,7 +75,7 @@ nitpick_ignore_regex = [
     (
         r"py:class",
         r"TypeAliasForwardRef|ArrayLike|Beginning|Choices?|Cloud|Deviation|Frames|Intrinsics|Measured"
-        r"|CameraChoice|ListName|NoiseChoice|OneFrame"
+        r"|CameraChoice|ListName|NoiseChoice|OneFrame|Spread"
         r"|Reference|Weight|Vector|Position|Rotation|FrameCount|Length|Count|regkit\.body\.verdict\.Annotated",
     ),
     (r"py:class", r"Figure|Path|Field|FieldInfo|NoneType|Ge|Gt|Le|\d+\.\d|array|(dict|tuple)\[.*"),

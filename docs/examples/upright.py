@@ -11,6 +11,7 @@ import numpy as np
 from regkit.body import Body
 from regkit.config.plugin import register
 from regkit.interfaces import CompiledJoints, JointEnergy, JointResponse, Scene, Term
+from regkit.interfaces.compiled import PriorArrays
 from regkit.primitives import Primitives
 from regkit.skeleton import Pose
 from regkit.skeleton.arrays import PoseArrays, SkeletonArrays
@@ -44,7 +45,7 @@ class Tilt(JointEnergy):
 @compiled(python=False)
 def tilt(
     skeleton: SkeletonArrays,
-    prior: PoseArrays,
+    prior: PriorArrays,
     pose: PoseArrays,
     numbers: Vector,
     table: Matrix,

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from regkit.alignment.starts import initial_alignment
+from regkit.alignment.uncertainty import alignment_covariance
 from regkit.alignment.weak_motion import weak_motion
 from regkit.body.cloud import cloud_body
 from regkit.clouds import spacing, voxel_downsampled, voxel_for
@@ -49,6 +50,8 @@ class Alignment(Brief):
         seconds: Time for downsampling, initial alignment and registration [s].
         converged: Whether the method converged.
         message: Reason of termination.
+        covariance: Covariance of the alignment's error, (6, 6), in [m] and [rad]: of a twist,
+            linear first, in the target's axes about the centroid of the aligned source.
     """
 
     transform: Array
@@ -62,6 +65,12 @@ class Alignment(Brief):
     seconds: float
     converged: bool
     message: str
+    covariance: Array
+
+    @property
+    def deviations(self) -> Array:
+        """Standard deviations of the source's centroid [m] and rotation [rad], (6,)."""
+        return np.asarray(np.sqrt(np.diag(self.covariance)))
 
     def moved(self, points: Array) -> Array:
         """Returns points of the source (N, 3) [m] in the target's frame, with the deformation."""
@@ -157,6 +166,7 @@ def _aligned(
         seconds=seconds,
         converged=found.converged,
         message=found.message,
+        covariance=alignment_covariance(few, agreements.target, transform, agreement),
     )
 
 

@@ -13,7 +13,7 @@ import scipy
 from regkit.body import Body
 from regkit.clouds import spacing
 from regkit.geometry.rigid import transformed
-from regkit.interfaces import Evaluation, Method, Registrar, RegistrationResult
+from regkit.interfaces import Evaluation, Method, Prior, Registrar, RegistrationResult
 from regkit.observation import Observation
 from regkit.primitives import Primitives
 from regkit.skeleton import Pose
@@ -114,7 +114,7 @@ class BoundRigidMethod(Registrar):
         observation: Observation,
         candidates: Sequence[Pose],
         *,
-        prior: Pose | None = None,
+        prior: Prior | None = None,
         warm_start: RegistrationResult | None = None,
     ) -> RegistrationResult:
         """Registers from the best candidate; priors and warm starts are not used.

@@ -62,6 +62,15 @@ class CloudAlignment(Summary):
         return self.aligned - transformed(self.transform, self.source)
 
     @property
+    def covariance(self) -> Array:
+        """Covariance of the alignment's error, (6, 6), in [m] and [rad].
+
+        It is that of a twist from the found to the true alignment, linear first: the centroid of
+        the aligned source moves along the target's axes, and the source turns about them.
+        """
+        return self.found.covariance
+
+    @property
     def fitness(self) -> float:
         """Fraction of the source's points that lie on the target, from 0 to 1."""
         return self.found.agreement.fitness

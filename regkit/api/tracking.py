@@ -19,7 +19,15 @@ from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError, DataError, RegkitError
 from regkit.system.files import write_arrays
-from regkit.tracking import Snapshot, Track, TrackRecorder, TrackVerdict, Verdict
+from regkit.tracking import (
+    Smoothing,
+    Snapshot,
+    Track,
+    TrackRecorder,
+    TrackVerdict,
+    Verdict,
+    smoothed,
+)
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -106,6 +114,22 @@ class Tracking(Summary):
         """Positions of the markers in the camera's frame, (T, M, 3) [m]."""
         return self.track.markers
 
+    @cached_property
+    def deviations(self) -> Array | None:
+        """Standard deviations of the markers along the camera's axes, (T, M, 3) [m].
+
+        NaN for a frame without data; None if the method does not know how sure it is.
+        """
+        return self.track.marker_deviations(self.body)
+
+    @property
+    def covariances(self) -> Array | None:
+        """Covariances of the degrees of freedom, (T, n, n), on the tangent space; None if unknown.
+
+        They are those of the step of ``Skeleton.retract`` from each pose, in [m] and [rad].
+        """
+        return self.track.covariances
+
     @property
     def numbers(self) -> tuple[int, ...]:
         """Numbers of the frames in the recording, (T,); a camera's dropped frames are missing."""
@@ -168,6 +192,20 @@ class Tracking(Summary):
         if not np.isfinite(distances).any():
             raise DataError("no joint is visible in any frame", place="truth")
         return float(np.nanmean(distances))
+
+    def smoothed(self, settings: Smoothing | None = None) -> Tracking:
+        """Returns the same frames with the poses that are most likely, given all of them.
+
+        Hidden limbs and frames without data are interpolated, and there is less noise; the verdicts
+        of the frames stay.
+
+        Args:
+            settings: How the body moves; by default as people and hands do.
+
+        Raises:
+            ConfigError: If the method does not know how sure its poses are.
+        """
+        return replace(self, track=smoothed(self.track, self.body, settings))
 
     def plot(self, truth: Reference | None = None) -> Figure:
         """Returns a figure of the first, the worst and the last frame, from the front and the side.
@@ -257,7 +295,8 @@ class Tracking(Summary):
         Raises:
             RegkitError: If the frame can no longer be read.
         """
-        return replace(self.recorder.snapshot(self.indices[index]), frame=index)
+        kept = self.recorder.snapshot(self.indices[index])
+        return replace(kept, frame=index, pose=self.track.pose(index))
 
     def message(self, index: int) -> str:
         """Returns why the registration of a frame ended."""

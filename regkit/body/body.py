@@ -41,6 +41,12 @@ class Markers(Brief):
         rotated = (carriers[..., :3, :3] @ self.points[:, :, None])[..., 0]
         return np.asarray(rotated + carriers[..., :3, 3])
 
+    def jacobian(self, placement: Placement) -> Array:
+        """Returns the derivative of the positions to the degrees of freedom, (M, 3, n)."""
+        arms = placement.transforms[self.segments, :3, :3] @ self.points[:, :, None]
+        twists = placement.jacobian[self.segments]
+        return np.asarray(twists[:, :3] + np.cross(twists[:, 3:], arms, axis=1))
+
 
 @dataclass(frozen=True)
 class Stance:

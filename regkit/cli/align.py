@@ -191,6 +191,7 @@ def _figures(found: Alignment, method: str, verdict: Verdict) -> dict[str, Any]:
         "fitness_at_start": found.before.fitness,
         "start": found.start,
         "hidden_motion": found.hidden,
+        "covariance": found.covariance.tolist(),
         "method": method,
         "voxel": found.voxel,
         "points": list(found.points),
@@ -217,6 +218,7 @@ def _table(
         ("", f"({100 * found.before.fitness:.1f} % at the start)"),
         ("inlier RMSE", f"{agreement.inlier_rmse:.4g}"),
         ("overlap", f"{100 * agreement.overlap:.1f} % of the target {within} of the source"),
+        ("deviation", _deviation(found)),
         ("method", method),
         ("start", found.start),
         *([("deformation", _sizes(deformed))] if deformed else []),
@@ -226,3 +228,14 @@ def _table(
     ):
         table.add_row(name, escape(value))
     return table
+
+
+def _deviation(found: Alignment) -> str:
+    """Returns the standard deviations along and about the target's axes, in words."""
+    shift, turn = found.deviations[:3], np.degrees(found.deviations[3:])
+    return (
+        ", ".join(f"{value:.2g}" for value in shift)
+        + " of the source's centroid along x, y, z; "
+        + ", ".join(f"{value:.2g}" for value in turn)
+        + " degrees about them"
+    )

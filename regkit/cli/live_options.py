@@ -90,13 +90,22 @@ Record = Annotated[
     ),
 ]
 
+Smooth = Annotated[
+    bool,
+    typer.Option(
+        "--smooth",
+        help="Smooth the motion when it is tracked: hidden limbs and frames without data are "
+        "interpolated, and noise is less.",
+    ),
+]
+
 TrackOut = Annotated[
     str | None,
     typer.Option(
         metavar="FOLDER|FILE|-",
-        help="Folder for the results: result.json, markers.csv, hinges.csv, frames.csv, "
-        "poses.npz and picture.png; or a file .csv or .jsonl, or - for standard output, that "
-        "takes each pose as it comes. (default: tracks/RECORDING)",
+        help="Folder for the results: result.json, markers.csv, deviations.csv, hinges.csv, "
+        "frames.csv, poses.npz and picture.png; or a file .csv or .jsonl, or - for standard "
+        "output, that takes each pose as it comes. (default: tracks/RECORDING)",
         show_default=False,
     ),
 ]

@@ -49,6 +49,7 @@ class LiveRun:
         realtime: Whether a recording is played at its own pace.
         record: New folder that takes the frames as a recording.
         outputs: Open what takes the poses, when the body is found.
+        smooth: Whether what smoothing needs is kept.
     """
 
     source: Callable[[], Stream]
@@ -60,6 +61,7 @@ class LiveRun:
     realtime: bool = False
     record: Path | None = None
     outputs: Sequence[Callable[[LiveTrack], Output]] = ()
+    smooth: bool = False
 
     def followed(self) -> Ended:
         """Tracks the stream to its end or to Ctrl-C.
@@ -115,7 +117,7 @@ class LiveRun:
         about = (track.name, self.method, track.stream.fps, start.body.size)
         description = TrackDescription.of(*about, self.pipeline.template)
         remove_former(self.folder(track))
-        return description.rows(self.folder(track), start.body)
+        return description.rows(self.folder(track), start.body, information=self.smooth)
 
 
 @dataclass(frozen=True)

@@ -27,6 +27,7 @@ from regkit.cli.live_options import (
     Realtime,
     Record,
     RecordingName,
+    Smooth,
     TrackerName,
     TrackOut,
     View,
@@ -40,6 +41,7 @@ from regkit.cli.options import (
     Settings,
     Strict,
     TemplateName,
+    options,
     run_plugin_files,
 )
 from regkit.cli.out_folder import check_out
@@ -50,7 +52,7 @@ from regkit.cli.verdicts import conclude
 from regkit.cli.view_output import ViewOutput
 from regkit.interchange.motions import FORMATS
 from regkit.interfaces import Recording
-from regkit.system.errors import ConfigError, NoDataError
+from regkit.system.errors import ConfigError, NoDataError, RegkitError
 from regkit.tracking import Verdict
 from regkit.viewer.animation.film import FORMATS as FILMS
 from regkit.viewer.server import HOST
@@ -81,6 +83,7 @@ def track(
     port: Port = 0,
     record: Record = None,
     people: Bodies = People.ONE,
+    smooth: Smooth = False,
     settings: Settings = None,
     out: TrackOut = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
@@ -100,6 +103,11 @@ def track(
     folder = None if out is None or stream is not None else _folder(Path(out))
     if stream == "-" and as_json:
         raise ConfigError("standard output takes the poses; leave one of both out", place="--json")
+    if smooth and stream is not None:
+        raise ConfigError(
+            "poses that are written as they come cannot be smoothed; name a folder",
+            place="--smooth",
+        )
     if people is People.ALL:
         alone = {"--view": view, "--record": record, "--realtime": realtime, "--out": stream}
         for option in (one for one, given in alone.items() if given):
@@ -107,7 +115,7 @@ def track(
         chosen = dataset_recording(source, recording, frames, keypoints)
         folder = folder or Path("tracks") / chosen.name
         check_out(folder, whole=False)
-        _track_all(chosen, choices, name, folder, as_json=as_json, strict=strict)
+        _track_all(chosen, choices, name, folder, smooth=smooth, as_json=as_json, strict=strict)
         return
     outputs: list[Callable[[LiveTrack], Output]] = []
     if stream is not None:
@@ -124,16 +132,22 @@ def track(
         realtime=realtime,
         record=record,
         outputs=outputs,
+        smooth=smooth,
     )
     ended = run.followed()
     tracking = replace(_tracked(ended), method=name)
+    if smooth:
+        tracking, unsmoothed = _smoothed(tracking)
+    else:
+        unsmoothed = None
     shown = errors if stream == "-" else output
     show(
         tracking, choices.template, ended.folder, as_json=as_json, console=shown,
         more=ended.figures(),
     )  # fmt: skip
-    if ended.error is not None:
-        raise ended.error
+    for error in (ended.error, unsmoothed):
+        if error is not None:
+            raise error
     if ended.interrupted and not ended.track.stream.live:
         raise typer.Exit(INTERRUPTED)
     conclude(tracking.judged.verdict, tracking.judged.reason, strict=strict)
@@ -181,8 +195,24 @@ def _tracked(ended: Ended) -> Tracking:
         raise ended.error or error from None
 
 
+def _smoothed(tracking: Tracking) -> tuple[Tracking, RegkitError | None]:
+    """Returns the smoothed motion, or the tracked one and why it cannot be smoothed."""
+    try:
+        with options(smooth="--smooth"):
+            return tracking.smoothed(), None
+    except RegkitError as error:
+        return tracking, error
+
+
 def _track_all(
-    recording: Recording, choices: Choices, method: str, out: Path, *, as_json: bool, strict: bool
+    recording: Recording,
+    choices: Choices,
+    method: str,
+    out: Path,
+    *,
+    smooth: bool,
+    as_json: bool,
+    strict: bool,
 ) -> None:
     """Tracks every body, into folders within ``out`` if there are several.
 
@@ -198,9 +228,12 @@ def _track_all(
         tracker=choices.tracker,
         start=choices.start,
     )
-    for one in found:
+    for each in found:
+        one, unsmoothed = _smoothed(each) if smooth else (each, None)
         folder = out if len(found) == 1 else out / one.name
         show(replace(one, method=method), choices.template, folder, as_json=as_json)
+        if unsmoothed is not None:
+            raise unsmoothed
     verdicts = [one.verdict for one in found]
     worst = next(
         (one for one in (Verdict.LOST, Verdict.DOUBTFUL) if one in verdicts), Verdict.FOUND

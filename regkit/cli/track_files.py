@@ -11,6 +11,7 @@ from regkit.api import Tracking
 from regkit.api.viewing import scene_of
 from regkit.interfaces import Template
 from regkit.report.png import png
+from regkit.system.arrays import Array
 from regkit.system.csv_table import CsvTable, write_csv
 from regkit.system.errors import DataError
 from regkit.system.files import replacing
@@ -20,7 +21,15 @@ from regkit.viewer.track_file import FILE, write_scene
 
 DPI = 110
 
-BESIDE_POSES = ("result.json", "markers.csv", "hinges.csv", "frames.csv", FILE, "picture.png")
+BESIDE_POSES = (
+    "result.json",
+    "markers.csv",
+    "deviations.csv",
+    "hinges.csv",
+    "frames.csv",
+    FILE,
+    "picture.png",
+)
 """Files of a result beside the poses and their description."""
 
 
@@ -42,6 +51,9 @@ def write_track(
     TrackDescription.of(*about).write(out)
     write_json(out / "result.json", figures)
     write_csv(out / "markers.csv", *_markers(tracking))
+    deviations = tracking.deviations
+    if deviations is not None:
+        write_csv(out / "deviations.csv", *_deviations(tracking, deviations))
     write_csv(out / "hinges.csv", *_hinges(tracking))
     write_csv(out / "frames.csv", *_frames(tracking))
     tracking.save(out / POSES)
@@ -73,6 +85,15 @@ def _markers(tracking: Tracking) -> CsvTable:
         (frame, name, *(f"{value:.6f}" for value in position))
         for frame, markers in zip(tracking.numbers, tracking.markers, strict=True)
         for name, position in zip(tracking.joint_names, markers, strict=True)
+    )
+
+
+def _deviations(tracking: Tracking, deviations: Array) -> CsvTable:
+    """Returns the standard deviations of the markers along the camera's axes [m]."""
+    return ("frame", "joint", "x", "y", "z"), (
+        (frame, name, *(f"{value:.6f}" if math.isfinite(value) else "" for value in sides))
+        for frame, markers in zip(tracking.numbers, deviations, strict=True)
+        for name, sides in zip(tracking.joint_names, markers, strict=True)
     )
 
 

@@ -5,9 +5,16 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Annotated, ClassVar
+from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import AfterValidator, Field, ValidationInfo, WithJsonSchema, field_validator
+from pydantic import (
+    AfterValidator,
+    BeforeValidator,
+    Field,
+    ValidationInfo,
+    WithJsonSchema,
+    field_validator,
+)
 
 from regkit.config.document import Document
 from regkit.config.model import Model
@@ -24,7 +31,7 @@ from regkit.interfaces import (
 )
 from regkit.system.errors import ConfigError
 from regkit.system.names import LONGEST, file_name
-from regkit.tracking import Session
+from regkit.tracking import Session, Smoothing
 
 _FOLDER = r"^[A-Za-z0-9][A-Za-z0-9_.,=-]*$"
 
@@ -63,6 +70,17 @@ def _not_reserved(name: str) -> str:
     return name
 
 
+def _smooth(value: Any) -> Any:
+    return {} if value == "smooth" else value
+
+
+Refinement = Annotated[
+    Smoothing | None,
+    BeforeValidator(_smooth, json_schema_input_type=Literal["smooth"] | Smoothing | None),
+]
+"""A refinement by its name or its settings."""
+
+
 class Experiment(Model):
     """Methods that register one template to the recordings of one dataset, on equal terms."""
 
@@ -86,6 +104,9 @@ class Experiment(Model):
     start: StartSearch = slot_default(StartSearch)
     """Search for pose and size in the first frame of every recording, the same for all methods; or
     the pose itself (``kind: given``), which requires the template's size."""
+    refine: Refinement = None
+    """Refinement of each track when it has ended: `smooth`, or how the body moves, for the most
+    likely poses given all frames. None by default."""
     methods: dict[Annotated[Name, AfterValidator(_not_reserved)], Method] = Field(min_length=1)
     """Methods to compare, by names of your choice."""
 

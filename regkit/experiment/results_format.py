@@ -9,12 +9,13 @@ from regkit.system.errors import DataError, RegkitError
 from regkit.system.guard import foreign
 from regkit.system.json_files import read_json
 
-FORMAT = 4
+FORMAT = 5
 """Incremented when a file, field or metric in results folders is renamed or redefined.
 
 Format 1 is that of regkit 0.1, which did not record the number. Format 3 binds results to their
 inputs by digests and checksums, which those of format 2 lack. Format 4 has misfits, and the
 verdict of each start.
+Format 5 has the covariances of poses, and how well they cover the errors.
 """
 
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from glob import escape
 from pathlib import Path
 
@@ -22,7 +23,7 @@ from regkit.system.errors import RegkitError
 from regkit.system.files import remove_unfinished
 from regkit.system.optional import one_thread
 from regkit.system.plugin_code import plugin_code
-from regkit.tracking import Session, TrackRecorder
+from regkit.tracking import Session, Snapshot, Track, TrackRecorder, smoothed
 
 Result = Measure | RegkitError | None
 """Metrics of a track, an error, or None after the preparation of a recording."""
@@ -129,13 +130,18 @@ class Task:
         Raises:
             RegkitError: If the data or the setup have changed while the recording was tracked.
         """
-        track, body, truth = recorder.track(), start.body, self._truth(session)
+        body, truth = start.body, self._truth(session)
+        track = recorder.track()
+        if self.experiment.refine is not None:
+            track = smoothed(track, body, self.experiment.refine)
         errors = None
         if truth is not None:
             errors = joint_errors(track, body, truth, self.experiment.dataset.joints)
         fps = session.recording.fps
         measure = measured(track, body, errors, fps, start)
-        record = Record.of(track, recorder.snapshot, recorder.registrar, errors, truth, fps)
+        record = Record.of(
+            track, partial(_shown, recorder, track), recorder.registrar, errors, truth, fps
+        )
         scene = recorded_scene(recorder, track, record, truth, errors)
         Setup.of(self.experiment).check(self.folder, part=True)
         inputs.check(session.recording, self.experiment.dataset)
@@ -151,3 +157,8 @@ class Task:
     def _truth(self, session: Session) -> Truth | None:
         """Returns the reference joints, or None if there are none to compare."""
         return session.recording.truth() if self.experiment.dataset.compared else None
+
+
+def _shown(recorder: TrackRecorder, track: Track, index: int) -> Snapshot:
+    """Returns a frame for pictures, in the pose of the refined track."""
+    return replace(recorder.snapshot(index), pose=track.pose(index))

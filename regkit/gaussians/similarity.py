@@ -67,6 +67,7 @@ class GaussianSimilarity(Similarity):
         # The features of pairs cancel badly far from the origin.
         self._centre = observation.points.mean(axis=0)
         points = observation.points - self._centre
+        self._points = points
         variances, self._group_of = _distinct(observation.variances)
         self._groups = [
             self._group(float(variance) + smoothing**2, points[own], data_weights[own])
@@ -102,6 +103,27 @@ class GaussianSimilarity(Similarity):
             densities, _ = self._densities(group, view)
             probability[self._group_of == index] = self.inliers(densities, group.weights)
         return probability
+
+    def whitened(self, placed: Placed[Gaussians]) -> tuple[Array, Array] | None:
+        """Returns the points' offsets from the Gaussians in their own units (N, 3), and inliers.
+
+        An offset is the mean of R^T (y - m), with R R^T = P, over the Gaussians that the point may
+        belong to.
+        """
+        view = self._view(placed)
+        offsets, inliers = np.empty((len(self._group_of), 3)), np.empty(len(self._group_of))
+        for index, group in enumerate(self._groups):
+            own = self._group_of == index
+            densities, precisions = self._densities(group, view)
+            shares = densities / np.maximum(densities.sum(axis=0), np.finfo(float).tiny)
+            probability = self.inliers(densities, group.weights)
+            shares *= probability
+            factors = np.linalg.cholesky(precisions)
+            turned = self._points[own] @ factors
+            turned -= (view.means - self._centre)[:, None] @ factors
+            offsets[own] = np.einsum("kn,kni->ni", shares, turned)
+            inliers[own] = probability
+        return offsets, inliers
 
     def __call__(self, placed: Placed[Gaussians], *, curvature: bool = False) -> Response:
         """Returns the energy, wrenches about the primitives' centres, and Gauss-Newton blocks."""

@@ -6,6 +6,7 @@ from regkit.interfaces.compiled import (
     CompiledPart,
     CompiledWeights,
 )
+from regkit.interfaces.curvature import Curvature
 from regkit.interfaces.dataset import Dataset, Recording
 from regkit.interfaces.deformation import Deformation
 from regkit.interfaces.expected import Expected
@@ -13,6 +14,7 @@ from regkit.interfaces.kernel import Kernel, Response, RigidComparison, RigidSim
 from regkit.interfaces.keypoints import KeypointRecording, KeypointStream
 from regkit.interfaces.method import Method
 from regkit.interfaces.preprocessor import Preprocessor
+from regkit.interfaces.prior import Prior
 from regkit.interfaces.registrar import Evaluation, Registrar, RegistrationResult
 from regkit.interfaces.segmenter import (
     BoundSegmenter,
@@ -66,6 +68,7 @@ __all__ = [
     "CompiledPart",
     "CompiledWeights",
     "Constraints",
+    "Curvature",
     "Dataset",
     "Deformation",
     "Evaluation",
@@ -81,6 +84,7 @@ __all__ = [
     "Multipliers",
     "Past",
     "Preprocessor",
+    "Prior",
     "Problem",
     "Recording",
     "Registrar",

@@ -24,6 +24,18 @@ from regkit.system.compiled import Compiled
 from regkit.system.machine_types import Matrix, Stack, Vector
 
 
+class PriorArrays(NamedTuple):
+    """What is known of a pose before its frame; see ``Prior``.
+
+    Attributes:
+        pose: The mean.
+        stiffness: Its information in the unit of the energy, (n, n); empty for a pose alone.
+    """
+
+    pose: PoseArrays
+    stiffness: Matrix
+
+
 class SceneArrays(NamedTuple):
     """The state at the start of a frame's registration; see ``Scene``.
 
@@ -93,7 +105,7 @@ def weigh(scene: SceneArrays, numbers: Vector, table: Matrix, factors: Vector) -
 
 def respond_joints(
     skeleton: SkeletonArrays,
-    prior: PoseArrays,
+    prior: PriorArrays,
     pose: PoseArrays,
     numbers: Vector,
     table: Matrix,
@@ -104,7 +116,7 @@ def respond_joints(
 
     Args:
         skeleton: The skeleton.
-        prior: The prior pose.
+        prior: What is known of the pose.
         pose: The pose.
         numbers: The part's numbers.
         table: The part's table.

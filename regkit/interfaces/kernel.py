@@ -53,6 +53,14 @@ class Similarity(ABC):
         """Returns the probability (N,) that each point is an inlier; None if it is unknown."""
         return None
 
+    def whitened(self, placed: Placed[Any]) -> tuple[Array, Array] | None:
+        """Returns residuals of unit variance (N, D), and each point's share in the model (N,).
+
+        A residual is what pulls at a point, in units of its standard deviation; their correlation
+        tells how many points are independent. None if the kernel has none.
+        """
+        return None
+
 
 class RigidSimilarity(ABC):
     """A kernel bound to the data and to primitives that move together, with pairs from one pose."""

@@ -5,11 +5,14 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from regkit.body import Body
+from regkit.interfaces.curvature import Curvature
 from regkit.interfaces.deformation import Deformation
+from regkit.interfaces.prior import Prior
 from regkit.interfaces.solver import Multipliers
 from regkit.observation import Observation
 from regkit.primitives import Primitives
@@ -33,6 +36,9 @@ class RegistrationResult:
         message: Reason why the solver ended.
         multipliers: Multipliers of the limits, if the solver computes them.
         searched: Number of points in which the tracker sought the whole body anew; 0 if it did not.
+        curvature: Curvature of the energy at the pose, if the solver knows it.
+        effective_points: Effective number of independent points; NaN if it is not estimated.
+        velocity: Step of ``Skeleton.retract`` to the next frame, (n,), if the tracker estimates it.
         deformation: What moves the posed body onto the data; None of a method that only poses it.
     """
 
@@ -45,7 +51,35 @@ class RegistrationResult:
     message: str
     multipliers: Multipliers | None = None
     searched: int = 0
+    curvature: Curvature | None = None
+    effective_points: float = float("nan")
+    velocity: Array | None = None
     deformation: Deformation | None = None
+
+    @cached_property
+    def covariance(self) -> Array | None:
+        """The covariance of the degrees of freedom, (n, n); None if it is unknown.
+
+        It is that of the step of ``Skeleton.retract`` from the pose to the true one, in [m] and
+        [rad], and computed when it is first asked for.
+        """
+        if self.curvature is None or np.isnan(self.effective_points):
+            return None
+        return self.curvature.covariance(self.effective_points)
+
+    @property
+    def information(self) -> Array | None:
+        """What the frame's data alone tell, (m, m), as ``Curvature.information``; or None."""
+        if self.curvature is None or np.isnan(self.effective_points):
+            return None
+        return self.curvature.information(self.effective_points)
+
+    @property
+    def pull(self) -> Array | None:
+        """How the frame's data alone pull at the pose, (m,), as ``Curvature.pull``; or None."""
+        if self.curvature is None or np.isnan(self.effective_points):
+            return None
+        return self.curvature.pull(self.effective_points)
 
     @classmethod
     def given(cls, pose: Pose) -> RegistrationResult:
@@ -98,7 +132,7 @@ class Registrar(Brief, ABC):
         observation: Observation,
         candidates: Sequence[Pose],
         *,
-        prior: Pose | None = None,
+        prior: Prior | None = None,
         warm_start: RegistrationResult | None = None,
     ) -> RegistrationResult:
         """Registers the body to a frame.
@@ -108,7 +142,7 @@ class Registrar(Brief, ABC):
         Args:
             observation: The frame's data.
             candidates: Candidate start poses, at least one.
-            prior: Pose to which unobserved joints stay close; by default the first candidate.
+            prior: What is known of the pose; by default the first candidate, as a pose alone.
             warm_start: Result of the previous frame, from which a solver may reuse more than the
                 pose.
         """
@@ -126,6 +160,18 @@ class Registrar(Brief, ABC):
     @abstractmethod
     def evaluate(self, observation: Observation, pose: Pose) -> Evaluation:
         """Returns the quality of a pose for a frame without changing the pose."""
+
+    def effective_points(self, observation: Observation, pose: Pose) -> float:
+        """Returns the effective number of independent points of a frame in a registered pose.
+
+        It is far below the number of points, because neighbouring residuals are correlated: what
+        the model lacks, it lacks for all points of a limb. NaN if the method has no residuals.
+
+        Args:
+            observation: The frame's data.
+            pose: The registered pose.
+        """
+        return float("nan")
 
     def gradient(self, observation: Observation, pose: Pose) -> Array:
         """Returns the derivative of the energy to a step of ``Skeleton.retract``, (n,).

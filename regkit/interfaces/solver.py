@@ -110,6 +110,8 @@ class Solution:
         evaluations: Number of calls of ``value_and_gradient``.
         message: Reason why the solver ended.
         multipliers: Multipliers at x, if the solver computes them.
+        gradient: Gradient at x, (m,), if the solver returns it.
+        curvature: Gauss-Newton matrix at x, (m, m), if the solver returns it.
     """
 
     x: Array
@@ -119,6 +121,8 @@ class Solution:
     evaluations: int
     message: str
     multipliers: Multipliers | None = None
+    gradient: Array | None = None
+    curvature: Array | None = None
 
 
 @dataclass(frozen=True)

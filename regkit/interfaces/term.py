@@ -10,6 +10,7 @@ from regkit.body import Body
 from regkit.config.plugin import Plugin
 from regkit.interfaces.compiled import CompiledPart
 from regkit.interfaces.kernel import Similarity
+from regkit.interfaces.prior import Prior
 from regkit.observation import Observation
 from regkit.primitives import Placed, Primitives
 from regkit.skeleton import Pose
@@ -23,13 +24,13 @@ class Scene:
     Attributes:
         body: The body.
         observation: The frame's data.
-        prior: Pose to which unobserved joints stay close.
+        prior: What is known of the pose before the frame.
         placed: The primitives in the start pose.
     """
 
     body: Body
     observation: Observation
-    prior: Pose
+    prior: Prior
     placed: Placed[Any]
 
 
@@ -74,6 +75,9 @@ class Term(Plugin, ABC):
 
     accepts: ClassVar[type[Primitives]] = Primitives
     """Type of primitives that the term supports."""
+
+    informed: ClassVar[bool] = False
+    """Whether its energy of the joints contains that of a prior with information."""
 
     weighs: ClassVar[bool] = False
     """Whether the term returns visibility weights, to which the kernel is bound, and no energy."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field, replace
+from math import exp, isnan, log
 
 from regkit.config.plugin import Plugin
 from regkit.interfaces.registrar import Registrar, RegistrationResult
@@ -13,6 +14,13 @@ from regkit.skeleton import Pose
 
 SEARCHES = 8
 """Number of stored searches, enough to make them rare while they are in vain."""
+
+
+RARELY = 64
+"""Number of frames between estimates of the effective number of points."""
+
+SETTLED = 4
+"""Frame in which it is estimated once more: the first pose may not be as good as the others."""
 
 
 @dataclass(frozen=True)
@@ -63,6 +71,27 @@ class Past:
             inlier_shares=self.inlier_shares.followed_by(result.inlier_share),
             searches=_older((*self.searches, *new)),
         )
+
+    def counted(
+        self, registrar: Registrar, observation: Observation, found: RegistrationResult
+    ) -> RegistrationResult:
+        """Returns the next result with its effective number of points, by which it is as sure.
+
+        The number changes slowly, so it is estimated in some frames only, and smoothed.
+
+        Args:
+            registrar: The registrar.
+            observation: The frame's data.
+            found: Its registration.
+        """
+        if found.curvature is None:
+            return found
+        before = points = self.last.effective_points
+        if isnan(before) or not self.frames % RARELY or self.frames == SETTLED:
+            points = registrar.effective_points(observation, found.pose)
+            if not isnan(before):
+                points = before if isnan(points) else exp(0.5 * (log(before) + log(points)))
+        return replace(found, effective_points=points)
 
     def paused(self) -> Past:
         """Returns the past without the last motion, as after a gap between two frames."""

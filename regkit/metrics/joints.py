@@ -13,6 +13,14 @@ from regkit.observation import Truth
 from regkit.system.arrays import Array
 from regkit.tracking import Track
 
+HALF_WIDTH = 1.6448536269514722
+"""Half the width of a normal distribution's central 90 % interval, in standard deviations."""
+
+
+RADIUS = 2.5002777108094148
+"""Radius of the ball that holds 90 % of an isotropic normal distribution in space, in standard
+deviations along an axis."""
+
 
 @dataclass(frozen=True)
 class JointErrors:
@@ -24,11 +32,30 @@ class JointErrors:
         adjusted: Distances after subtraction of each marker's constant displacement in its segment
             frame, (T, J) [m]. The displacement of even frames is estimated on odd ones and vice
             versa.
+        deviations: Standard deviation that the method gives each marker, the root of the mean over
+            the camera's axes, (T, J) [m]; None if it gives none.
+        covered: Share of the three coordinates whose adjusted error is within the 90 % interval of
+            the marker, (T, J). A constant displacement is a matter of where a marker is defined,
+            and no error of the pose.
     """
 
     joints: tuple[str, ...]
     raw: Array
     adjusted: Array
+    deviations: Array | None = None
+    covered: Array | None = None
+
+    def expected(self) -> Array | None:
+        """Returns the distance within which a joint is expected in 9 of 10 cases, (T,) [m].
+
+        The mean over the joints in each frame; None if the method does not know how sure it is.
+        """
+        if self.deviations is None:
+            return None
+        known = np.isfinite(self.deviations)
+        sums = np.where(known, self.deviations, 0.0).sum(axis=1)
+        counts = known.sum(axis=1)
+        return np.where(counts > 0, RADIUS * sums / np.maximum(counts, 1), np.nan)
 
     def of_frames(self) -> Array:
         """Returns the mean raw distance in each frame, (T,) [m]; NaN where no joint is known."""
@@ -58,10 +85,21 @@ def joint_errors(track: Track, body: Body, truth: Truth, joints: Mapping[str, st
     placements = [body.place(track.pose(index)) for index in range(frames)]
     rotations = np.array([p.transforms[body.markers.segments[markers], :3, :3] for p in placements])
     local = np.einsum("tjba,tjb->tja", rotations, error)
+    adjusted = _without_displacement(local)
+    deviations = covered = None
+    known = track[:frames].marker_deviations(body)
+    if known is not None:
+        sides = known[:, markers]
+        deviations = np.sqrt((sides**2).mean(axis=2))
+        beyond = np.abs(np.einsum("tjab,tjb->tja", rotations, adjusted)) > HALF_WIDTH * sides
+        certain = np.isfinite(adjusted).all(axis=2) & np.isfinite(deviations)
+        covered = np.where(certain, 1.0 - beyond.mean(axis=2), np.nan)
     return JointErrors(
         joints=tuple(truth.joints[column] for column in columns),
         raw=np.linalg.norm(error, axis=2),
-        adjusted=np.linalg.norm(_without_displacement(local), axis=2),
+        adjusted=np.linalg.norm(adjusted, axis=2),
+        deviations=deviations,
+        covered=covered,
     )
 
 

@@ -65,6 +65,10 @@ class Measure:
         preprocessing_ms: Mean preprocessing time per frame.
         registering_ms: Mean registration time per frame.
         fps: Frames per second of preprocessing and registration, over the frames with data.
+        marker_deviation_cm: Mean over markers and frames of the standard deviation along an axis
+            that the method gives a marker; None if it gives none.
+        interval_coverage_percent: Percentage of the joints' coordinates whose adjusted error is
+            within the 90 % interval of the marker.
         verdict: Whether the body was found in the recording: found, doubtful or lost.
         reason: Why it is doubtful or lost, or how many frames have no data; None if neither.
     """
@@ -91,6 +95,8 @@ class Measure:
     preprocessing_ms: Amount | None
     registering_ms: Amount | None
     fps: Positive | None
+    marker_deviation_cm: Amount | None
+    interval_coverage_percent: Percent | None
     # JSON holds the verdict as text.
     verdict: Annotated[Verdict, Strict(strict=False)] | None = None
     reason: str | None = None
@@ -159,6 +165,8 @@ def measured(
         preprocessing_ms=_mean(track.preprocessing[seen], 1000.0),
         registering_ms=_mean((track.seconds - track.preprocessing)[seen], 1000.0),
         fps=float(seen.sum() / track.seconds[seen].sum()) if seen.any() else None,
+        marker_deviation_cm=_mean(_deviations(track, body), 100.0),
+        interval_coverage_percent=_mean(None if errors is None else errors.covered, 100.0),
         verdict=judged.verdict,
         reason=judged.reason or None,
     )
@@ -177,6 +185,12 @@ def mean_of(measures: Sequence[Measure]) -> Measure:
         complete = values and all(value is not None for value in values)
         means[name] = float(np.mean(values)) if complete else None
     return Measure(**means)
+
+
+def _deviations(track: Track, body: Body) -> Array | None:
+    """Returns the standard deviations of all markers, (T, M) [m]; None if they are unknown."""
+    sides = track.marker_deviations(body)
+    return None if sides is None else np.asarray(np.sqrt((sides**2).mean(axis=2)))
 
 
 def _percent_within(distances: Array | None, threshold: float) -> float | None:

@@ -2,9 +2,11 @@
 
 from regkit.registration.charts import COORDINATES, CoordinatesName
 from regkit.registration.coordinates import Coordinates
+from regkit.registration.effective_points import effective_points, thinned
 from regkit.registration.energy import FrameEnergy, SummedEnergy
 from regkit.registration.plan import Plan
 from regkit.registration.planned_energy import CompiledProblem, PlannedEnergy, PlannedJoints
+from regkit.registration.posterior import PoseCurvature, marker_covariances
 from regkit.registration.problem import RegistrationProblem
 from regkit.registration.quaternions import QuaternionCoordinates
 from regkit.registration.residuals import Residuals, ResidualSimilarity
@@ -22,6 +24,7 @@ __all__ = [
     "Plan",
     "PlannedEnergy",
     "PlannedJoints",
+    "PoseCurvature",
     "QuaternionCoordinates",
     "RegistrationProblem",
     "ResidualSimilarity",
@@ -31,4 +34,7 @@ __all__ = [
     "TangentCoordinates",
     "ViewEnergy",
     "ViewsEnergy",
+    "effective_points",
+    "marker_covariances",
+    "thinned",
 ]

@@ -16,6 +16,7 @@ from regkit.interfaces.compiled import (
     RESPOND,
     RESPOND_JOINTS,
     WEIGH,
+    PriorArrays,
     SceneArrays,
 )
 from regkit.registration.compiled_bones import (
@@ -155,7 +156,7 @@ def derivatives(
     plan: PlanArrays,
     skeleton: SkeletonArrays,
     scene: SceneArrays,
-    prior: PoseArrays,
+    prior: PriorArrays,
     pose: PoseArrays,
     states: Matrix,
     order: int,
@@ -168,7 +169,7 @@ def derivatives(
         plan: The parts.
         skeleton: The skeleton.
         scene: The scene to which the parts are bound.
-        prior: Pose to which unobserved joints stay close.
+        prior: What is known of the pose before the frame.
         pose: The pose.
         states: States of the parts.
         order: 0 for the energy alone, 1 for the force too, 2 for the matrix too.

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from regkit.interfaces.compiled import SceneArrays
+from regkit.interfaces.compiled import PriorArrays, SceneArrays
 from regkit.registration.compiled_plan import PlanArrays, derivatives
 from regkit.skeleton.arrays import LimitArrays, PoseArrays, SkeletonArrays
 from regkit.skeleton.compiled_steps import (
@@ -30,7 +30,7 @@ class ProblemArrays(NamedTuple):
         plan: The parts.
         skeleton: The skeleton.
         scene: The scene to which the parts are bound.
-        prior: Pose to which unobserved joints stay close.
+        prior: What is known of the pose before the frame.
         start: Pose at the origin of the coordinates.
         states: States of the parts.
         lower: Lower bounds of the coordinates, (m,).
@@ -40,7 +40,7 @@ class ProblemArrays(NamedTuple):
     plan: PlanArrays
     skeleton: SkeletonArrays
     scene: SceneArrays
-    prior: PoseArrays
+    prior: PriorArrays
     start: PoseArrays
     states: Matrix
     lower: Vector
@@ -138,7 +138,7 @@ def equations(problem: ProblemArrays, x: Vector, gradient: Vector, matrix: Matri
     first = skeleton.first
     hinges = first + 3 * len(pose.balls)
     _through_rotations(x, 3 if first == 6 else 0, hinges, force, square)
-    _through_couplings(skeleton.limits, hinges, force, square, gradient, matrix)
+    through_couplings(skeleton.limits, hinges, force, square, gradient, matrix)
     return energy
 
 
@@ -163,7 +163,7 @@ def _through_rotations(x: Vector, first: int, last: int, force: Vector, square: 
 
 
 @compiled(python=False)
-def _through_couplings(
+def through_couplings(
     limits: LimitArrays,
     hinges: int,
     force: Vector,

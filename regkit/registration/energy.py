@@ -22,6 +22,11 @@ from regkit.system.arrays import Array
 class FrameEnergy(ABC):
     """The kernel and all terms, bound to a frame."""
 
+    @property
+    @abstractmethod
+    def weights(self) -> Array:
+        """Weights of the primitives in this frame, with their visibility, (K,)."""
+
     @abstractmethod
     def of_kernel(self, pose: Pose) -> float:
         """Returns the energy of the kernel alone in a pose."""
@@ -74,9 +79,18 @@ class SummedEnergy(FrameEnergy):
     terms: Mapping[str, Similarity]
     joints: tuple[JointEnergy, ...]
 
+    @property
+    def weights(self) -> Array:
+        """Weights of the primitives in this frame, with their visibility, (K,)."""
+        return self.primitives.weights
+
     def of_kernel(self, pose: Pose) -> float:
         """Returns the energy of the kernel alone in a pose."""
         return self.kernel.energy(self._placed(pose))
+
+    def whitened(self, pose: Pose) -> tuple[Array, Array] | None:
+        """Returns the kernel's whitened residuals (N, D) in a pose and shares (N,); or None."""
+        return self.kernel.whitened(self._placed(pose))
 
     def total(self, pose: Pose) -> float:
         """Returns the energy of the kernel and all terms in a pose."""

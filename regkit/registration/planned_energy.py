@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from regkit.interfaces import JointEnergy, JointResponse, Multipliers
+from regkit.interfaces import JointEnergy, JointResponse, Multipliers, Prior
 from regkit.interfaces.compiled import SceneArrays
 from regkit.observation import Observation
 from regkit.registration.compiled_plan import (
@@ -26,7 +26,7 @@ from regkit.registration.pose_problem import PoseProblem
 from regkit.registration.tangent import TangentCoordinates
 from regkit.skeleton import Pose
 from regkit.skeleton.arrays import PoseArrays
-from regkit.system.arrays import Array, loop_input
+from regkit.system.arrays import Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,14 +37,14 @@ class PlannedEnergy(FrameEnergy):
         plan: The plan.
         parts: Its parts as compiled functions take them, with the tables of this frame.
         scene: The scene to which its parts are bound.
-        prior: Pose to which unobserved joints stay close.
+        prior: What is known of the pose before the frame.
         states: States of the parts.
     """
 
     plan: Plan
     parts: PlanArrays
     scene: SceneArrays
-    prior: PoseArrays
+    prior: Prior
     states: Array
 
     @classmethod
@@ -53,7 +53,7 @@ class PlannedEnergy(FrameEnergy):
         plan: Plan,
         observation: Observation,
         candidates: Sequence[Pose],
-        prior: Pose,
+        prior: Prior,
         smoothing: float = 0.0,
     ) -> tuple[PlannedEnergy, Pose] | None:
         """Binds a plan to a frame at the best candidate; None if its points differ in variance.
@@ -64,7 +64,7 @@ class PlannedEnergy(FrameEnergy):
             plan: The plan.
             observation: The frame's data.
             candidates: Poses, at least one.
-            prior: Pose to which unobserved joints stay close.
+            prior: What is known of the pose before the frame.
             smoothing: Standard deviation of a Gaussian that smooths the energy over space [m].
 
         Returns:
@@ -91,12 +91,17 @@ class PlannedEnergy(FrameEnergy):
             np.array([pose.hinges for pose in candidates], dtype=np.float64),
             states,
         )
-        return cls(plan, parts, scene, _arrays(prior), states), candidates[best]
+        return cls(plan, parts, scene, prior, states), candidates[best]
+
+    @property
+    def weights(self) -> Array:
+        """Weights of the primitives in this frame, with their visibility, (K,)."""
+        return self.scene.weights
 
     def of_kernel(self, pose: Pose) -> float:
         """Returns the energy of the kernel alone in a pose."""
         skeleton = self.plan.body.skeleton.arrays
-        return kernel_energy(self.parts, skeleton, self.scene, _arrays(pose), self.states)
+        return kernel_energy(self.parts, skeleton, self.scene, PoseArrays.of(pose), self.states)
 
     def total(self, pose: Pose) -> float:
         """Returns the energy of the kernel and all terms in a pose."""
@@ -108,7 +113,7 @@ class PlannedEnergy(FrameEnergy):
             return np.array([np.nan])
         skeleton = self.plan.body.skeleton.arrays
         probability = np.empty(len(self.scene.data.points))
-        explained(self.parts, skeleton, self.scene, _arrays(pose), self.states, probability)
+        explained(self.parts, skeleton, self.scene, PoseArrays.of(pose), self.states, probability)
         return probability
 
     def derivatives(self, pose: Pose, order: int) -> tuple[float, Array, Array]:
@@ -119,8 +124,8 @@ class PlannedEnergy(FrameEnergy):
             self.parts,
             skeleton.arrays,
             self.scene,
-            self.prior,
-            _arrays(pose),
+            self.prior.arrays,
+            PoseArrays.of(pose),
             self.states,
             order,
             force,
@@ -145,7 +150,7 @@ class PlannedJoints(JointEnergy):
 
     @classmethod
     def of(
-        cls, plan: Plan, observation: Observation, scene: SceneArrays, prior: Pose
+        cls, plan: Plan, observation: Observation, scene: SceneArrays, prior: Prior
     ) -> tuple[PlannedJoints, ...]:
         """Returns the energy of the joints; none if the plan has no such part.
 
@@ -153,13 +158,13 @@ class PlannedJoints(JointEnergy):
             plan: The plan.
             observation: The frame's data in the world.
             scene: A scene with the plan's primitives.
-            prior: Pose to which unobserved joints stay close.
+            prior: What is known of the pose before the frame.
         """
         joints = plan.of_joints
         if joints is None:
             return ()
         parts = joints.arrays_of(observation)
-        return (cls(PlannedEnergy(joints, parts, scene, _arrays(prior), joints.states())),)
+        return (cls(PlannedEnergy(joints, parts, scene, prior, joints.states())),)
 
     def __call__(self, pose: Pose) -> JointResponse:
         """Returns the energy of a pose, its derivative and its curvature."""
@@ -199,14 +204,9 @@ class CompiledProblem(PoseProblem):
             energy.parts,
             energy.plan.body.skeleton.arrays,
             energy.scene,
-            energy.prior,
-            _arrays(self._coordinates.start),
+            energy.prior.arrays,
+            PoseArrays.of(self._coordinates.start),
             energy.states,
             self.lower,
             self.upper,
         )
-
-
-def _arrays(pose: Pose) -> PoseArrays:
-    """Returns a pose as compiled functions take it."""
-    return PoseArrays(loop_input(pose.root), loop_input(pose.balls), loop_input(pose.hinges))

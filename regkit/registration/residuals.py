@@ -112,6 +112,13 @@ class ResidualSimilarity(Similarity):
         """Returns the energy, its exact wrenches and, on request, the Gauss-Newton blocks."""
         return self.residuals(placed).response(self.loss, len(placed), curvature=curvature)
 
+    def whitened(self, placed: Placed[Any]) -> tuple[Array, Array] | None:
+        """Returns the residuals, which the loss bounds, in units of its scale (N, D), and ones."""
+        found = self.residuals(placed)
+        sizes = found.sizes
+        values = found.values.reshape(len(sizes), -1)
+        return values * np.sqrt(self.loss.weights(sizes))[:, None], np.ones(len(sizes))
+
     def inlier_probability(self, placed: Placed[Any]) -> Array | None:
         """Returns the loss's weight of each residual, (N,); None for squares, which accept all."""
         if not np.isfinite(self.loss.tuning):

@@ -51,6 +51,11 @@ class ViewsEnergy(FrameEnergy):
     views: tuple[ViewEnergy, ...]
     joints: tuple[JointEnergy, ...]
 
+    @property
+    def weights(self) -> Array:
+        """Weights of the primitives, (K,), each as in the view that sees it best."""
+        return np.asarray(np.max([one.energy.weights for one in self.views], axis=0))
+
     def of_kernel(self, pose: Pose) -> float:
         """Returns the energy of the kernel alone in a pose."""
         return sum(one.share * one.energy.of_kernel(one.seen(pose)) for one in self.views)

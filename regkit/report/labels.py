@@ -46,6 +46,8 @@ COLUMNS = (
     Column("inlier_percent", "inliers", "%"),
     Column("coverage_percent", "covered", "%"),
     Column("surface_distance_mm", "surface", "mm"),
+    Column("marker_deviation_cm", "deviation", "cm", digits=2),
+    Column("interval_coverage_percent", "in 90 %", "%"),
     Column("limit_violation_deg", "limits", "°", "less"),
     Column("evaluations_per_frame", "evaluations", "/frame"),
     Column("fps", "speed", "fps", "more"),

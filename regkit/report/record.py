@@ -128,6 +128,9 @@ class Record:
             named["joints"] = np.array(self.errors.joints, dtype=np.str_)
             named["raw"] = self.errors.raw
             named["adjusted"] = self.errors.adjusted
+            if self.errors.deviations is not None and self.errors.covered is not None:
+                named["deviations"] = self.errors.deviations
+                named["covered"] = self.errors.covered
         for number, drawing in enumerate(self.drawings):
             named |= {f"drawing{number}_{name}": array for name, array in drawing.arrays().items()}
         return named
@@ -150,10 +153,10 @@ class Record:
         errors = None
         if "joints" in named:
             joints = tuple(str(joint) for joint in named["joints"])
-            errors = JointErrors(joints, *(
-                real_numbers(named[name], name).reshape(frames, len(joints))
-                for name in ("raw", "adjusted")
-            ))  # fmt: skip
+            known = [name for name in ("raw", "adjusted", "deviations", "covered") if name in named]
+            errors = JointErrors(joints, **{
+                name: real_numbers(named[name], name).reshape(frames, len(joints)) for name in known
+            })  # fmt: skip
         drawings: list[FrameDrawing] = []
         while any(name.startswith(prefix := f"drawing{len(drawings)}_") for name in named):
             own = {

@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from regkit.skeleton.limits import Limits
+from regkit.system.arrays import loop_input
 from regkit.system.machine_types import IntegerVector, Matrix, Stack, Vector
 
 if TYPE_CHECKING:
+    from regkit.skeleton.pose import Pose
     from regkit.skeleton.skeleton import Skeleton
 
 
@@ -25,6 +27,11 @@ class PoseArrays(NamedTuple):
     root: Matrix
     balls: Matrix
     hinges: Vector
+
+    @classmethod
+    def of(cls, pose: Pose) -> PoseArrays:
+        """Returns the arrays of a pose."""
+        return cls(loop_input(pose.root), loop_input(pose.balls), loop_input(pose.hinges))
 
 
 class LimitArrays(NamedTuple):

@@ -12,16 +12,14 @@ from numpy.typing import NDArray
 from regkit.config.model import did_you_mean
 from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import (
-    conjugate,
-    from_matrix,
-    product,
-    to_vector,
     vector_to_matrix,
 )
-from regkit.skeleton.arrays import SkeletonArrays
+from regkit.skeleton.arrays import PoseArrays, SkeletonArrays
+from regkit.skeleton.compiled_difference import pose_difference
 from regkit.skeleton.compiled_steps import retracted_balls, retracted_root
 from regkit.skeleton.limits import Limits
 from regkit.skeleton.pose import Pose, PoseDescription
+from regkit.skeleton.spread import spread_variances
 from regkit.system.arrays import Array, Indices
 from regkit.system.brief import Brief
 from regkit.system.errors import ConfigError
@@ -92,6 +90,12 @@ class Skeleton(Brief):
         return slice(self.ball_dofs.stop, self.dofs)
 
     @cached_property
+    def independent_dofs(self) -> Indices:
+        """Indices of the m degrees of freedom that are not those of coupled hinges, (m,)."""
+        followers = self.hinge_dofs.start + self.limits.couplings.followers
+        return np.setdiff1d(np.arange(self.dofs), followers)
+
+    @cached_property
     def arrays(self) -> SkeletonArrays:
         """The skeleton as compiled functions take it."""
         return SkeletonArrays.of(self)
@@ -144,12 +148,20 @@ class Skeleton(Brief):
 
     def difference(self, start: Pose, end: Pose) -> Array:
         """Returns the step (n,) with ``retract(start, step) = end``; rotations are at most pi."""
-        rotations = to_vector(product(conjugate(start.balls), end.balls)).ravel()
-        root = [
-            end.root[:3, 3] - start.root[:3, 3],
-            to_vector(from_matrix(start.root[:3, :3].T @ end.root[:3, :3])),
-        ]
-        return np.concatenate([*(root if self.free else []), rotations, end.hinges - start.hinges])
+        return pose_difference(PoseArrays.of(start), PoseArrays.of(end), self.dofs)
+
+    @cached_property
+    def spread(self) -> Array:
+        """Covariance (n, n) of poses that are spread evenly over the joint limits."""
+        return spread_variances(self.limits, free=self.free)
+
+    @cached_property
+    def spread_information(self) -> Array:
+        """Inverse of ``spread``, (n, n); zero for coupled hinges, which add nothing."""
+        own = np.ix_(self.independent_dofs, self.independent_dofs)
+        information = np.zeros_like(self.spread)
+        information[own] = np.linalg.inv(self.spread[own])
+        return information
 
     def violations(self, pose: Pose) -> tuple[Array, Array]:
         """Returns the violation of each limit (R,) [rad] and its Jacobian (R, n) to the dofs."""
@@ -194,6 +206,19 @@ class Skeleton(Brief):
                 + did_you_mean(joint, known)
             )
         return self.joint_dofs[joint]
+
+    def rotating(self, joint: str) -> Indices:
+        """Returns the indices of the degrees of freedom of a segment's joint that rotates.
+
+        Raises:
+            ConfigError: If there is no such segment, or its joint is fixed or prismatic.
+        """
+        if self.is_prismatic(joint):
+            raise ConfigError(
+                f"the joint of '{joint}' is prismatic; degrees are for joints that rotate, and "
+                "displacement holds for all prismatic joints"
+            )
+        return self.dofs_of(joint)
 
     def is_prismatic(self, joint: str) -> bool:
         """Returns whether the moving joint of a segment is prismatic."""

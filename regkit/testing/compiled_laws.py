@@ -9,7 +9,7 @@ import pytest
 
 from regkit.body import Body
 from regkit.config.plugin import Plugin
-from regkit.interfaces import CompiledEnergy, CompiledJoints, CompiledPart, CompiledWeights
+from regkit.interfaces import CompiledEnergy, CompiledJoints, CompiledPart, CompiledWeights, Prior
 from regkit.interfaces.compiled import SceneArrays
 from regkit.observation import Observation
 from regkit.primitives import Primitives
@@ -54,6 +54,7 @@ def planned(
     data: Observation,
     pose: Pose,
     smoothing: float = 0.0,
+    prior: Prior | None = None,
 ) -> PlannedEnergy:
     """Returns a compiled part bound to data at a pose; skips the law if there is none."""
     if part is None or type(primitives).place is not Primitives.place:
@@ -61,7 +62,7 @@ def planned(
     kernel = isinstance(part, CompiledEnergy) and part.explain is not None
     parts: tuple[CompiledPart, ...] = (part,) if kernel else (CompiledEnergy(nothing), part)
     plan = Plan(body, PrimitiveArrays.of(primitives), parts)
-    bound = PlannedEnergy.of(plan, data, [pose], pose, smoothing)
+    bound = PlannedEnergy.of(plan, data, [pose], prior or Prior(pose), smoothing)
     assert bound is not None
     return bound[0]
 

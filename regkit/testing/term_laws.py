@@ -9,7 +9,15 @@ import numpy as np
 import pytest
 
 from regkit.body import Body
-from regkit.interfaces import JointEnergy, Response, Scene, Similarity, Term, VisibilityWeights
+from regkit.interfaces import (
+    JointEnergy,
+    Prior,
+    Response,
+    Scene,
+    Similarity,
+    Term,
+    VisibilityWeights,
+)
 from regkit.interfaces.term import Effect
 from regkit.primitives import Placed, Primitives
 from regkit.registration import RegistrationProblem, TangentCoordinates
@@ -58,7 +66,10 @@ class TermLaws(Laws):
         primitives = attached(term_pair.shape, body)
         primitives = replace(primitives, scales=2.0 * primitives.scales)
         placed = primitives.place(body.place(start).transforms)
-        return Scene(body, data_of(body, start, random), start, placed), primitives
+        dofs = bones.dofs
+        root = random.normal(size=(dofs, dofs))
+        prior = Prior(start, root @ root.T, 2.0)
+        return Scene(body, data_of(body, start, random), prior, placed), primitives
 
     @checked_on_every("option")
     def test_term_gradient_is_the_derivative_of_its_energy(
@@ -135,13 +146,20 @@ class TermLaws(Laws):
         term, (given, primitives) = cast(Term, term_pair.plugin), scene
         given = replace(given, observation=alike(given.observation))
         part = term.compiled(given.body, primitives)
-        fast = planned(given.body, primitives, part, given.observation, given.prior)
+        fast = planned(
+            given.body,
+            primitives,
+            part,
+            given.observation,
+            given.prior.pose,
+            prior=given.prior,
+        )
         effect, look_at = term.bind(given), function_of(part)
         if isinstance(effect, VisibilityWeights):
             wanted = primitives.weights * effect.factors
             require_same(term, "weight", fast.scene.weights, wanted, look_at)
             return
-        chart = TangentCoordinates(given.body.skeleton, given.prior)
+        chart = TangentCoordinates(given.body.skeleton, given.prior.pose)
         x = 0.03 * random.normal(size=len(chart.origin()))
         problem = _problem(effect, (given, primitives))
         require_same_equations(term, problem, fast.problem(chart, None), x, look_at)
@@ -177,7 +195,7 @@ def _effect(pair: Pair, scene: tuple[Scene, Primitives]) -> Similarity | JointEn
 
 
 def _problem(effect: Effect, scene: tuple[Scene, Primitives]) -> RegistrationProblem:
-    chart = TangentCoordinates(scene[0].body.skeleton, scene[0].prior)
+    chart = TangentCoordinates(scene[0].body.skeleton, scene[0].prior.pose)
     if isinstance(effect, JointEnergy):
         return RegistrationProblem(chart, scene[1], {"nothing": Nothing()}, [effect])
     assert isinstance(effect, Similarity)

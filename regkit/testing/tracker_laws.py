@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from regkit.body import Body
-from regkit.interfaces import Evaluation, Past, Registrar, RegistrationResult, Tracker
+from regkit.interfaces import Evaluation, Past, Prior, Registrar, RegistrationResult, Tracker
 from regkit.observation import Observation
 from regkit.primitives import Primitives
 from regkit.skeleton import Pose
@@ -39,7 +39,7 @@ class Known(Registrar):
         observation: Observation,
         candidates: Sequence[Pose],
         *,
-        prior: Pose | None = None,
+        prior: Prior | None = None,
         warm_start: RegistrationResult | None = None,
     ) -> RegistrationResult:
         """Returns the truth."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import isnan
 
 from regkit.interfaces import (
     BoundSegmenter,
@@ -135,6 +136,8 @@ class Follower:
             return TrackedFrame(None, self._past.last.without_data(error.message), seconds, seconds)
         preprocessing = time.perf_counter() - begun
         registered = self._tracker.step(observation, self._past)
+        if isnan(registered.effective_points):
+            registered = self._past.counted(self._registrar, observation, registered)
         return TrackedFrame(observation, registered, time.perf_counter() - begun, preprocessing)
 
 

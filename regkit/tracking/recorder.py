@@ -143,6 +143,10 @@ class TrackRecorder:
                 "converged": found.converged,
                 "seconds": frame.seconds,
                 "preprocessing": frame.preprocessing,
+                "effective_points": found.effective_points,
+                "covariances": np.nan if found.covariance is None else found.covariance,
+                "pulls": np.nan if found.pull is None else found.pull,
+                "information": np.nan if found.information is None else found.information,
             }
         )
         if points is not None:
@@ -160,7 +164,7 @@ class TrackRecorder:
 
     def track(self) -> Track:
         """Returns all recorded frames as arrays."""
-        return Track(**self._rows.arrays())
+        return Track.of(self._rows.arrays())
 
     def message(self, index: int) -> str:
         """Returns the reason why the registration of a frame ended."""

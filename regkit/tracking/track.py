@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import Any
@@ -15,6 +16,12 @@ from regkit.body.verdict import Verdict, frame_verdicts
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit.system.brief import Brief
+
+UNCERTAINTY = ("effective_points", "covariances", "information", "pulls")
+"""Arrays that a track has only if its method knows how sure it is."""
+
+EVIDENCE = ("information", "pulls")
+"""Those of them that only smoothing needs."""
 
 
 @dataclass(frozen=True)
@@ -46,6 +53,13 @@ class Track(Brief):
         converged: Whether the solver met a tolerance, (T,).
         seconds: Time to preprocess and register, (T,) [s].
         preprocessing: Time to preprocess, (T,) [s].
+        effective_points: Effective numbers of independent points, (T,); NaN if unknown.
+        covariances: Covariances of the degrees of freedom, on the tangent space at the poses,
+            (T, n, n) in [m] and [rad]; NaN for a frame without data, None if the method has none.
+        information: What each frame's data alone tell of the independent degrees of freedom,
+            (T, m, m), as ``Curvature.information``; NaN without data, None if it is not kept.
+        pulls: How each frame's data alone pull at its pose, (T, m), as ``Curvature.pull``; None if
+            it is not kept.
     """
 
     numbers: Array
@@ -66,19 +80,63 @@ class Track(Brief):
     converged: Array
     seconds: Array
     preprocessing: Array
+    effective_points: Array | None = None
+    covariances: Array | None = None
+    information: Array | None = None
+    pulls: Array | None = None
 
     @staticmethod
-    def layout(body: Body) -> dict[str, tuple[int, ...]]:
-        """Returns the shapes of a frame's values, for the track of a body."""
+    def layout(body: Body, *, information: bool = True) -> dict[str, tuple[int, ...]]:
+        """Returns the shapes of a frame's values, for the track of a body.
+
+        Args:
+            body: The body.
+            information: Whether to keep what the data alone tell, by which a track is smoothed.
+        """
         rest = body.skeleton.rest()
+        dofs, own = body.skeleton.dofs, len(body.skeleton.independent_dofs)
         shapes: dict[str, tuple[int, ...]] = {
             "root": rest.root.shape,
             "balls": rest.balls.shape,
             "hinges": rest.hinges.shape,
             "markers": (len(body.markers.names), 3),
             "supports": (len(body.skeleton.names),),
+            "covariances": (dofs, dofs),
+            "information": (own, own),
+            "pulls": (own,),
         }
-        return {field.name: shapes.get(field.name, ()) for field in fields(Track)}
+        names = [field.name for field in fields(Track)]
+        kept = [name for name in names if information or name not in EVIDENCE]
+        return {name: shapes.get(name, ()) for name in kept}
+
+    @classmethod
+    def of(cls, arrays: Mapping[str, Array]) -> Track:
+        """Returns the track of the rows of its frames, without what is unknown in all of them."""
+        known = dict(arrays)
+        for name in UNCERTAINTY:
+            if name in known and not np.isfinite(known[name]).any():
+                del known[name]
+        return cls(**known)
+
+    def marker_covariances(self, body: Body) -> Array | None:
+        """Returns the covariances of the markers, (T, M, 3, 3) [m^2], in the camera's frame.
+
+        NaN for a frame without data; None if they are unknown.
+        """
+        if self.covariances is None:
+            return None
+        jacobians = np.array([
+            body.markers.jacobian(body.place(self.pose(index))) for index in range(len(self))
+        ])  # fmt: skip
+        turned = jacobians.transpose(0, 1, 3, 2)
+        return np.asarray(jacobians @ self.covariances[:, None] @ turned)
+
+    def marker_deviations(self, body: Body) -> Array | None:
+        """Returns the standard deviations of the markers along the camera's axes, (T, M, 3) [m]."""
+        covariances = self.marker_covariances(body)
+        if covariances is None:
+            return None
+        return np.asarray(np.sqrt(np.maximum(np.einsum("tmii->tmi", covariances), 0.0)))
 
     def pose(self, index: int) -> Pose:
         """Returns the pose of a frame."""
@@ -107,11 +165,19 @@ class Track(Brief):
 
     def __getitem__(self, part: slice) -> Track:
         """Returns a range of the frames."""
-        return Track(**{field.name: getattr(self, field.name)[part] for field in fields(self)})
+        return Track(**{name: array[part] for name, array in self._arrays().items()})
+
+    def _arrays(self) -> dict[str, Array]:
+        """Returns the known arrays by name."""
+        arrays = {field.name: getattr(self, field.name) for field in fields(self)}
+        return {name: array for name, array in arrays.items() if array is not None}
 
     def named_arrays(self, body: Body) -> dict[str, NDArray[Any]]:
         """Returns these arrays, verdicts, names of markers and joints, and the size, for a file."""
-        return {field.name: getattr(self, field.name) for field in fields(self)} | {
+        arrays = self._arrays()
+        # It is only needed to smooth the track, and as large as all others together.
+        kept = {name: array for name, array in arrays.items() if name not in EVIDENCE}
+        return kept | {
             "verdicts": np.array(self.verdicts, dtype=np.str_),
             "marker_names": np.array(body.markers.names, dtype=np.str_),
             "ball_names": np.array(body.skeleton.ball_names, dtype=np.str_),

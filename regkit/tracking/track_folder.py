@@ -112,8 +112,13 @@ class TrackDescription(Model):
         """
         write_json(folder / FILE, self.model_dump(mode="json"))
 
-    def rows(self, folder: Path, body: Body) -> RowsInFile:
+    def rows(self, folder: Path, body: Body, *, information: bool = False) -> RowsInFile:
         """Returns where the values of the frames are kept while they are tracked.
+
+        Args:
+            folder: The folder.
+            body: The tracked body.
+            information: Whether to keep what smoothing needs.
 
         Raises:
             DataError: If the file cannot be written.
@@ -121,7 +126,9 @@ class TrackDescription(Model):
         # The poses of a former track in the folder would contradict the new description.
         (folder / POSES).unlink(missing_ok=True)
         self.write(folder)
-        return RowsInFile(Track.layout(body), folder / ROWS, {"format": FORMAT})
+        return RowsInFile(
+            Track.layout(body, information=information), folder / ROWS, {"format": FORMAT}
+        )
 
     def motion(self, folder: Path, fps: float | None = None) -> TrackedMotion:
         """Returns the motion in a folder, at a constant rate.

@@ -16,7 +16,7 @@ START = (
     "--set",
     "start={kind: given, root: {position: [-0.05, -0.05, 3.25], rotation_deg: [180, 0, 0]}}",
 )
-TABLES = {"markers.csv", "hinges.csv", "frames.csv"}
+TABLES = {"markers.csv", "deviations.csv", "hinges.csv", "frames.csv"}
 FILES = {"result.json", "track.json", "poses.npz", "scene.npz", "picture.png", *TABLES}
 
 

@@ -60,6 +60,38 @@ def test_poses_are_printed_as_json_lines(regkit, tmp_path):
     assert "1.63 m" in ended.err
 
 
+def test_smoothed_track_has_less_jitter_and_its_uncertainty(regkit, tmp_path):
+    frames = ("--frames", 12)
+    for smooth in (["--out", "plain"], ["--smooth", "--out", "smooth"]):
+        ended = regkit("track", WALK, *HUMAN, *START, *frames, "--method", "filtered", *smooth)
+        assert ended.code == 0, ended.err
+    plain, smooth = arrays(tmp_path / "plain"), arrays(tmp_path / "smooth")
+    assert np.abs(plain["markers"] - smooth["markers"]).max() < 0.1
+    jitter = [np.abs(np.diff(one["markers"], n=2, axis=0)).mean() for one in (plain, smooth)]
+    assert jitter[1] < 0.6 * jitter[0]
+    np.testing.assert_array_equal(plain["verdicts"], smooth["verdicts"])
+    with (tmp_path / "smooth" / "deviations.csv").open() as stream:
+        rows = list(csv.DictReader(stream))
+    assert len(rows) == 12 * len(smooth["marker_names"])
+    assert all(0.0 < float(row[axis]) < 1.0 for row in rows for axis in "xyz")
+    assert smooth["covariances"].shape == plain["covariances"].shape
+
+
+def test_motion_that_cannot_be_smoothed_is_kept_and_told(regkit, tmp_path):
+    method = (
+        "{kind: direct, shape: sog, kernel: correlation, solver: lbfgs, tracker: constant_pose}"
+    )
+    given = (*HUMAN, *START, "--frames", 2, "--method", method, "--smooth", "--out", "out")
+    ended = regkit("track", WALK, *given)
+    assert ended.code == 1
+    assert "--smooth" in ended.err
+    assert "cannot be smoothed" in ended.err
+    assert len(arrays(tmp_path / "out")["root"]) == 2
+    streamed = regkit("track", WALK, *HUMAN, *START, "--smooth", "--out", "-")
+    assert streamed.code == 1
+    assert "cannot be smoothed" in streamed.err
+
+
 def test_played_recording_has_a_latency_and_its_own_times(regkit, tmp_path):
     ended = regkit("track", WALK, *HUMAN, *START, "--frames", 8, "--realtime", "--out", "live")
     assert ended.code == 0, ended.err

@@ -8,7 +8,7 @@ from places import EXAMPLES
 from small_experiment import QUICK, add_method
 
 from regkit.config.registry import run_plugin_file
-from regkit.interfaces import Scene, ShapeModel, Term
+from regkit.interfaces import Prior, Scene, ShapeModel, Term
 
 SHAPE = '''
 from typing import ClassVar, Literal
@@ -219,7 +219,7 @@ def test_term_of_the_how_to_page_has_the_derivative_that_it_claims(linkage, rand
     run_plugin_file(EXAMPLES / "upright.py")
     bones = linkage.skeleton
     pose = bones.retract(bones.rest(), random.normal(size=bones.dofs))
-    energy = Term.load("upright")().bind(Scene(linkage, None, pose, None))
+    energy = Term.load("upright")().bind(Scene(linkage, None, Prior(pose), None))
     numerical = [
         energy(bones.retract(pose, 1e-6 * e)).energy - energy(bones.retract(pose, -1e-6 * e)).energy
         for e in np.eye(bones.dofs)

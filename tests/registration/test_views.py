@@ -7,7 +7,7 @@ import pytest
 from around import facing, frame_around
 
 from regkit.geometry.rigid import exp
-from regkit.interfaces import Method, Preprocessor
+from regkit.interfaces import Method, Preprocessor, Prior
 from regkit.observation import Observation, View
 from regkit.registration import PlannedEnergy, ViewEnergy
 from regkit_plugins.templates.hand import Hand
@@ -67,7 +67,7 @@ def test_force_of_views_equals_differences(name, compiled, body, data):
     pose = nearby(body, facing(body, turn=0.3))
     # Blocks of a picture have edges, at which the energy of free space has no derivative.
     bound = method_of(name, compiled=compiled, without=["free_space"]).bind(body)
-    energy, _ = bound._best(data, [pose], facing(body, turn=0.3), 0.0, bound.plan)
+    energy, _ = bound._best(data, [pose], Prior(facing(body, turn=0.3)), 0.0, bound.plan)
     assert (bound.plan is not None) == compiled
     at = nearby(body, pose, seed=4)
     force = energy.force(at)
@@ -85,7 +85,7 @@ def test_force_of_views_equals_differences(name, compiled, body, data):
 def test_compiled_views_equal_readable_ones(name, body, data):
     pose = nearby(body, facing(body, turn=0.3))
     compiled, readable = (
-        method_of(name, compiled=mode).bind(body)._best(data, [pose], pose, 0.0, plan)[0]
+        method_of(name, compiled=mode).bind(body)._best(data, [pose], Prior(pose), 0.0, plan)[0]
         for mode in (True, False)
         for plan in [method_of(name, compiled=mode).bind(body).plan]
     )
@@ -161,7 +161,7 @@ def test_best_candidate_of_views_is_the_start(body, data):
     far = nearby(body, facing(body, turn=1.4))
     bound = method_of("likelihood", compiled=True).bind(body)
     assert bound.register(data, [far, truth]).energy == pytest.approx(
-        bound.register(data, [truth], prior=far).energy
+        bound.register(data, [truth], prior=Prior(far)).energy
     )
 
 
@@ -179,7 +179,7 @@ def test_hand_with_a_view_of_other_variances_is_registered_too():
     )
     mixed = Observation.of_views([first, uneven])
     bound = method_of("likelihood", compiled=True).bind(hand)
-    energy, _ = bound._best(mixed, [truth], truth, 0.0, bound.plan)
+    energy, _ = bound._best(mixed, [truth], Prior(truth), 0.0, bound.plan)
     kinds = [isinstance(one.energy, PlannedEnergy) for one in energy.views]
     assert all(isinstance(one, ViewEnergy) for one in energy.views)
     assert kinds == [True, False]

@@ -9,7 +9,7 @@ from regkit.body import Body, BodyDescription
 from regkit.body.writing import template_text
 from regkit.casadi import configuration, forward_kinematics
 from regkit.config.document import Document
-from regkit.interfaces import Method, Scene, Term
+from regkit.interfaces import Method, Prior, Scene, Term
 from regkit.observation import Observation
 from regkit.skeleton import Mirroring, Placement, Pose, PoseDescription
 from regkit.system.errors import ConfigError
@@ -167,7 +167,7 @@ def test_what_contradicts_itself_is_refused(tmp_path, old, new, message) -> None
     assert message in caught.value.message or message in str(caught.value)
 
 
-@pytest.mark.parametrize("kind", ["limits", "continuity"])
+@pytest.mark.parametrize("kind", ["limits", "continuity", "motion_prior"])
 def test_terms_have_their_gradient_in_metres(crane, random, kind) -> None:
     bones = crane.skeleton
     term = Term.parse(kind, place="test", field="term")
@@ -175,7 +175,7 @@ def test_terms_have_their_gradient_in_metres(crane, random, kind) -> None:
     primitives = method("best").bind(crane).primitives
     placed = primitives.place(crane.place(pose).transforms)
     observation = Observation(np.zeros((1, 3)), np.ones(1), np.full(1, 1e-4))
-    energy = term.bind(Scene(crane, observation, bones.rest(), placed))
+    energy = term.bind(Scene(crane, observation, Prior(bones.rest()), placed))
     response, step = energy(pose), 1e-6
     for dof in range(bones.ball_dofs.start, bones.dofs):
         ahead, back = (

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from regkit.interfaces import Kernel
+from regkit.interfaces import Kernel, Prior
 from regkit.observation import Observation
 from regkit.registration import Plan, PlannedEnergy
 from regkit.system.arrays import Array
@@ -119,7 +119,7 @@ def test_kernel_without_inlier_probabilities_has_unknown_ones():
     points = np.random.default_rng(0).normal(size=(50, 3)) + np.array([0.0, 0.0, 2.0])
     data = Observation(points, np.ones(50), np.full(50, 1e-4))
     pose = body.skeleton.rest()
-    energy, _ = PlannedEnergy.of(plan, data, [pose], pose)
+    energy, _ = PlannedEnergy.of(plan, data, [pose], Prior(pose))
     assert np.isnan(energy.inlier_probability(pose)).all()
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from regkit.api.pipeline import preprocessor_for
-from regkit.interfaces import Method
+from regkit.interfaces import Method, Prior
 from regkit.skeleton import Pose
 from regkit.tuning import Sampler
 from regkit.tuning.sensitivity import sensitivity
@@ -112,7 +112,7 @@ def test_gradient_is_that_of_the_energy_bound_at_the_pose(sets, sample, compiled
     registrar, observation = method.bind(sets.body), sample.observations[0]
     pose = sample.starts[0]
     # What is bound at a pose stays while a solver moves: its first evaluation is the energy there.
-    energy, _ = registrar._best(observation, [pose], pose, 0.0, registrar.plan)
+    energy, _ = registrar._best(observation, [pose], Prior(pose), 0.0, registrar.plan)
     skeleton, step = sets.body.skeleton, 1e-3
     expected = [
         (energy.total(skeleton.retract(pose, ahead)) - energy.total(skeleton.retract(pose, -ahead)))

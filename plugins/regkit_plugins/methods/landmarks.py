@@ -18,6 +18,7 @@ from regkit.interfaces import (
     Evaluation,
     JointEnergy,
     Method,
+    Prior,
     Registrar,
     RegistrationResult,
     Response,
@@ -94,7 +95,7 @@ class BoundLandmarks(Registrar):
         observation: Observation,
         candidates: Sequence[Pose],
         *,
-        prior: Pose | None = None,
+        prior: Prior | None = None,
         warm_start: RegistrationResult | None = None,
     ) -> RegistrationResult:
         """Minimises the energy near the candidate of least energy.
@@ -102,7 +103,7 @@ class BoundLandmarks(Registrar):
         Raises:
             DataError: If the recording has no landmarks.
         """
-        energy = self._energy(observation, candidates[0], prior or candidates[0])
+        energy = self._energy(observation, candidates[0], prior or Prior(candidates[0]))
         start = min(candidates, key=energy.total) if len(candidates) > 1 else candidates[0]
         skeleton = self.body.skeleton
         coordinates = TangentCoordinates(skeleton, skeleton.limits.hinged(start))
@@ -119,7 +120,9 @@ class BoundLandmarks(Registrar):
 
     def evaluate(self, observation: Observation, pose: Pose) -> Evaluation:
         """Returns the energy of a pose; how well points are explained is unknown."""
-        return Evaluation(self._energy(observation, pose, pose).total(pose), np.array([np.nan]))
+        return Evaluation(
+            self._energy(observation, pose, Prior(pose)).total(pose), np.array([np.nan])
+        )
 
     @cached_property
     def _plan(self) -> Plan | None:
@@ -132,7 +135,7 @@ class BoundLandmarks(Registrar):
         arrays = PrimitiveArrays.of(self.primitives)
         return Plan(self.body, arrays, (CompiledEnergy(nothing), *parts))
 
-    def _energy(self, observation: Observation, pose: Pose, prior: Pose) -> FrameEnergy:
+    def _energy(self, observation: Observation, pose: Pose, prior: Prior) -> FrameEnergy:
         """Returns the terms, bound to a frame.
 
         Raises:

@@ -5,6 +5,7 @@ from pathlib import Path
 _FOLDER = Path(__file__).parent
 
 BEST = _FOLDER / "best.yaml"
+FILTERED = _FOLDER / "filtered.yaml"
 ICP = _FOLDER / "icp.yaml"
 MARKERS = _FOLDER / "markers.yaml"
 PAPER = _FOLDER / "paper.yaml"

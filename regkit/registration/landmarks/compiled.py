@@ -6,6 +6,7 @@ from math import sqrt
 
 import numpy as np
 
+from regkit.interfaces.compiled import PriorArrays
 from regkit.registration.compiled_robust import write_losses
 from regkit.registration.landmarks.table import (
     CENTRE,
@@ -28,7 +29,7 @@ NEAREST = 0.05
 @compiled(python=False)
 def respond_joints(
     skeleton: SkeletonArrays,
-    prior: PoseArrays,
+    prior: PriorArrays,
     pose: PoseArrays,
     numbers: Vector,
     table: Matrix,

@@ -7,7 +7,7 @@ import pytest
 
 from regkit.geometry.camera import Camera
 from regkit.geometry.rigid import rigid
-from regkit.interfaces import CompiledEnergy, Scene, Template
+from regkit.interfaces import CompiledEnergy, Prior, Scene, Template
 from regkit.observation import Landmarks, Observation
 from regkit.primitives.arrays import PrimitiveArrays
 from regkit.registration import Plan, PlannedEnergy, TangentCoordinates
@@ -47,14 +47,15 @@ def scene_of(body, pose, marks):
     data = Observation(
         points, np.ones(count), np.full(count, 1e-4), CAMERA, landmarks=marks
     )  # fmt: skip
-    return Scene(body, data, pose, SumOfGaussians().bind(body).place(body.place(pose).transforms))
+    placed = SumOfGaussians().bind(body).place(body.place(pose).transforms)
+    return Scene(body, data, Prior(pose), placed)
 
 
 def compiled_energy(term, scene):
     primitives = scene.placed.primitives
     parts = (CompiledEnergy(nothing), term.compiled(scene.body, primitives))
     plan = Plan(scene.body, PrimitiveArrays.of(primitives), parts)
-    bound = PlannedEnergy.of(plan, scene.observation, [scene.prior], scene.prior)
+    bound = PlannedEnergy.of(plan, scene.observation, [scene.prior.pose], scene.prior)
     assert bound is not None
     return bound[0]
 

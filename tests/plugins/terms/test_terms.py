@@ -8,7 +8,7 @@ import pytest
 from regkit.geometry.camera import Camera
 from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import vector_to_matrix
-from regkit.interfaces import Scene, VisibilityWeights
+from regkit.interfaces import Prior, Scene, VisibilityWeights
 from regkit.observation import Observation
 from regkit.primitives import Gaussians
 from regkit.system.errors import ConfigError
@@ -40,7 +40,7 @@ def scene_at(linkage, random, shape, start):
     depth = np.zeros((CAMERA.height, CAMERA.width))
     depth[40:100, 90:120] = 2.1  # A silhouette that the linkage is partly beside, partly before.
     data = Observation(points, np.ones(250), np.full(250, 0.01**2), CAMERA, depth)
-    return Scene(linkage, data, start, placed), primitives
+    return Scene(linkage, data, Prior(start), placed), primitives
 
 
 def before_camera(scales, centres, segments=(0, 1)):
@@ -55,7 +55,7 @@ def before_camera(scales, centres, segments=(0, 1)):
 def scene_of(linkage, placed, depth=None):
     camera = None if depth is None else CAMERA
     data = Observation(np.zeros((1, 3)), np.ones(1), np.ones(1), camera, depth)
-    return Scene(linkage, data, linkage.skeleton.rest(), placed)
+    return Scene(linkage, data, Prior(linkage.skeleton.rest()), placed)
 
 
 BALL = [0.1, 0.1, 0.1]
@@ -118,7 +118,7 @@ def test_free_space_draws_into_the_silhouette_and_behind_the_surface(linkage):
 
 def test_continuity_costs_the_square_of_the_turn(linkage):
     bones = linkage.skeleton
-    scene = Scene(linkage, None, bones.rest(), None)
+    scene = Scene(linkage, None, Prior(bones.rest()), None)
     energy = Continuity(weight=2.0, joint_deg=10.0).bind(scene)
     step = np.zeros(bones.dofs)
     step[bones.dofs_of("forearm")] = np.radians(20.0)

@@ -10,7 +10,7 @@ import numpy as np
 
 from regkit.body import Body
 from regkit.clouds.tree import Tree
-from regkit.interfaces import Evaluation, Registrar, RegistrationResult
+from regkit.interfaces import Evaluation, Prior, Registrar, RegistrationResult
 from regkit.observation import Observation
 from regkit.primitives import Gaussians
 from regkit.skeleton import Pose
@@ -70,7 +70,7 @@ class BoundCoarseToFine(Registrar):
         observation: Observation,
         candidates: Sequence[Pose],
         *,
-        prior: Pose | None = None,
+        prior: Prior | None = None,
         warm_start: RegistrationResult | None = None,
     ) -> RegistrationResult:
         """Minimises the energy from the best candidate, resolution by resolution.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,10 +13,12 @@ from regkit.body import Body
 from regkit.interfaces import (
     Evaluation,
     JointEnergy,
+    Prior,
     Registrar,
     RegistrationResult,
     Scene,
     Similarity,
+    Solution,
     Term,
     VisibilityWeights,
 )
@@ -24,10 +27,15 @@ from regkit.observation import Observation
 from regkit.primitives import Primitives
 from regkit.registration import (
     COORDINATES,
+    Coordinates,
     FrameEnergy,
     Plan,
     PlannedEnergy,
+    PoseCurvature,
     SummedEnergy,
+    TangentCoordinates,
+    effective_points,
+    thinned,
 )
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
@@ -64,7 +72,7 @@ class BoundDirect(Registrar):
         observation: Observation,
         candidates: Sequence[Pose],
         *,
-        prior: Pose | None = None,
+        prior: Prior | None = None,
         warm_start: RegistrationResult | None = None,
     ) -> RegistrationResult:
         """Minimises the energy near the best candidate, from smooth to sharp.
@@ -73,7 +81,7 @@ class BoundDirect(Registrar):
             DataError: If the pose violates a limit although ``hard_limits`` is set.
         """
         annealing = self.method.annealing
-        prior = prior or candidates[0]
+        prior = prior or Prior(candidates[0])
         energy, pose = self._best(observation, candidates, prior, annealing[0], self.plan)
         evaluations = len(candidates) if len(candidates) > 1 else 0
         iterations = 0
@@ -100,13 +108,15 @@ class BoundDirect(Registrar):
             evaluations=evaluations,
             message=solution.message,
             multipliers=multipliers,
+            curvature=self._curvature(coordinates, pose, solution, prior, energy),
+            effective_points=prior.points,
         )
 
     def _best(
         self,
         observation: Observation,
         candidates: Sequence[Pose],
-        prior: Pose,
+        prior: Prior,
         smoothing: float,
         plan: Plan | None,
     ) -> tuple[FrameEnergy, Pose]:
@@ -141,14 +151,55 @@ class BoundDirect(Registrar):
                 f"{np.degrees(violation):.3g} degrees, which hard_limits forbids"
             )
 
+    def _curvature(
+        self,
+        coordinates: Coordinates,
+        pose: Pose,
+        solution: Solution,
+        prior: Prior,
+        energy: FrameEnergy,
+    ) -> PoseCurvature | None:
+        """Returns the curvature at a solution; None if solver or coordinates have none."""
+        if not isinstance(coordinates, TangentCoordinates):
+            return None
+        informed = prior.informed and any(term.informed for term in self.method.terms)
+        shown = self._moving @ (energy.weights / self.primitives.weights)
+        return PoseCurvature.of(coordinates, pose, solution, prior if informed else None, shown)
+
+    @cached_property
+    def _moving(self) -> Array:
+        """Share of each primitive among those that an independent dof moves, (m, K)."""
+        skeleton = self.body.skeleton
+        moved = skeleton.dof_mask[skeleton.independent_dofs][:, self.primitives.segments]
+        return np.asarray(moved / np.maximum(moved.sum(axis=1, keepdims=True), 1.0))
+
+    def effective_points(self, observation: Observation, pose: Pose) -> float:
+        """Returns the effective number of independent points; NaN if the kernel has no residuals.
+
+        It is estimated from the correlation of some points' residuals.
+        """
+        return sum(
+            self._effective_points(view.data, pose.moved(view.to_camera))
+            for view in observation.each_view
+        )
+
+    def _effective_points(self, observation: Observation, pose: Pose) -> float:
+        """Returns the effective number of independent points of one camera."""
+        some = thinned(observation)
+        weights = [term for term in self.method.terms if term.weighs]
+        found = self.summed(some, pose, Prior(pose), 0.0, weights).whitened(pose)
+        if found is None:
+            return float("nan")
+        return effective_points(some.points, *found, self.body.size, len(observation.points))
+
     def evaluate(self, observation: Observation, pose: Pose) -> Evaluation:
         """Returns the energy of a pose, with everything bound to the frame at this pose."""
-        energy, _ = self._best(observation, [pose], pose, 0.0, self.plan)
+        energy, _ = self._best(observation, [pose], Prior(pose), 0.0, self.plan)
         return Evaluation(energy.total(pose), energy.inlier_probability(pose))
 
     def gradient(self, observation: Observation, pose: Pose) -> Array:
         """Returns the derivative of the energy to a step of ``Skeleton.retract``, (n,)."""
-        energy, _ = self._best(observation, [pose], pose, 0.0, self.derivatives)
+        energy, _ = self._best(observation, [pose], Prior(pose), 0.0, self.derivatives)
         return energy.force(pose)
 
     def normal_equations(self, observation: Observation, pose: Pose) -> tuple[float, Array, Array]:
@@ -157,24 +208,29 @@ class BoundDirect(Registrar):
         Raises:
             ConfigError: If the kernel or a term has no curvature.
         """
-        energy, _ = self._best(observation, [pose], pose, 0.0, self.derivatives)
+        energy, _ = self._best(observation, [pose], Prior(pose), 0.0, self.derivatives)
         value, force, matrix = energy.derivatives(pose, 2)
         if matrix is None:
             lacking = ", ".join(energy.without_curvature())
             raise ConfigError(f"this needs curvature, which {lacking} does not provide")
         return value, force, matrix
 
-    def scene(self, observation: Observation, pose: Pose, prior: Pose) -> Scene:
+    def scene(self, observation: Observation, pose: Pose, prior: Prior) -> Scene:
         """Returns the state to which terms are bound."""
         placed = self.primitives.place(self.body.place(pose).transforms)
         return Scene(self.body, observation, prior, placed)
 
     def summed(
-        self, observation: Observation, pose: Pose, prior: Pose, smoothing: float
+        self,
+        observation: Observation,
+        pose: Pose,
+        prior: Prior,
+        smoothing: float,
+        terms: Sequence[Term] | None = None,
     ) -> SummedEnergy:
-        """Returns the sum of the kernel and all terms, bound to a frame at a pose."""
+        """Returns the sum of the kernel and terms, by default all, bound to a frame at a pose."""
         scene = self.scene(observation, pose, prior)
-        effects = self.effects(scene)
+        effects = self.effects(scene, terms)
         primitives = self.primitives
         if effects.weights is not primitives.weights:
             primitives = replace(primitives, weights=effects.weights)
@@ -182,12 +238,12 @@ class BoundDirect(Registrar):
         kernel = self.method.kernel.bind(observation, placed, smoothing=smoothing)
         return SummedEnergy(self.body, primitives, kernel, effects.terms, effects.joints)
 
-    def effects(self, scene: Scene) -> Effects:
-        """Returns the effects of all terms."""
+    def effects(self, scene: Scene, terms: Sequence[Term] | None = None) -> Effects:
+        """Returns the effects of terms, by default of all."""
         weights = self.primitives.weights
-        terms: dict[str, Similarity] = {}
+        energies: dict[str, Similarity] = {}
         joints: list[JointEnergy] = []
-        for index, term in enumerate(self.method.terms):
+        for index, term in enumerate(self.method.terms if terms is None else terms):
             effect = term.bind(scene)
             if isinstance(effect, VisibilityWeights) is not term.weighs:
                 raise _undeclared(term, effect)
@@ -196,8 +252,8 @@ class BoundDirect(Registrar):
             elif isinstance(effect, JointEnergy):
                 joints.append(effect)
             else:
-                terms[f"terms[{index}] ({term.kind})"] = effect
-        return Effects(weights, terms, tuple(joints))
+                energies[f"terms[{index}] ({term.kind})"] = effect
+        return Effects(weights, energies, tuple(joints))
 
 
 @dataclass(frozen=True)

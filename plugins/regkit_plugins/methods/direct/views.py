@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from regkit.interfaces import JointEnergy
+from regkit.interfaces import JointEnergy, Prior
 from regkit.observation import Observation
 from regkit.registration import (
     FrameEnergy,
@@ -26,7 +26,7 @@ def best_in_views(
     method: BoundDirect,
     observation: Observation,
     candidates: Sequence[Pose],
-    prior: Pose,
+    prior: Prior,
     smoothing: float,
     plan: Plan | None,
 ) -> tuple[ViewsEnergy, Pose]:
@@ -38,7 +38,7 @@ def best_in_views(
         method: The bound method.
         observation: Data with views.
         candidates: Poses in the world, at least one.
-        prior: Pose to which unobserved joints stay close.
+        prior: What is known of the pose before the frame.
         smoothing: Standard deviation of a Gaussian that smooths the energy over space [m].
         plan: The method by compiled functions, if it has them.
     """
@@ -55,7 +55,7 @@ def _of_views(
     method: BoundDirect,
     observation: Observation,
     pose: Pose,
-    prior: Pose,
+    prior: Prior,
     smoothing: float,
     plan: Plan | None,
 ) -> ViewsEnergy:
@@ -63,7 +63,8 @@ def _of_views(
     total, views = float(observation.weights.sum()), []
     joints: tuple[JointEnergy, ...] | None = None
     for view in observation.views:
-        at, expected = (one.moved(view.to_camera) for one in (pose, prior))
+        # What a prior knows besides its pose is an energy of the joints, which counts once.
+        at, expected = pose.moved(view.to_camera), Prior(prior.pose.moved(view.to_camera))
         planned = plan and PlannedEnergy.of(plan.of_view, view.data, [at], expected, smoothing)
         energy: FrameEnergy
         if plan is not None and planned:

@@ -11,7 +11,7 @@ import numpy as np
 from regkit.body import Body
 from regkit.clouds import voxel_downsampled, voxel_for
 from regkit.deformation import fitted
-from regkit.interfaces import Evaluation, Registrar, RegistrationResult
+from regkit.interfaces import Evaluation, Prior, Registrar, RegistrationResult
 from regkit.interfaces.registrar import LITTLE
 from regkit.observation import Observation
 from regkit.primitives import Primitives
@@ -43,7 +43,7 @@ class BoundNonrigid(Registrar):
         observation: Observation,
         candidates: Sequence[Pose],
         *,
-        prior: Pose | None = None,
+        prior: Prior | None = None,
         warm_start: RegistrationResult | None = None,
     ) -> RegistrationResult:
         """Poses the body by the first method, and deforms it."""

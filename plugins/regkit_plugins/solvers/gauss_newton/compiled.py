@@ -26,11 +26,20 @@ MAX_ITERATIONS, VALUE_TOLERANCE, DAMPING, RESTING = range(4)
 
 
 @compiled
-def minimize(problem: ProblemArrays, settings: Vector, x: Vector) -> tuple[float, int, int, int]:
-    """Moves x (m,) to the minimum; returns the value, iterations, evaluations and the reason."""
+def minimize(
+    problem: ProblemArrays, settings: Vector, x: Vector, gradient: Vector, matrix: Matrix
+) -> tuple[float, int, int, int]:
+    """Moves x (m,) to the minimum; returns the value, iterations, evaluations and the reason.
+
+    Args:
+        problem: The problem.
+        settings: The settings, in the order of their indices.
+        x: The start, replaced by the last accepted point.
+        gradient: Written, the gradient there, (m,).
+        matrix: Written, the Gauss-Newton matrix there, (m, m).
+    """
     count = len(x)
     project(problem.skeleton, problem.start, x)
-    gradient, matrix = np.empty(count), np.empty((count, count))
     value = equations(problem, x, gradient, matrix)
     if not (isfinite(value) and _are_finite(gradient, matrix)):
         return value, 0, 1, NOT_FINITE
@@ -67,8 +76,9 @@ def minimize(problem: ProblemArrays, settings: Vector, x: Vector) -> tuple[float
             value = trial_value
             for i in range(count):
                 x[i] = trial[i]
-            gradient, trial_gradient = trial_gradient, gradient
-            matrix, trial_matrix = trial_matrix, matrix
+                gradient[i] = trial_gradient[i]
+                for j in range(count):
+                    matrix[i, j] = trial_matrix[i, j]
             damping = max(0.2 * damping, 1e-9)
             if gain <= settings[VALUE_TOLERANCE] * (first - value):
                 return value, iteration + 1, evaluations, CONVERGED

@@ -53,10 +53,23 @@ class GaussNewton(Solver):
         if not (np.isfinite(value) and np.isfinite(gradient).all() and np.isfinite(matrix).all()):
             raise DataError(f"the energy ({value}) or its gradient at the start is not finite")
         first, damping, evaluations = value, self.damping, 1
+
+        def ended(converged: bool, iterations: int, message: str) -> Solution:
+            return Solution(
+                x,
+                value,
+                converged,
+                iterations,
+                evaluations,
+                message,
+                gradient=gradient,
+                curvature=matrix,
+            )
+
         for iteration in range(self.max_iterations):
             free = _free(problem, x, gradient)
             if not gradient[free].any():
-                return Solution(x, value, True, iteration, evaluations, "the gradient is zero")
+                return ended(True, iteration, "the gradient is zero")
             step = np.zeros_like(x)
             slope = gradient[free]
             system = matrix.copy() if free.all() else matrix[np.ix_(free, free)]
@@ -75,26 +88,34 @@ class GaussNewton(Solver):
                 x, value, gradient, matrix = trial, trial_value, trial_gradient, trial_matrix
                 damping = max(0.2 * damping, 1e-9)
                 if gain <= self.value_tolerance * (first - value):
-                    return Solution(
-                        x, value, True, iteration + 1, evaluations, "the value converged"
-                    )
+                    return ended(True, iteration + 1, "the value converged")
             elif damping > 1e9:
-                return Solution(
-                    x, value, True, iteration, evaluations, "no step decreases the value"
-                )
+                return ended(True, iteration, "no step decreases the value")
             else:
                 damping *= 10.0
-        return Solution(x, value, False, self.max_iterations, evaluations, "max_iterations reached")
+        return ended(False, self.max_iterations, "max_iterations reached")
 
     def _minimized(self, problem: CompiledProblem, arrays: ProblemArrays) -> Solution:
         """Returns the same point by compiled loops."""
         x = problem.start.copy()
         settings = (self.max_iterations, self.value_tolerance, self.damping, self.resting)
-        value, iterations, evaluations, why = minimize(arrays, np.array(settings, float), x)
+        gradient, matrix = np.empty(len(x)), np.empty((len(x), len(x)))
+        value, iterations, evaluations, why = minimize(
+            arrays, np.array(settings, float), x, gradient, matrix
+        )
         if why == NOT_FINITE:
             raise DataError(f"the energy ({value}) or its gradient at the start is not finite")
         converged = why != ENDED
-        return Solution(x, value, converged, iterations, evaluations, MESSAGES[why])
+        return Solution(
+            x,
+            value,
+            converged,
+            iterations,
+            evaluations,
+            MESSAGES[why],
+            gradient=gradient,
+            curvature=matrix,
+        )
 
 
 def _equations(problem: Problem, x: Array) -> tuple[float, Array, Array]:

@@ -15,7 +15,6 @@ from regkit.primitives import Primitives
 from regkit.skeleton import Pose, Skeleton
 from regkit.skeleton.compiled_steps import ball_steps
 from regkit.system.arrays import Array
-from regkit.system.errors import ConfigError
 from regkit_plugins.terms.continuity.compiled import respond_joints
 
 
@@ -43,16 +42,12 @@ class Continuity(Term):
             ConfigError: If ``joints_deg`` names an unknown joint, or one that does not rotate.
         """
         for name in self.joints_deg:
-            if body.skeleton.is_prismatic(name):
-                raise ConfigError(
-                    f"joints_deg names '{name}', whose joint is prismatic; joints_deg is for "
-                    "joints that rotate, and displacement holds for all prismatic joints"
-                )
+            body.skeleton.rotating(name)
 
     def bind(self, scene: Scene) -> BoundContinuity:
         """Binds the term to the prior pose."""
         weights = self._weights(scene.body.skeleton)
-        return BoundContinuity(scene.body.skeleton, scene.prior, weights, np.diag(weights))
+        return BoundContinuity(scene.body.skeleton, scene.prior.pose, weights, np.diag(weights))
 
     def compiled(self, body: Body, primitives: Primitives) -> CompiledJoints:
         """Returns the term as a compiled function."""

@@ -6,6 +6,7 @@ from math import atan2, ceil, cos, hypot, pi, sin, sqrt
 
 import numpy as np
 
+from regkit.interfaces.compiled import PriorArrays
 from regkit.skeleton.arrays import PoseArrays, SkeletonArrays
 from regkit.skeleton.compiled_rotation import exponential, hamilton_product, set_rotation
 from regkit.system.compiled import compiled
@@ -15,7 +16,7 @@ from regkit.system.machine_types import Matrix, Vector
 @compiled(python=False)
 def respond_joints(
     skeleton: SkeletonArrays,
-    prior: PoseArrays,
+    prior: PriorArrays,
     pose: PoseArrays,
     numbers: Vector,
     table: Matrix,

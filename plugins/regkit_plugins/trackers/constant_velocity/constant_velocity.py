@@ -5,11 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from regkit.interfaces import BoundTracker, Past, Registrar, RegistrationResult, Tracker
+from regkit.interfaces import BoundTracker, Past, Prior, Registrar, RegistrationResult, Tracker
 from regkit.observation import Observation
-from regkit.skeleton import Pose
-from regkit_plugins.trackers.constant_velocity.compiled import repeated_motion
 from regkit_plugins.trackers.constant_velocity.recovery import BoundRecovery, Recovery
+from regkit_plugins.trackers.constant_velocity.repetition import repeated
 
 
 class ConstantVelocity(Tracker):
@@ -43,17 +42,11 @@ class BoundConstantVelocity(BoundTracker):
         last = past.last.pose
         candidates = [last]
         if past.before is not None:
-            candidates.append(self._predicted(past.before.pose, last))
+            candidates.append(repeated(self.registrar.body.skeleton, past.before.pose, last))
         # The prior is the last pose, because extrapolation would make an occluded limb drift.
-        found = self.registrar.register(observation, candidates, prior=last, warm_start=past.last)
+        found = self.registrar.register(
+            observation, candidates, prior=Prior(last), warm_start=past.last
+        )
         if self.recovery is None:
             return found
         return self.recovery.checked(observation, found, past)
-
-    def _predicted(self, before: Pose, last: Pose) -> Pose:
-        """Returns the pose after repeating the last step, projected onto the limits."""
-        bones = self.registrar.body.skeleton
-        root, balls = repeated_motion(before.root, before.balls, last.root, last.balls)
-        hinges = 2.0 * last.hinges - before.hinges
-        repeated = Pose(root if bones.free else last.root, balls, hinges)
-        return bones.limits.projected(repeated)

@@ -1,0 +1,137 @@
+"""The filter tracker: each frame is weighed against what the frames before it tell."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import isnan
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field
+
+from regkit.config.quantities import Length, Spread
+from regkit.interfaces import BoundTracker, Past, Prior, Registrar, RegistrationResult, Tracker
+from regkit.observation import Observation
+from regkit.skeleton import Pose, Skeleton
+from regkit.system.arrays import Array
+from regkit_plugins.trackers.constant_velocity.recovery import BoundRecovery, Recovery
+from regkit_plugins.trackers.constant_velocity.repetition import repeated
+from regkit_plugins.trackers.filter.compiled import predicted_information
+
+
+class Filter(Tracker):
+    """Maximum a posteriori filter on the tangent space, with a damped constant velocity.
+
+    The posterior of the last frame moves on with the body's velocity and widens by the process
+    noise; the method's term `motion_prior` weighs it against the data of the next frame. So a joint
+    that the data show follows them, and one that they do not show keeps on moving for a while, and
+    grows uncertain. Without that term it is a constant-velocity tracker.
+    """
+
+    kind: Literal["filter"] = "filter"
+
+    joint_deg: Spread = 5.0
+    """Process noise of a joint: what its motion changes unforeseen in a frame [deg]."""
+    joints_deg: dict[str, Spread] = Field(default_factory=dict)
+    """Process noise of individual joints, by segment [deg]."""
+    displacement: Length = 0.02
+    """Process noise of a prismatic joint [m]."""
+    root_m: Length = 0.1
+    """Process noise of the root's position [m]."""
+    root_deg: Spread = 20.0
+    """Process noise of the root's orientation [deg]."""
+    damping: Annotated[float, Field(ge=0.0, le=1.0)] = 0.0
+    """Share of a velocity that lasts to the next frame."""
+    gain: Annotated[float, Field(ge=0.0, le=1.0)] = 1.0
+    """Share of an unforeseen step that counts as a change of the velocity."""
+    share: Annotated[float, Field(ge=0.0, le=100.0)] = 2.0
+    """Process noise of a joint that moves, besides, as a share of its motion in the last frame."""
+    recovery: Recovery | None = Recovery()
+    """Recovery of lost limbs and of a lost body; null disables it."""
+
+    def bind(self, registrar: Registrar) -> BoundFilter:
+        """Binds the tracker and its recovery to a registrar.
+
+        Raises:
+            ConfigError: If ``joints_deg`` names an unknown joint, or one that does not rotate.
+        """
+        recovery = None if self.recovery is None else self.recovery.bind(registrar)
+        skeleton = registrar.body.skeleton
+        return BoundFilter(
+            self, registrar, recovery, self.noise(skeleton), np.diag(skeleton.spread).copy()
+        )
+
+    def noise(self, skeleton: Skeleton) -> Array:
+        """Returns the variance of the process noise of each degree of freedom, (n,)."""
+        noise = np.full(skeleton.dofs, np.radians(self.joint_deg))
+        if skeleton.free:
+            noise[:3], noise[3:6] = self.root_m, np.radians(self.root_deg)
+        noise[skeleton.hinge_dofs][skeleton.limits.prismatic] = self.displacement
+        for name, degrees in self.joints_deg.items():
+            noise[skeleton.rotating(name)] = np.radians(degrees)
+        return noise**2
+
+
+@dataclass(frozen=True)
+class BoundFilter(BoundTracker):
+    """``Filter`` bound to a registrar.
+
+    Attributes:
+        settings: The settings.
+        registrar: The registrar.
+        recovery: The bound recovery, if it is enabled.
+        noise: Variance of the process noise of the degrees of freedom, (n,).
+        spread: Variance of poses that are spread evenly over the limits, (n,): without data the
+            posterior grows to it, and not beyond.
+    """
+
+    settings: Filter
+    registrar: Registrar
+    recovery: BoundRecovery | None
+    noise: Array
+    spread: Array
+
+    def step(self, observation: Observation, past: Past) -> RegistrationResult:
+        """Registers a frame from the better of the last and the predicted pose."""
+        skeleton, last = self.registrar.body.skeleton, past.last
+        velocity = self._velocity(past)
+        predicted = last.pose
+        if velocity.any():
+            predicted = skeleton.limits.projected(skeleton.retract(last.pose, velocity))
+        prior = self._prior(past, predicted)
+        candidates = [last.pose]
+        if past.before is not None:
+            candidates.append(repeated(skeleton, past.before.pose, last.pose))
+        found = self.registrar.register(observation, candidates, prior=prior, warm_start=last)
+        kept = found
+        if self.recovery is not None:
+            kept = self.recovery.checked(observation, found, past)
+        moved = skeleton.difference(predicted, kept.pose)
+        # A limb that was found elsewhere did not move there.
+        gain = self.settings.gain if kept.pose is found.pose else 0.0
+        if past.before is None:
+            gain = float(past.frames > 0 and gain > 0.0 and not past.missed)
+        kept = past.counted(self.registrar, observation, kept)
+        return replace(kept, velocity=velocity + gain * moved)
+
+    def _velocity(self, past: Past) -> Array:
+        """Returns the step (n,) that the body is expected to take."""
+        if past.last.velocity is None or past.before is None:
+            return np.zeros(self.registrar.body.skeleton.dofs)
+        return self.settings.damping * past.last.velocity
+
+    def _prior(self, past: Past, predicted: Pose) -> Prior:
+        """Returns the last posterior, one frame later; a pose alone in the first frame."""
+        curvature, points = past.last.curvature, past.last.effective_points
+        if curvature is None or isnan(points):
+            return Prior(past.last.pose, points=points)
+        velocity = past.last.velocity
+        information = predicted_information(
+            curvature.carried(points),
+            self.noise * (1 + past.missed),
+            np.zeros(len(self.noise)) if velocity is None else self.settings.share * velocity,
+            self.spread,
+            self.registrar.body.skeleton.arrays.limits.leaders,
+            self.registrar.body.skeleton.ball_dofs.start,
+        )
+        return Prior(predicted, information, points)
