@@ -10,7 +10,7 @@ import numpy as np
 from regkit.alignment.starts import initial_alignment
 from regkit.alignment.weak_motion import weak_motion
 from regkit.body.cloud import cloud_body
-from regkit.clouds import spacing, voxel_downsampled, voxel_for
+from regkit.clouds import spacing, voxel_downsampled, voxel_for, without_stray
 from regkit.clouds.agreement import Agreement, Agreements
 from regkit.clouds.checks import check_shape, check_sizes
 from regkit.interfaces import Method
@@ -42,6 +42,7 @@ class Alignment(Brief):
         start: Description of the initial alignment.
         voxel: Voxel size to which both clouds were downsampled [m]; None if they were not.
         points: Number of source points and target points that were aligned.
+        stray: Fraction of the source's and of the target's points that were left out as stray.
         hidden: Description of a motion of the source that is weakly constrained by its surface;
             None if all motions are constrained.
         seconds: Time for downsampling, initial alignment and registration [s].
@@ -55,6 +56,7 @@ class Alignment(Brief):
     start: str
     voxel: float | None
     points: tuple[int, int]
+    stray: tuple[float, float]
     hidden: str | None
     seconds: float
     converged: bool
@@ -100,7 +102,7 @@ def _aligned(
     places: tuple[str, str],
 ) -> Alignment:
     """Returns the alignment on the current threads."""
-    clouds = source, target
+    clouds: tuple[Array, ...] = source, target
     for cloud, place in zip(clouds, places, strict=True):
         check_shape(cloud, place=place)
     check_sizes(source, target)
@@ -108,7 +110,9 @@ def _aligned(
         raise ConfigError(
             f"a voxel of {voxel:g} m; it must be a length, or 0 for no downsampling", place="voxel"
         )
-    begun = time.perf_counter()
+    begun, given = time.perf_counter(), (len(source), len(target))
+    if voxel != 0.0:
+        clouds = tuple(each(without_stray, clouds))
     if voxel is None:
         voxel = max(voxel_for(cloud, POINTS) or 0.0 for cloud in clouds)
     few, seen = each(lambda cloud: voxel_downsampled(cloud, voxel) if voxel else cloud, clouds)
@@ -140,6 +144,7 @@ def _aligned(
         start=initial.description,
         voxel=voxel or None,
         points=(len(few), len(seen)),
+        stray=(1.0 - len(clouds[0]) / given[0], 1.0 - len(clouds[1]) / given[1]),
         hidden=weak_motion(few),
         seconds=seconds,
         converged=found.converged,

@@ -171,10 +171,16 @@ def _figures(found: Alignment, method: str, verdict: Verdict) -> dict[str, Any]:
         "method": method,
         "voxel": found.voxel,
         "points": list(found.points),
+        "stray_points": list(found.stray),
         "seconds": found.seconds,
         "converged": found.converged,
         "message": found.message,
     }
+
+
+def _stray(found: Alignment) -> str:
+    shares = " and ".join(f"{100.0 * share:.1f} %" for share in found.stray)
+    return f"{shares} are left out"
 
 
 def _table(found: Alignment, method: str, matrix: list[str]) -> Table:
@@ -191,6 +197,7 @@ def _table(found: Alignment, method: str, matrix: list[str]) -> Table:
         ("method", method),
         ("start", found.start),
         ("points", f"{found.points[0]} and {found.points[1]}, {downsampled}"),
+        *([("stray points", _stray(found))] if any(found.stray) else []),
         ("seconds", f"{found.seconds:.2f}"),
         ("converged", f"{'yes' if found.converged else 'no'}: {found.message}"),
     ):
