@@ -7,14 +7,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from regkit.alignment.starts import initial_alignment
+from regkit.alignment.contest import Contestant, Rival, ranked, rivals_of, worthwhile
+from regkit.alignment.overlapping import evaluated, registered
+from regkit.alignment.starts import candidates_of
 from regkit.alignment.weak_motion import weak_motion
-from regkit.body.cloud import cloud_body
 from regkit.clouds import spacing, voxel_downsampled, voxel_for, without_stray
 from regkit.clouds.agreement import Agreement, Agreements
 from regkit.clouds.checks import check_shape, check_sizes
-from regkit.interfaces import Method
-from regkit.observation import Observation
+from regkit.geometry.rigid import transformed
+from regkit.interfaces import AlignmentStart, Method
 from regkit.system.arrays import Array
 from regkit.system.brief import Brief
 from regkit.system.errors import ConfigError, DataError
@@ -31,6 +32,10 @@ MIN_POINTS = 10
 """Minimum number of points of each cloud after downsampling."""
 
 
+MIN_CONSTRAINING = 50
+"""Least number of points that tell which motions a surface constrains."""
+
+
 @dataclass(frozen=True)
 class Alignment(Brief):
     """The result of an alignment.
@@ -43,8 +48,9 @@ class Alignment(Brief):
         voxel: Voxel size to which both clouds were downsampled [m]; None if they were not.
         points: Number of source points and target points that were aligned.
         stray: Fraction of the source's and of the target's points that were left out as stray.
-        hidden: Description of a motion of the source that is weakly constrained by its surface;
-            None if all motions are constrained.
+        hidden: Description of a motion of the source that is weakly constrained by the surface
+            that lies on the target; None if all motions are constrained.
+        rivals: Other transforms that explain the clouds nearly as well.
         seconds: Time for downsampling, initial alignment and registration [s].
         converged: Whether the method converged.
         message: Reason of termination.
@@ -58,6 +64,7 @@ class Alignment(Brief):
     points: tuple[int, int]
     stray: tuple[float, float]
     hidden: str | None
+    rivals: tuple[Rival, ...]
     seconds: float
     converged: bool
     message: str
@@ -69,7 +76,7 @@ def align(
     method: Method,
     *,
     voxel: float | None = None,
-    start: str = "nearest",
+    start: str | AlignmentStart = "auto",
     places: tuple[str, str] = ("source", "target"),
     threads: int | None = None,
 ) -> Alignment:
@@ -81,7 +88,7 @@ def align(
         method: The registration method.
         voxel: Voxel size for downsampling both clouds [m]; by default about ``POINTS`` points
             remain, and 0 disables downsampling.
-        start: Initial alignment, see ``initial_alignment``.
+        start: The start, see ``candidates_of``.
         places: Names of source and target in error messages.
         threads: Number of threads, by default one, or what the method says. The result is the same
             to the last bit.
@@ -98,7 +105,7 @@ def _aligned(
     target: Array,
     method: Method,
     voxel: float | None,
-    start: str,
+    start: str | AlignmentStart,
     places: tuple[str, str],
 ) -> Alignment:
     """Returns the alignment on the current threads."""
@@ -123,37 +130,45 @@ def _aligned(
             "voxel",
             place="voxel",
         )
-    initial = initial_alignment(start, few, seen, method)
-    # With the origin at the centroids, rotation and translation are decoupled, and numbers are
-    # small: coordinates of maps, of millions of metres, would cost half of their digits.
-    centre, origin = few.mean(axis=0), seen.mean(axis=0)
-    body = cloud_body("source", few - centre)
-    observation = Observation(
-        seen - origin, np.ones(len(seen)), np.full(len(seen), spacing(seen) ** 2)
-    )
-    begin = _moved(initial.transform, -origin, centre)
-    found = method.bind(body).register(observation, [body.skeleton.rest(begin)])
-    transform = _moved(found.pose.root, origin, -centre)
-    seconds = time.perf_counter() - begun
+    candidates = worthwhile(candidates_of(start, few, seen, method))
     distance = MAX_DISTANCE * max(spacing(few), spacing(seen))
     agreements = Agreements.of(few, seen)
+    contestants = []
+    for candidate in candidates:
+        transform, result = registered(candidate, agreements, method)
+        # Energies of different parts of the clouds cannot be compared.
+        alone = len(candidates) == 1
+        energy = result.energy if alone else evaluated(transform, agreements, method).energy
+        quality = agreements.after(transform, distance)
+        contestants.append(Contestant(candidate, result, transform, quality, energy))
+    order = ranked(contestants)
+    best = order[0]
+    seconds = time.perf_counter() - begun
     return Alignment(
-        transform=transform,
-        agreement=agreements.after(transform, distance),
-        before=agreements.after(initial.transform, distance),
-        start=initial.description,
+        transform=best.transform,
+        agreement=best.agreement,
+        before=agreements.after(best.candidate.transform, distance),
+        start=best.candidate.description,
         voxel=voxel or None,
         points=(len(few), len(seen)),
         stray=(1.0 - len(clouds[0]) / given[0], 1.0 - len(clouds[1]) / given[1]),
-        hidden=weak_motion(few),
+        hidden=_hidden(agreements, best, distance),
+        rivals=rivals_of(order, agreements),
         seconds=seconds,
-        converged=found.converged,
-        message=found.message,
+        converged=best.result.converged,
+        message=best.result.message,
     )
 
 
-def _moved(transform: Array, origin: Array, centre: Array) -> Array:
-    """Returns T (4, 4) with a shift by ``centre`` (3,) [m] before it and ``origin`` (3,) after."""
-    moved = transform.copy()
-    moved[:3, 3] = transform[:3, 3] + (transform[:3, :3] @ centre + origin)
-    return moved
+def _hidden(agreements: Agreements, best: Contestant, distance: float) -> str | None:
+    """Returns the weak motion of what lies on the target, or of the whole source if that is little.
+
+    Args:
+        agreements: The clouds.
+        best: The result.
+        distance: Distance within which a point lies on the target [m].
+    """
+    source = agreements.source.points
+    moved = transformed(best.transform, source)
+    on = np.isfinite(agreements.target.nearest(moved, 1, distance)[0][:, 0])
+    return weak_motion(source[on] if on.sum() >= MIN_CONSTRAINING else source)

@@ -11,9 +11,9 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
-from regkit.alignment import Alignment
+from regkit.alignment import MIN_FITNESS, Alignment, judged
 from regkit.alignment import align as align_clouds
-from regkit.cli.choices import method_named
+from regkit.cli.choices import method_named, start_named
 from regkit.cli.completion import plugin_names
 from regkit.cli.console import errors, output
 from regkit.cli.matrix import matrix_rows
@@ -70,11 +70,12 @@ def align(
         str,
         typer.Option(
             metavar="START",
-            help="Initial transform: nearest (the better of identity and centroids), identity, "
-            "centroids, rotations or features (both for any orientation), or a file with a 4x4 "
-            "matrix.",
+            help="Start: auto (any orientation), a plug-in such as features, rotations, "
+            "open3d_features or kiss_matcher, or a mapping such as '{kind: features, points: "
+            "[2000]}'; nearest (the better of identity and centroids), identity, centroids, or a "
+            "file with a 4x4 matrix.",
         ),
-    ] = "nearest",
+    ] = "auto",
     out: Annotated[
         Path | None,
         typer.Option(metavar="FILE", help="Write the aligned source to this file."),
@@ -87,7 +88,7 @@ def align(
             metavar="SHARE",
             help="Fail if a smaller fraction of the source lies on the target.",
         ),
-    ] = 0.3,
+    ] = MIN_FITNESS,
     threads: Annotated[
         int | None,
         typer.Option(
@@ -116,11 +117,11 @@ def align(
             resting,
             chosen,
             voxel=voxel,
-            start=start,
+            start=start_named(start),
             places=(str(source), str(target)),
             threads=threads,
         )
-    verdict, reason = _verdict(found, min_fitness)
+    verdict, reason = judged(found, min_fitness)
     if as_json:
         places = {"source": str(source), "target": str(target)}
         typer.echo(json.dumps(_figures(found, name, verdict) | places, indent=2, allow_nan=False))
@@ -136,25 +137,6 @@ def align(
     conclude(verdict, reason, strict=strict)
 
 
-def _verdict(found: Alignment, min_fitness: float) -> tuple[Verdict, str]:
-    """Returns whether the clouds were aligned, and the reason if that is not certain."""
-    agreement = found.agreement
-    if agreement.fitness < min_fitness:
-        return Verdict.LOST, (
-            f"no alignment was found: {100.0 * agreement.fitness:.0f} % of the source lies within "
-            f"{agreement.distance:.3g} of the target, and --min-fitness is {min_fitness:g}; try "
-            "--start rotations or --start features, and check that both clouds show the same object"
-        )
-    if found.hidden is not None:
-        return Verdict.DOUBTFUL, (
-            f"{found.hidden} of the source slides its surface along itself: that part of the "
-            "transform is not determined by the data"
-        )
-    if not found.converged:
-        return Verdict.DOUBTFUL, f"the method did not converge: {found.message}"
-    return Verdict.FOUND, ""
-
-
 def _figures(found: Alignment, method: str, verdict: Verdict) -> dict[str, Any]:
     agreement = found.agreement
     rmse = agreement.inlier_rmse
@@ -168,6 +150,15 @@ def _figures(found: Alignment, method: str, verdict: Verdict) -> dict[str, Any]:
         "fitness_at_start": found.before.fitness,
         "start": found.start,
         "hidden_motion": found.hidden,
+        "rivals": [
+            {
+                "T_target_source": rival.transform.tolist(),
+                "fitness": rival.agreement.fitness,
+                "overlap": rival.agreement.overlap,
+                "energy_difference": rival.energy if math.isfinite(rival.energy) else None,
+            }
+            for rival in found.rivals
+        ],
         "method": method,
         "voxel": found.voxel,
         "points": list(found.points),

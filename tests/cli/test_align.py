@@ -44,7 +44,7 @@ def test_threads_change_nothing(regkit, clouds):
 
 
 def test_table_tells_what_was_found(regkit, clouds):
-    ended = regkit("align", *clouds)
+    ended = regkit("align", *clouds, "--start", "nearest")
     assert ended.code == 0
     assert ended.err == ""
     for what in ("T_target_source", "fitness", "inlier RMSE", "overlap", "seconds", "converged"):
@@ -84,9 +84,9 @@ def test_shipped_views_are_aligned(regkit):
     np.testing.assert_allclose(turn, [0.0, -36.0, 0.0], atol=2.0)
 
 
-@pytest.mark.parametrize("start", ["rotations", "features"])
+@pytest.mark.parametrize("start", ["auto", "rotations", "open3d_features"])
 def test_any_orientation_is_found(regkit, tmp_path, lump, start):
-    if start == "features":
+    if start == "open3d_features":
         pytest.importorskip("open3d")
     turned = rigid(vector_to_matrix(np.array([0.5, 2.5, -1.0])), np.array([1.0, 2.0, 3.0]))
     files = tmp_path / "a.npz", tmp_path / "b.npz"
@@ -130,8 +130,8 @@ def test_surface_that_slides_along_itself_is_warned_of(regkit, tmp_path, random)
         ("nan.txt", [], "nan.txt: all 1500 points are missing measurements"),
         ("mm.txt", [], "the source is 435.9 large and the target 0.4359, a factor of 1e+03"),
         ("good.txt", ["--start", "centroid"], "--start: there is no file 'centroid'; name one "
-         "with a 4x4 matrix, or one of nearest, identity, centroids, rotations, features; did you "
-         "mean 'centroids'?"),
+         "with a 4x4 matrix, or one of auto, nearest, identity, centroids, features, kiss_matcher, "
+         "open3d_features, rotations; did you mean 'centroids'?"),
         ("good.txt", ["--start", "two.txt"], "two.txt: 6 numbers; a 4x4 matrix has 16"),
         ("good.txt", ["--start", "scaled.txt"], "scaled.txt: the matrix is not a rigid motion"),
         ("good.txt", ["--method", "ipc"], "--method ipc: method: no plug-in 'ipc'"),
