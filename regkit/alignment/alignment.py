@@ -47,6 +47,7 @@ class Alignment(Brief):
         start: Description of the initial alignment.
         voxel: Voxel size to which both clouds were downsampled [m]; None if they were not.
         points: Number of source points and target points that were aligned.
+        radius: Radius of gyration of the source [m].
         stray: Fraction of the source's and of the target's points that were left out as stray.
         hidden: Description of a motion of the source that is weakly constrained by the surface
             that lies on the target; None if all motions are constrained.
@@ -62,6 +63,7 @@ class Alignment(Brief):
     start: str
     voxel: float | None
     points: tuple[int, int]
+    radius: float
     stray: tuple[float, float]
     hidden: str | None
     rivals: tuple[Rival, ...]
@@ -151,6 +153,7 @@ def _aligned(
         start=best.candidate.description,
         voxel=voxel or None,
         points=(len(few), len(seen)),
+        radius=float(np.sqrt(few.var(axis=0).sum())),
         stray=(1.0 - len(clouds[0]) / given[0], 1.0 - len(clouds[1]) / given[1]),
         hidden=_hidden(agreements, best, distance),
         rivals=rivals_of(order, agreements),

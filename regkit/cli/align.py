@@ -13,6 +13,7 @@ from rich.table import Table
 
 from regkit.alignment import MIN_FITNESS, Alignment, judged
 from regkit.alignment import align as align_clouds
+from regkit.cli.align_all import align_views
 from regkit.cli.choices import method_named, start_named
 from regkit.cli.completion import plugin_names
 from regkit.cli.console import errors, output
@@ -45,6 +46,18 @@ def align(
             metavar="TARGET", help="Cloud or mesh that stays fixed.", show_default=False
         ),
     ],
+    more: Annotated[
+        list[Path] | None,
+        typer.Argument(metavar="[MORE]...", help="Further views, with --all.", show_default=False),
+    ] = None,
+    every: Annotated[
+        bool,
+        typer.Option(
+            "--all",
+            help="Align all views to one another, as of a turntable: T_world_view of each, in the "
+            "frame of the first; --out writes the merged cloud.",
+        ),
+    ] = False,
     method: Annotated[
         str | None,
         typer.Option(
@@ -109,6 +122,16 @@ def align(
         check_writable(out, place=f"--out {out}")
     name = default_name(Method.group, "rigid") if method is None else method
     chosen = method_named(name)
+    begin = start_named(start)
+    if every:
+        with options(start="--start", voxel="--voxel", threads="--threads"):
+            align_views(
+                [source, target, *(more or [])], chosen,
+                voxel=voxel, start=begin, threads=threads, out=out, as_json=as_json, strict=strict,
+            )  # fmt: skip
+        return
+    if more:
+        raise typer.BadParameter("more than two clouds need --all")
     points = read_cloud(source)
     resting = read_cloud(target)
     with options(start="--start", voxel="--voxel", threads="--threads"), working("aligning"):
@@ -117,7 +140,7 @@ def align(
             resting,
             chosen,
             voxel=voxel,
-            start=start_named(start),
+            start=begin,
             places=(str(source), str(target)),
             threads=threads,
         )

@@ -38,12 +38,15 @@ class KissMatcher(AlignmentStart):
         """
         kiss = self.library()
         voxel = max(voxel_for(cloud, self.points) or spacing(cloud) for cloud in (source, target))
-        matcher = kiss.KISSMatcher(kiss.KISSMatcherConfig(voxel))
-        # It computes in single precision, in which coordinates far from the origin have few digits.
+        # It refuses small voxels, so the voxel is the unit. It has single precision, in which far
+        # coordinates have few digits.
+        matcher = kiss.KISSMatcher(kiss.KISSMatcherConfig(1.0))
         here, there = source.mean(axis=0), target.mean(axis=0)
-        found = matcher.estimate(
-            list((source - here).astype(np.float32)), list((target - there).astype(np.float32))
-        )
+        clouds = [(source - here) / voxel, (target - there) / voxel]
+        try:
+            found = matcher.estimate(*(list(cloud.astype(np.float32)) for cloud in clouds))
+        except RuntimeError as error:
+            raise DataError(f"KISS-Matcher failed: {error}", place="start") from error
         count = int(matcher.get_num_final_inliers())
         if not found.valid or count < self.least:
             raise DataError(
@@ -55,6 +58,6 @@ class KissMatcher(AlignmentStart):
         left, _, right = np.linalg.svd(np.asarray(found.rotation, dtype=float))
         transform = np.eye(4)
         transform[:3, :3] = left @ right
-        transform[:3, 3] = np.ravel(found.translation) + there - transform[:3, :3] @ here
+        transform[:3, 3] = voxel * np.ravel(found.translation) + there - transform[:3, :3] @ here
         description = f"{count} correspondences, by KISS-Matcher"
         return [AlignmentCandidate(transform, 2.0 * voxel, description)]
