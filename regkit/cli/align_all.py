@@ -15,10 +15,12 @@ from rich.table import Table
 from regkit.alignment import JointAlignment, align_all, judged
 from regkit.body.verdict import Verdict
 from regkit.cli.console import errors, output
+from regkit.cli.matrix import matrix_rows
 from regkit.cli.verdicts import conclude
 from regkit.clouds import read_cloud, write_cloud
 from regkit.geometry.rigid import transformed
 from regkit.interfaces import AlignmentStart, Method
+from regkit.system.printable import printable
 from regkit.system.progress import working
 
 
@@ -49,6 +51,11 @@ def align_views(
         typer.echo(json.dumps(figures, indent=2, allow_nan=False))
     else:
         output.print(_table(found, names))
+        for name, pose, view in zip(names, found.transforms, views, strict=True):
+            if np.isfinite(pose).all():
+                typer.echo(
+                    f"T_world_view of {printable(name)}\n" + "\n".join(matrix_rows(pose, view))
+                )
     if out is not None and verdict is not Verdict.LOST:
         placed = zip(found.transforms, views, strict=True)
         write_cloud(out, np.concatenate([transformed(pose, view) for pose, view in placed]))
@@ -97,16 +104,13 @@ def _figures(found: JointAlignment, names: Sequence[str]) -> dict[str, Any]:
 
 
 def _table(found: JointAlignment, names: Sequence[str]) -> Table:
-    table = Table("view", "T_world_view, row by row", "pairs", "greatest overlap")
+    table = Table("view", "pairs", "greatest overlap")
     for index, name in enumerate(names):
         own = [one for one in found.pairs if one.kept and index in (one.source, one.target)]
         both = [0.5 * (one.found.agreement.fitness + one.found.agreement.overlap) for one in own]
-        rows = "\n".join(" ".join(f"{x:9.5f}" for x in row) for row in found.transforms[index][:3])
-        linked = found.linked[index]
         table.add_row(
             escape(name),
-            rows if linked else "not linked",
-            str(len(own)),
+            str(len(own)) if found.linked[index] else "not linked",
             f"{100.0 * max(both, default=0.0):.0f} %",
         )
     return table
