@@ -7,16 +7,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from regkit.alignment.starts import initial_alignment
+from regkit.alignment.contest import Contestant, Rival, ranked, rivals_of, worthwhile
+from regkit.alignment.overlapping import evaluated, registered, registered_whole
+from regkit.alignment.starts import candidates_of
 from regkit.alignment.uncertainty import alignment_covariance
 from regkit.alignment.weak_motion import weak_motion
-from regkit.body.cloud import cloud_body
-from regkit.clouds import spacing, voxel_downsampled, voxel_for
+from regkit.clouds import spacing, voxel_downsampled, voxel_for, without_stray
 from regkit.clouds.agreement import Agreement, Agreements
 from regkit.clouds.checks import check_shape, check_sizes
 from regkit.geometry.rigid import transformed
-from regkit.interfaces import Deformation, Method
-from regkit.observation import Observation
+from regkit.interfaces import AlignmentStart, Deformation, Method
 from regkit.system.arrays import Array
 from regkit.system.brief import Brief
 from regkit.system.errors import ConfigError, DataError
@@ -33,6 +33,10 @@ MIN_POINTS = 10
 """Minimum number of points of each cloud after downsampling."""
 
 
+MIN_CONSTRAINING = 50
+"""Least number of points that tell which motions a surface constrains."""
+
+
 @dataclass(frozen=True)
 class Alignment(Brief):
     """The result of an alignment.
@@ -40,13 +44,18 @@ class Alignment(Brief):
     Attributes:
         transform: T_target_source, (4, 4).
         deformation: What moves the transformed source onto the target; None of a rigid method.
+        displacement: Mean and largest displacement of the aligned points by the deformation [m];
+            None of a rigid method.
         agreement: Registration quality after the alignment.
         before: Registration quality of the initial alignment.
         start: Description of the initial alignment.
         voxel: Voxel size to which both clouds were downsampled [m]; None if they were not.
         points: Number of source points and target points that were aligned.
-        hidden: Description of a motion of the source that is weakly constrained by its surface;
-            None if all motions are constrained.
+        radius: Radius of gyration of the source [m].
+        stray: Fraction of the source's and of the target's points that were left out as stray.
+        hidden: Description of a motion of the source that is weakly constrained by the surface
+            that lies on the target; None if all motions are constrained.
+        rivals: Other transforms that explain the clouds nearly as well.
         seconds: Time for downsampling, initial alignment and registration [s].
         converged: Whether the method converged.
         message: Reason of termination.
@@ -56,12 +65,16 @@ class Alignment(Brief):
 
     transform: Array
     deformation: Deformation | None
+    displacement: tuple[float, float] | None
     agreement: Agreement
     before: Agreement
     start: str
     voxel: float | None
     points: tuple[int, int]
+    radius: float
+    stray: tuple[float, float]
     hidden: str | None
+    rivals: tuple[Rival, ...]
     seconds: float
     converged: bool
     message: str
@@ -74,7 +87,8 @@ class Alignment(Brief):
 
     def moved(self, points: Array) -> Array:
         """Returns points of the source (N, 3) [m] in the target's frame, with the deformation."""
-        return _moved_points(points, self.transform, self.deformation)
+        placed = transformed(self.transform, points)
+        return placed if self.deformation is None else self.deformation.moved(placed)
 
 
 def align(
@@ -83,7 +97,7 @@ def align(
     method: Method,
     *,
     voxel: float | None = None,
-    start: str = "nearest",
+    start: str | AlignmentStart = "auto",
     places: tuple[str, str] = ("source", "target"),
     threads: int | None = None,
 ) -> Alignment:
@@ -95,7 +109,7 @@ def align(
         method: The registration method.
         voxel: Voxel size for downsampling both clouds [m]; by default about ``POINTS`` points
             remain, and 0 disables downsampling.
-        start: Initial alignment, see ``initial_alignment``.
+        start: The start, see ``candidates_of``.
         places: Names of source and target in error messages.
         threads: Number of threads, by default one, or what the method says. The result is the same
             to the last bit.
@@ -112,11 +126,11 @@ def _aligned(
     target: Array,
     method: Method,
     voxel: float | None,
-    start: str,
+    start: str | AlignmentStart,
     places: tuple[str, str],
 ) -> Alignment:
     """Returns the alignment on the current threads."""
-    clouds = source, target
+    clouds: tuple[Array, ...] = source, target
     for cloud, place in zip(clouds, places, strict=True):
         check_shape(cloud, place=place)
     check_sizes(source, target)
@@ -124,7 +138,9 @@ def _aligned(
         raise ConfigError(
             f"a voxel of {voxel:g} m; it must be a length, or 0 for no downsampling", place="voxel"
         )
-    begun = time.perf_counter()
+    begun, given = time.perf_counter(), (len(source), len(target))
+    if voxel != 0.0:
+        clouds = tuple(each(without_stray, clouds))
     if voxel is None:
         voxel = max(voxel_for(cloud, POINTS) or 0.0 for cloud in clouds)
     few, seen = each(lambda cloud: voxel_downsampled(cloud, voxel) if voxel else cloud, clouds)
@@ -135,49 +151,58 @@ def _aligned(
             "voxel",
             place="voxel",
         )
-    initial = initial_alignment(start, few, seen, method)
-    # With the origin at the centroids, rotation and translation are decoupled, and numbers are
-    # small: coordinates of maps, of millions of metres, would cost half of their digits.
-    centre, origin = few.mean(axis=0), seen.mean(axis=0)
-    body = cloud_body("source", few - centre)
-    observation = Observation(
-        seen - origin, np.ones(len(seen)), np.full(len(seen), spacing(seen) ** 2)
-    )
-    begin = _moved(initial.transform, -origin, centre)
-    found = method.bind(body).register(observation, [body.skeleton.rest(begin)])
-    transform = _moved(found.pose.root, origin, -centre)
-    deformation = None if found.deformation is None else found.deformation.shifted(origin)
-    seconds = time.perf_counter() - begun
+    candidates = worthwhile(candidates_of(start, few, seen, method))
     distance = MAX_DISTANCE * max(spacing(few), spacing(seen))
     agreements = Agreements.of(few, seen)
-    agreement = agreements.after(transform, distance)
+    contestants = []
+    for candidate in candidates:
+        transform, result = registered(candidate, agreements, method)
+        # Energies of different parts of the clouds cannot be compared.
+        alone = len(candidates) == 1
+        energy = result.energy if alone else evaluated(transform, agreements, method).energy
+        quality = agreements.after(transform, distance)
+        contestants.append(Contestant(candidate, result, transform, quality, energy))
+    order = ranked(contestants)
+    best = order[0]
+    if best.result.deformation is not None:
+        best = registered_whole(best, agreements, method)
+    deformation, agreement, displacement = best.result.deformation, best.agreement, None
     if deformation is not None:
-        moved = _moved_points(few, transform, deformation)
+        posed = transformed(best.transform, few)
+        moved = deformation.moved(posed)
         agreement = Agreements.of(moved, seen).after(np.eye(4), distance)
+        sizes = np.linalg.norm(moved - posed, axis=1)
+        displacement = float(sizes.mean()), float(sizes.max())
+    seconds = time.perf_counter() - begun
     return Alignment(
-        transform=transform,
+        transform=best.transform,
         deformation=deformation,
+        displacement=displacement,
         agreement=agreement,
-        before=agreements.after(initial.transform, distance),
-        start=initial.description,
+        before=agreements.after(best.candidate.transform, distance),
+        start=best.candidate.description,
         voxel=voxel or None,
         points=(len(few), len(seen)),
-        hidden=weak_motion(few),
+        radius=float(np.sqrt(few.var(axis=0).sum())),
+        stray=(1.0 - len(clouds[0]) / given[0], 1.0 - len(clouds[1]) / given[1]),
+        hidden=_hidden(agreements, best, distance),
+        rivals=rivals_of(order, agreements),
         seconds=seconds,
-        converged=found.converged,
-        message=found.message,
-        covariance=alignment_covariance(few, agreements.target, transform, agreement),
+        converged=best.result.converged,
+        message=best.result.message,
+        covariance=alignment_covariance(few, agreements.target, best.transform, agreement),
     )
 
 
-def _moved_points(points: Array, transform: Array, deformation: Deformation | None) -> Array:
-    """Returns points (N, 3) [m] transformed, and deformed if there is a deformation."""
-    placed = transformed(transform, points)
-    return placed if deformation is None else deformation.moved(placed)
+def _hidden(agreements: Agreements, best: Contestant, distance: float) -> str | None:
+    """Returns the weak motion of what lies on the target, or of the whole source if that is little.
 
-
-def _moved(transform: Array, origin: Array, centre: Array) -> Array:
-    """Returns T (4, 4) with a shift by ``centre`` (3,) [m] before it and ``origin`` (3,) after."""
-    moved = transform.copy()
-    moved[:3, 3] = transform[:3, 3] + (transform[:3, :3] @ centre + origin)
-    return moved
+    Args:
+        agreements: The clouds.
+        best: The result.
+        distance: Distance within which a point lies on the target [m].
+    """
+    source = agreements.source.points
+    moved = transformed(best.transform, source)
+    on = np.isfinite(agreements.target.nearest(moved, 1, distance)[0][:, 0])
+    return weak_motion(source[on] if on.sum() >= MIN_CONSTRAINING else source)

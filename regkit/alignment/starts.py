@@ -1,78 +1,87 @@
-"""Initial alignment of two clouds."""
+"""Starts of an alignment: guesses, files, and the plug-ins that search in any orientation."""
 
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from regkit.alignment.features import by_features
 from regkit.clouds import voxel_downsampled, voxel_for
 from regkit.clouds.formats.text.lines import lines_of
 from regkit.clouds.tree import Tree
 from regkit.config.model import did_you_mean
 from regkit.geometry.rigid import checked_rigid, transformed
-from regkit.interfaces import Method
-from regkit.search.rotations import by_rotations
+from regkit.interfaces import AlignmentCandidate, AlignmentStart, Method
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError, DataError
 from regkit.system.guard import reading
 from regkit.system.plain_numbers import real
 from regkit.system.printable import shortened
 
-STARTS = ("nearest", "identity", "centroids", "rotations", "features")
-"""Names of the initial alignments; any other name is a file."""
+GUESSES = ("nearest", "identity", "centroids")
+"""Names of guesses, which no plug-in computes."""
+
+STARTS = ("auto", *GUESSES)
+"""Names of starts beside the plug-ins; any other name is a file."""
+
+LITTLE = 0.02
+"""Overlap, less what contradicts it, below which what features found is no better than a guess."""
+
+FEW, UNSURE = 2000, 0.3
+"""Clouds of so few points have too few features for an answer of less overlap than this."""
 
 COMPARED_POINTS = 500
 """Approximate number of points by which two initial alignments are compared."""
 
 
-@dataclass(frozen=True)
-class InitialAlignment:
-    """An initial alignment.
+def candidates_of(
+    start: str | AlignmentStart, source: Array, target: Array, method: Method
+) -> list[AlignmentCandidate]:
+    """Returns the candidates of a start, the best first.
 
-    Attributes:
-        transform: T_target_source, (4, 4).
-        description: How it was found, for the user.
-    """
-
-    transform: Array
-    description: str
-
-
-def initial_alignment(start: str, source: Array, target: Array, method: Method) -> InitialAlignment:
-    """Computes the initial alignment that ``start`` names.
+    ``auto`` is the default search, and a guess where it finds hardly any overlap.
 
     Args:
-        start: One of ``STARTS``, or a text file with a 4x4 matrix T_target_source.
+        start: A plug-in, one of ``STARTS``, the name of a plug-in, or a text file with a 4x4
+            matrix T_target_source.
         source: Points to align, (N, 3) [m].
         target: Fixed points, (M, 3) [m].
         method: The registration method, with which ``rotations`` tries rotations.
 
     Raises:
-        RegkitError: If there is no such name or file, or no initial alignment is found.
+        RegkitError: If there is no such name or file, or no start is found.
     """
+    if isinstance(start, AlignmentStart):
+        return start.candidates(source, target, method)
     match start:
+        case "auto":
+            return _automatic(source, target, method)
         case "nearest":
-            return nearest(source, target)
+            return [nearest(source, target)]
         case "identity":
-            return InitialAlignment(np.eye(4), "identity")
+            return [AlignmentCandidate(np.eye(4), np.inf, "identity")]
         case "centroids":
-            return InitialAlignment(_centroids(source, target), "alignment of the centroids")
-        case "rotations":
-            transform, description = by_rotations(source, target, method)
-            return InitialAlignment(transform, description)
-        case "features":
-            return InitialAlignment(
-                by_features(source, target), "matched features, by Open3D's RANSAC"
-            )
-        case _:
-            return InitialAlignment(read_transform(start), f"the matrix in {start}")
+            transform = _centroids(source, target)
+            return [AlignmentCandidate(transform, np.inf, "alignment of the centroids")]
+    if start in AlignmentStart.available():
+        search = AlignmentStart.parse(start, place="start", field="start")
+        return search.candidates(source, target, method)
+    return [AlignmentCandidate(read_transform(start), np.inf, f"the matrix in {start}")]
 
 
-def nearest(source: Array, target: Array) -> InitialAlignment:
+def _automatic(source: Array, target: Array, method: Method) -> list[AlignmentCandidate]:
+    """Returns what the default search finds; with a guess, if that has hardly any overlap."""
+    default = AlignmentStart.parse(AlignmentStart.default(), place="start", field="start")
+    try:
+        found = default.candidates(source, target, method)
+    except DataError:
+        return [nearest(source, target)]
+    least = UNSURE if min(len(source), len(target)) < FEW else LITTLE
+    return found if found[0].overlap >= least else [*found, nearest(source, target)]
+
+
+def nearest(source: Array, target: Array) -> AlignmentCandidate:
     """Returns the identity or the alignment of the centroids, whichever is closer.
 
     Args:
@@ -86,12 +95,14 @@ def nearest(source: Array, target: Array) -> InitialAlignment:
         for transform in (identity, centroids)
     )
     if unmoved <= moved:
-        return InitialAlignment(
+        return AlignmentCandidate(
             identity,
+            np.inf,
             f"identity (median distance {unmoved:.3g}, {moved:.3g} with aligned centroids)",
         )
-    return InitialAlignment(
+    return AlignmentCandidate(
         centroids,
+        np.inf,
         f"alignment of the centroids (median distance {moved:.3g}, {unmoved:.3g} without)",
     )
 
@@ -105,9 +116,10 @@ def read_transform(name: str) -> Array:
     """
     path = Path(name)
     if not path.is_file():
+        names = [*STARTS, *AlignmentStart.available()]
         raise ConfigError(
-            f"there is no file '{name}'; name one with a 4x4 matrix, or one of {', '.join(STARTS)}"
-            + did_you_mean(name, list(STARTS)),
+            f"there is no file '{name}'; name one with a 4x4 matrix, or one of {', '.join(names)}"
+            + did_you_mean(name, names),
             place="start",
         )
     with reading(path, "a 4x4 matrix"):

@@ -9,14 +9,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from regkit.alignment import Alignment
+from regkit.alignment import Alignment, judged
 from regkit.alignment import align as align_clouds
 from regkit.api.choices import Choice, name_of
 from regkit.api.numbers import checked_numbers
 from regkit.api.tables import Summary
+from regkit.body.verdict import Verdict
 from regkit.clouds import check_writable, read_cloud, write_cloud
 from regkit.geometry.rigid import transformed
-from regkit.interfaces import Method
+from regkit.interfaces import AlignmentStart, Method
 from regkit.system.arrays import Array, without_missing
 
 if TYPE_CHECKING:
@@ -75,6 +76,11 @@ class CloudAlignment(Summary):
         """Fraction of the source's points that lie on the target, from 0 to 1."""
         return self.found.agreement.fitness
 
+    @property
+    def verdict(self) -> Verdict:
+        """Whether the clouds were aligned: found, doubtful or lost."""
+        return judged(self.found)[0]
+
     def plot(self) -> Figure:
         """Returns a figure of both clouds before and after, along two axes."""
         from regkit.report.alignment_figure import alignment_figure
@@ -115,8 +121,8 @@ class CloudAlignment(Summary):
             **_deformed(self.displacements),
             "converged": f"{'yes' if self.found.converged else 'no'}: {self.found.message}",
         }
-        if self.found.hidden is not None:
-            rows["warning"] = f"{self.found.hidden} is not determined by the data"
+        if self.verdict is not Verdict.FOUND:
+            rows[str(self.verdict)] = judged(self.found)[1]
         return rows
 
 
@@ -134,7 +140,7 @@ def align(
     method: Choice[Method] | None = None,
     *,
     voxel: float | None = None,
-    start: str = "nearest",
+    start: Choice[AlignmentStart] = "auto",
     threads: int | None = None,
 ) -> CloudAlignment:
     """Aligns a rigid cloud to another, as ``regkit align`` does.
@@ -147,9 +153,10 @@ def align(
             by default regkit's own for rigid clouds.
         voxel: Voxel size [m] for downsampling both clouds; 0 turns downsampling off. By default
             about 5000 points are kept.
-        start: Initial transform: ``"nearest"`` (the better of identity and centroids),
-            ``"identity"``, ``"centroids"``, ``"rotations"`` or ``"features"`` (both for any
-            orientation), or a file with a 4x4 matrix.
+        start: ``"auto"`` for any orientation; a plug-in such as ``"features"``, ``"rotations"``,
+            ``"open3d_features"`` or ``"kiss_matcher"``, by its name or as a mapping;
+            ``"nearest"`` (the better of identity and centroids), ``"identity"``, ``"centroids"``,
+            or a file with a 4x4 matrix.
         threads: Number of threads, for clouds of many points; by default one, or what the method
             says. The result is the same to the last bit.
 
@@ -162,8 +169,15 @@ def align(
     method = Method.default("rigid") if method is None else method
     chosen = Method.parse(method, place="regkit.align", field="method")
     clouds = [_cloud(source, "source"), _cloud(target, "target")]
-    found = align_clouds(clouds[0], clouds[1], chosen, voxel=voxel, start=start, threads=threads)
+    begin = start if isinstance(start, (str, AlignmentStart)) else _start(start)
+    found = align_clouds(clouds[0], clouds[1], chosen, voxel=voxel, start=begin, threads=threads)
     return CloudAlignment(clouds[0], clouds[1], name_of(method), found)
+
+
+def _start(start: Choice[AlignmentStart]) -> str | AlignmentStart:
+    if isinstance(start, Path):
+        return str(start)
+    return AlignmentStart.parse(start, place="regkit.align", field="start")
 
 
 def _cloud(given: Cloud, place: str) -> Array:

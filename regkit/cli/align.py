@@ -12,9 +12,10 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
-from regkit.alignment import Alignment
+from regkit.alignment import MIN_FITNESS, Alignment, judged
 from regkit.alignment import align as align_clouds
-from regkit.cli.choices import method_named
+from regkit.cli.align_all import align_views
+from regkit.cli.choices import method_named, start_named
 from regkit.cli.completion import plugin_names
 from regkit.cli.console import errors, output
 from regkit.cli.matrix import matrix_rows
@@ -22,14 +23,9 @@ from regkit.cli.options import PluginFiles, Strict, default_of, options, run_plu
 from regkit.cli.verdicts import conclude
 from regkit.clouds import check_writable, read_cloud, write_cloud
 from regkit.config.defaults import default_name
-from regkit.geometry.rigid import transformed
 from regkit.interfaces import Method
-from regkit.system.arrays import Array
 from regkit.system.progress import working
 from regkit.tracking import Verdict
-
-NOTHING = 0.1
-"""A deformation that moves no point by this part of the correspondence distance does nothing."""
 
 FRAME = 24
 """Width of a table's borders and its column of names."""
@@ -50,6 +46,18 @@ def align(
             metavar="TARGET", help="Cloud or mesh that stays fixed.", show_default=False
         ),
     ],
+    more: Annotated[
+        list[Path] | None,
+        typer.Argument(metavar="[MORE]...", help="Further views, with --all.", show_default=False),
+    ] = None,
+    every: Annotated[
+        bool,
+        typer.Option(
+            "--all",
+            help="Align all views to one another, as of a turntable: T_world_view of each, in the "
+            "frame of the first; --out writes the merged cloud.",
+        ),
+    ] = False,
     method: Annotated[
         str | None,
         typer.Option(
@@ -75,11 +83,12 @@ def align(
         str,
         typer.Option(
             metavar="START",
-            help="Initial transform: nearest (the better of identity and centroids), identity, "
-            "centroids, rotations or features (both for any orientation), or a file with a 4x4 "
-            "matrix.",
+            help="Start: auto (any orientation), a plug-in such as features, rotations, "
+            "open3d_features or kiss_matcher, or a mapping such as '{kind: features, points: "
+            "[2000]}'; nearest (the better of identity and centroids), identity, centroids, or a "
+            "file with a 4x4 matrix.",
         ),
-    ] = "nearest",
+    ] = "auto",
     out: Annotated[
         Path | None,
         typer.Option(metavar="FILE", help="Write the aligned source to this file."),
@@ -92,7 +101,7 @@ def align(
             metavar="SHARE",
             help="Fail if a smaller fraction of the source lies on the target.",
         ),
-    ] = 0.3,
+    ] = MIN_FITNESS,
     threads: Annotated[
         int | None,
         typer.Option(
@@ -113,6 +122,16 @@ def align(
         check_writable(out, place=f"--out {out}")
     name = default_name(Method.group, "rigid") if method is None else method
     chosen = method_named(name)
+    begin = start_named(start)
+    if every:
+        with options(start="--start", voxel="--voxel", threads="--threads"):
+            align_views(
+                [source, target, *(more or [])], chosen,
+                voxel=voxel, start=begin, threads=threads, out=out, as_json=as_json, strict=strict,
+            )  # fmt: skip
+        return
+    if more:
+        raise typer.BadParameter("more than two clouds need --all")
     points = read_cloud(source)
     resting = read_cloud(target)
     with options(start="--start", voxel="--voxel", threads="--threads"), working("aligning"):
@@ -121,61 +140,24 @@ def align(
             resting,
             chosen,
             voxel=voxel,
-            start=start,
+            start=begin,
             places=(str(source), str(target)),
             threads=threads,
         )
-    deformed = _deformed(found, points)
-    verdict, reason = _verdict(found, deformed, min_fitness)
+    verdict, reason = judged(found, min_fitness)
     if as_json:
-        figures = _figures(found, name, verdict) | {"deformation": deformed}
-        figures |= {"source": str(source), "target": str(target)}
-        typer.echo(json.dumps(figures, indent=2, allow_nan=False))
+        places = {"source": str(source), "target": str(target)}
+        typer.echo(json.dumps(_figures(found, name, verdict) | places, indent=2, allow_nan=False))
     else:
         rows = matrix_rows(found.transform, points)
         fits = max(map(len, rows)) <= output.width - FRAME
-        output.print(_table(found, name, deformed, rows if fits else ["below"]))
+        output.print(_table(found, name, rows if fits else ["below"]))
         if not fits:
             typer.echo("T_target_source\n" + "\n".join(rows))
     if out is not None and verdict is not Verdict.LOST:
         write_cloud(out, found.moved(points))
         errors.print(f"written: {out}")
     conclude(verdict, reason, strict=strict)
-
-
-def _deformed(found: Alignment, points: Array) -> dict[str, float] | None:
-    """Returns the sizes of the displacements (N, 3) of all points; None of a rigid method."""
-    if found.deformation is None:
-        return None
-    sizes = np.linalg.norm(found.moved(points) - transformed(found.transform, points), axis=1)
-    return {"mean": float(sizes.mean()), "largest": float(sizes.max())}
-
-
-def _verdict(
-    found: Alignment, deformed: dict[str, float] | None, min_fitness: float
-) -> tuple[Verdict, str]:
-    """Returns whether the clouds were aligned, and the reason if that is not certain."""
-    agreement = found.agreement
-    if agreement.fitness < min_fitness:
-        return Verdict.LOST, (
-            f"no alignment was found: {100.0 * agreement.fitness:.0f} % of the source lies within "
-            f"{agreement.distance:.3g} of the target, and --min-fitness is {min_fitness:g}; try "
-            "--start rotations or --start features, and check that both clouds show the same object"
-        )
-    if found.hidden is not None:
-        return Verdict.DOUBTFUL, (
-            f"{found.hidden} of the source slides its surface along itself: that part of the "
-            "transform is not determined by the data"
-        )
-    if deformed is not None and deformed["largest"] < NOTHING * found.agreement.distance:
-        return Verdict.DOUBTFUL, (
-            f"the deformation does nothing: it moves no point by more than "
-            f"{deformed['largest']:.2g}, and correspondences are up to "
-            f"{found.agreement.distance:.3g} apart"
-        )
-    if not found.converged:
-        return Verdict.DOUBTFUL, f"the method did not converge: {found.message}"
-    return Verdict.FOUND, ""
 
 
 def _figures(found: Alignment, method: str, verdict: Verdict) -> dict[str, Any]:
@@ -192,22 +174,38 @@ def _figures(found: Alignment, method: str, verdict: Verdict) -> dict[str, Any]:
         "start": found.start,
         "hidden_motion": found.hidden,
         "covariance": found.covariance.tolist(),
+        "displacement": found.displacement
+        and dict(zip(("mean", "largest"), found.displacement, strict=True)),
+        "rivals": [
+            {
+                "T_target_source": rival.transform.tolist(),
+                "fitness": rival.agreement.fitness,
+                "overlap": rival.agreement.overlap,
+                "energy_difference": rival.energy if math.isfinite(rival.energy) else None,
+            }
+            for rival in found.rivals
+        ],
         "method": method,
         "voxel": found.voxel,
         "points": list(found.points),
+        "stray_points": list(found.stray),
         "seconds": found.seconds,
         "converged": found.converged,
         "message": found.message,
     }
 
 
-def _sizes(deformed: dict[str, float]) -> str:
-    return f"{deformed['mean']:.3g} on average, at most {deformed['largest']:.3g}"
+def _stray(found: Alignment) -> str:
+    shares = " and ".join(f"{100.0 * share:.1f} %" for share in found.stray)
+    return f"{shares} are left out"
 
 
-def _table(
-    found: Alignment, method: str, deformed: dict[str, float] | None, matrix: list[str]
-) -> Table:
+def _displaced(displacement: tuple[float, float]) -> str:
+    mean, largest = displacement
+    return f"{mean:.3g} on average, at most {largest:.3g}"
+
+
+def _table(found: Alignment, method: str, matrix: list[str]) -> Table:
     agreement = found.agreement
     within = f"within {agreement.distance:.3g}"
     downsampled = "not downsampled" if found.voxel is None else f"voxels of {found.voxel:.3g}"
@@ -221,8 +219,9 @@ def _table(
         ("deviation", _deviation(found)),
         ("method", method),
         ("start", found.start),
-        *([("deformation", _sizes(deformed))] if deformed else []),
+        *([("deformation", _displaced(found.displacement))] if found.displacement else []),
         ("points", f"{found.points[0]} and {found.points[1]}, {downsampled}"),
+        *([("stray points", _stray(found))] if any(found.stray) else []),
         ("seconds", f"{found.seconds:.2f}"),
         ("converged", f"{'yes' if found.converged else 'no'}: {found.message}"),
     ):

@@ -12,6 +12,7 @@ from regkit.config.model import Model
 from regkit.config.plugin import slot_default, slot_defaults
 from regkit.config.yaml import yaml_value
 from regkit.interfaces import (
+    AlignmentStart,
     Method,
     Preprocessor,
     Segmenter,
@@ -123,6 +124,17 @@ def template_named(text: str | None) -> Template:
     if text is None:
         return Template.parse(Template.default(), place="--template", field="template")
     return Template.parse(parsed(text, "--template"), place=f"--template {text}", field="template")
+
+
+def start_named(text: str) -> str | AlignmentStart:
+    """Returns the start of ``regkit align --start``: a mapping is a plug-in, anything else a name.
+
+    Raises:
+        ConfigError: If the mapping is no plug-in, or one of its fields is invalid.
+    """
+    if not text.lstrip().startswith("{"):
+        return text
+    return AlignmentStart.parse(parsed(text, "--start"), place=f"--start {text}", field="start")
 
 
 def method_named(text: str) -> Method:

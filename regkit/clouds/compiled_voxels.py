@@ -82,7 +82,7 @@ def voxel_sums(points: Array, voxel: float) -> tuple[Array, Array, Indices]:
             return cells[:count], sums[:count], counts[:count]
         room *= 2
         cells, sums, counts = _larger(cells, room), _larger(sums, room), _more(counts, room)
-        table = _table_of(cells, count, 2 * room)
+        table = table_of(cells, count, 2 * room)
 
 
 @compiled
@@ -157,7 +157,7 @@ def _more(numbers: Indices, room: int) -> Indices:
 
 
 @compiled
-def _table_of(cells: Array, count: int, size: int) -> Indices:
+def table_of(cells: Array, count: int, size: int) -> Indices:
     """Returns a table of a size, with the first cells (C, 3) entered."""
     table = np.full(size, -1)
     mask = size - 1

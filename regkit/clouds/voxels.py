@@ -24,7 +24,7 @@ def voxel_downsampled(points: Array, voxel: float) -> Array:
         voxel: Side of a voxel [m].
     """
     cells, sums, counts = voxel_sums(np.ascontiguousarray(points, dtype=float), voxel)
-    return means_in_order(sums, counts, _sorted(cells))
+    return means_in_order(sums, counts, sorted_cells(cells))
 
 
 def voxel_for(points: Array, wanted: int) -> float | None:
@@ -66,7 +66,7 @@ def _fills(points: Array, voxel: float, low: Array, most: int) -> bool:
     return len(firsts) > most
 
 
-def _sorted(cells: Array) -> Indices:
+def sorted_cells(cells: Array) -> Indices:
     """Returns the order (M,) of cells (M, 3) by their coordinates."""
     numbers = cell_numbers(cells)
     # A single number per voxel sorts much faster than three.

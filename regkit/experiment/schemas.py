@@ -10,7 +10,7 @@ from pydantic_core import core_schema
 
 from regkit.body import BodyDescription
 from regkit.experiment.sweeps.sweep import SweptExperiment
-from regkit.interfaces import Dataset, Method, Source
+from regkit.interfaces import AlignmentStart, Dataset, Method, Source
 from regkit.skeleton import SkeletonDescription
 
 
@@ -21,6 +21,7 @@ def schemas() -> dict[str, dict[str, Any]]:
         "template": schema_of(BodyDescription),
         "skeleton": schema_of(SkeletonDescription),
         "method": _whole(schema_of(Method), "A method as a file: a preset."),
+        "alignment_start": _whole(schema_of(AlignmentStart), "A start of alignments as a file."),
         "dataset": _whole(schema_of(Dataset), "A dataset as a file: a preset."),
         "source": _whole(schema_of(Source), "A source as a file: a preset, and an address."),
     }

@@ -1,5 +1,6 @@
 """The interfaces of plug-ins, as abstract base classes, and the types that pass between them."""
 
+from regkit.interfaces.alignment_start import AlignmentCandidate, AlignmentStart
 from regkit.interfaces.compiled import (
     CompiledEnergy,
     CompiledJoints,
@@ -53,12 +54,15 @@ SLOTS = (
     Term,
     Solver,
     Tracker,
+    AlignmentStart,
     Method,
 )
 """All groups of plug-ins, in the order of the data flow."""
 
 __all__ = [
     "SLOTS",
+    "AlignmentCandidate",
+    "AlignmentStart",
     "BodySearch",
     "BoundSegmenter",
     "BoundTracker",

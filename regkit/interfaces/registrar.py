@@ -148,12 +148,18 @@ class Registrar(Brief, ABC):
         """
 
     def register_each(
-        self, observation: Observation, starts: Sequence[Pose]
+        self, observation: Observation, starts: Sequence[Pose], *, accuracy: float = np.inf
     ) -> list[RegistrationResult]:
         """Registers the body to one frame from each of several starts; one result for each.
 
         A method that prepares the frame at length may do so once, and may follow starts that have
         met only once.
+
+        Args:
+            observation: The frame's data.
+            starts: The starts.
+            accuracy: Root mean square distance [m] of the body's points from where they belong at
+                the right start; a method need not search farther.
         """
         return [self.register(observation, [start]) for start in starts]
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from regkit.config.plugin import Plugin
 from regkit.interfaces import Kernel, Term
+from regkit.testing.alignment_start_laws import AlignmentStartLaws
 from regkit.testing.cases import Case, Examples, Pair, cases, pairs
 from regkit.testing.dataset_laws import DatasetLaws
 from regkit.testing.kernel_laws import KernelLaws
@@ -40,6 +41,7 @@ LAWS: Mapping[str, tuple[type[Laws], ...]] = {
     "solver": (SolverLaws,),
     "start": (StartLaws,),
     "tracker": (TrackerLaws,),
+    "alignment_start": (AlignmentStartLaws,),
     "method": (MethodLaws,),
 }
 """Laws by the argument of their tests."""

@@ -44,7 +44,7 @@ def test_threads_change_nothing(regkit, clouds):
 
 
 def test_table_tells_what_was_found(regkit, clouds):
-    ended = regkit("align", *clouds)
+    ended = regkit("align", *clouds, "--start", "nearest")
     assert ended.code == 0
     assert ended.err == ""
     for what in ("T_target_source", "fitness", "inlier RMSE", "overlap", "seconds", "converged"):
@@ -84,9 +84,9 @@ def test_shipped_views_are_aligned(regkit):
     np.testing.assert_allclose(turn, [0.0, -36.0, 0.0], atol=2.0)
 
 
-@pytest.mark.parametrize("start", ["rotations", "features"])
+@pytest.mark.parametrize("start", ["auto", "rotations", "open3d_features"])
 def test_any_orientation_is_found(regkit, tmp_path, lump, start):
-    if start == "features":
+    if start == "open3d_features":
         pytest.importorskip("open3d")
     turned = rigid(vector_to_matrix(np.array([0.5, 2.5, -1.0])), np.array([1.0, 2.0, 3.0]))
     files = tmp_path / "a.npz", tmp_path / "b.npz"
@@ -130,8 +130,8 @@ def test_surface_that_slides_along_itself_is_warned_of(regkit, tmp_path, random)
         ("nan.txt", [], "nan.txt: all 1500 points are missing measurements"),
         ("mm.txt", [], "the source is 435.9 large and the target 0.4359, a factor of 1e+03"),
         ("good.txt", ["--start", "centroid"], "--start: there is no file 'centroid'; name one "
-         "with a 4x4 matrix, or one of nearest, identity, centroids, rotations, features; did you "
-         "mean 'centroids'?"),
+         "with a 4x4 matrix, or one of auto, nearest, identity, centroids, features, kiss_matcher, "
+         "open3d_features, rotations; did you mean 'centroids'?"),
         ("good.txt", ["--start", "two.txt"], "two.txt: 6 numbers; a 4x4 matrix has 16"),
         ("good.txt", ["--start", "scaled.txt"], "scaled.txt: the matrix is not a rigid motion"),
         ("good.txt", ["--method", "ipc"], "--method ipc: method: no plug-in 'ipc'"),
@@ -220,3 +220,41 @@ def test_printed_matrix_moves_far_points_as_the_result_does(regkit, tmp_path, lu
     (tmp_path / "start.txt").write_text(" ".join(numbers))
     again = regkit("align", *files, "--start", tmp_path / "start.txt", "--voxel", "0", "--json")
     assert json.loads(again.out)["fitness_at_start"] == 1.0
+
+
+def test_views_are_aligned_to_one_another(regkit, tmp_path, lump):
+    """Each view is turned, and all are in the frame of the first one again."""
+    files, truths = [], []
+    order = np.argsort(lump[:, 0])
+    for number, keep in enumerate((slice(0, 1100), slice(200, 1300), slice(400, 1500))):
+        truths.append(rigid(vector_to_matrix(np.array([0.9 * number, 0.3, 0.0])), np.ones(3)))
+        files.append(tmp_path / f"{number}.npz")
+        write_cloud(files[-1], transformed(truths[-1], lump[order[keep]]))
+    ended = regkit("align", "--all", *files, "--json", "--out", tmp_path / "merged.npz")
+    assert ended.code == 0
+    found = json.loads(ended.out)
+    assert found["world"] == str(files[0])
+    for file, truth in zip(files, truths, strict=True):
+        moved = np.array(found["T_world_view"][str(file)]) @ truth
+        np.testing.assert_allclose(
+            transformed(moved, lump), transformed(truths[0], lump), atol=0.01
+        )
+    assert len(read_cloud(tmp_path / "merged.npz")) == 3300
+    assert regkit("align", *files).code == 2
+
+
+def test_symmetric_objects_have_a_rival(regkit, tmp_path, lump, random):
+    """A body that is the same after half a turn has two transforms, and both are told."""
+    half = lump - lump.mean(axis=0) + [0.12, 0.0, 0.0]
+    both = np.concatenate([half, half * [-1.0, -1.0, 1.0]])
+    turned = rigid(vector_to_matrix(np.array([0.4, -1.0, 2.0])), np.ones(3))
+    files = tmp_path / "a.npz", tmp_path / "b.npz"
+    noise = 1e-4 * random.normal(size=both.shape)
+    for file, points in zip(files, (both, transformed(turned, both + noise)), strict=True):
+        write_cloud(file, points)
+    ended = regkit("align", *files, "--json")
+    assert ended.code == 0
+    found = json.loads(ended.out)
+    assert found["verdict"] == "doubtful"
+    assert found["rivals"]
+    assert "another transform, 180 degrees away" in ended.err

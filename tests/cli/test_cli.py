@@ -183,8 +183,9 @@ def test_schema_describes_the_fields_of_every_plugin(regkit, tmp_path):
     text = (tmp_path / "schemas" / "experiment.json").read_text()
     schema = json.loads(text)
     assert {"name", "dataset", "template", "methods"} <= set(schema["required"])
-    # An experiment has datasets, and no sources.
-    text += (tmp_path / "schemas" / "source.json").read_text()
+    # An experiment has datasets, and no sources or starts of alignments.
+    for name in ("source", "alignment_start"):
+        text += (tmp_path / "schemas" / f"{name}.json").read_text()
     for slot in SLOTS:
         for kind in slot.available():
             assert f'"{kind}"' in text

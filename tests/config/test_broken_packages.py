@@ -91,7 +91,7 @@ def test_broken_plugins_are_told_by_every_command(regkit, broken, monkeypatch, t
     listed, health = regkit("plugins"), regkit("doctor")
     written = regkit("schema", tmp_path / "schemas")
     assert (listed.code, health.code, written.code) == (0, 1, 0)
-    files = ("experiment.json", "source.json")
+    files = ("experiment.json", "source.json", "alignment_start.json")
     schema = "".join((tmp_path / "schemas" / name).read_text() for name in files)
     for name, told in broken.items():
         (row,) = (line for line in listed.out.splitlines() if f" {name} " in line)

@@ -91,7 +91,7 @@ def test_the_deformed_cloud_is_written(regkit, tmp_path, random) -> None:
     ended = regkit(*command, "--out", tmp_path / "moved.xyz", "--json")
     assert ended.code == 0, ended.err
     assert error(np.loadtxt(tmp_path / "moved.xyz"), bent(source)) < 0.04
-    assert json.loads(ended.out)["deformation"]["largest"] > 0.05
+    assert json.loads(ended.out)["displacement"]["largest"] > 0.05
 
 
 def test_a_body_without_surface_is_refused(random) -> None:

@@ -5,8 +5,10 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field
 
+from regkit.clouds.stray import dense_voxels
 from regkit.config.quantities import Count, Voxel
 from regkit.interfaces import Preprocessor
 from regkit.observation import Frame, Observation
@@ -31,6 +33,9 @@ class OctreePreprocessor(Preprocessor):
     largest: Annotated[int, Field(ge=0, le=20)] = 2
     """Number of levels above the smallest cells; the largest cells have the side ``leaf`` times 2
     to this power, which bounds the Gaussians of stray points."""
+    drop_stray: bool = False
+    """Leave out points in cells with hardly a point, such as flying pixels. The cloud's own
+    distribution of densities tells what is hardly, so that an evenly thin cloud keeps all."""
     crop: Crop = Crop()
     """Crop that segments the object."""
 
@@ -43,6 +48,9 @@ class OctreePreprocessor(Preprocessor):
         frame = self.crop.cropped(frame)
         points = frame.points
         cells = np.floor((points - points.min(axis=0)) / self.leaf).astype(np.int64)
+        if self.drop_stray:
+            dense = _dense(cells)
+            points, cells = points[dense], cells[dense]
         pending = np.arange(len(points))
         means, weights, deviations = [], [], []
         for level in range(self.largest, -1, -1):
@@ -67,6 +75,12 @@ class OctreePreprocessor(Preprocessor):
             frame.depth,
             landmarks=frame.landmarks,
         )
+
+
+def _dense(cells: Indices) -> NDArray[np.bool_]:
+    """Returns whether each point (N,) is where the cloud is dense, from its cell (N, 3)."""
+    occupied, owner, counts = np.unique(cells, axis=0, return_inverse=True, return_counts=True)
+    return np.asarray(dense_voxels(occupied.astype(float), counts)[owner.ravel()])
 
 
 def _means(points: Array, cell: Indices, counts: Indices) -> Array:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import Field
+from pydantic import Field, model_validator
 
-from regkit.clouds import normals, voxel_downsampled
+from regkit.clouds import normals, surface_downsampled, voxel_downsampled
 from regkit.config.quantities import Length, Voxel
 from regkit.interfaces import Preprocessor
 from regkit.observation import Frame, Observation
@@ -23,10 +23,20 @@ class PointsPreprocessor(Preprocessor):
     """Standard deviation of each Gaussian [m]."""
     voxel: Voxel | None = None
     """Voxel size for downsampling [m]; by default all points are used."""
+    drop_stray: bool = False
+    """Leave out voxels with hardly a point, such as those of flying pixels and of points spread
+    over the scene. The cloud's own distribution of densities tells what is hardly, so that an
+    evenly thin cloud keeps all. It needs ``voxel``."""
     normals: Annotated[int, Field(ge=3, le=1000)] | None = None
     """Number of neighbours for normal estimation; by default there are no normals."""
     crop: Crop = Crop()
     """Crop that segments the object."""
+
+    @model_validator(mode="after")
+    def _stray_in_voxels(self) -> PointsPreprocessor:
+        if self.drop_stray and self.voxel is None:
+            raise ValueError("drop_stray needs voxel: stray points are told by how few are in one")
+        return self
 
     def preprocess(self, frame: Frame) -> Observation:
         """Returns one Gaussian of weight 1 per point or voxel.
@@ -39,7 +49,8 @@ class PointsPreprocessor(Preprocessor):
         frame = self.crop.cropped(frame)
         points = frame.points
         if self.voxel is not None:
-            points = voxel_downsampled(points, self.voxel)
+            downsampled = surface_downsampled if self.drop_stray else voxel_downsampled
+            points = downsampled(points, self.voxel)
             self.crop.check_downsampled(len(points), frame, "voxel", self.voxel)
         ones = np.ones(len(points))
         return Observation(

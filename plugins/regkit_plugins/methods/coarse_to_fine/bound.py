@@ -83,14 +83,20 @@ class BoundCoarseToFine(Registrar):
             if len(candidates) > 1:
                 first = self._stage(self.levels[0], data[0])
                 pose = min(candidates, key=lambda one: _energy(first, one))
-            return self._registered(data, [pose])[0]
+            return self._registered(self.levels, data, [pose])[0]
 
     def register_each(
-        self, observation: Observation, starts: Sequence[Pose]
+        self, observation: Observation, starts: Sequence[Pose], *, accuracy: float = np.inf
     ) -> list[RegistrationResult]:
-        """Minimises the energy from each start; those that have met are followed only once."""
+        """Minimises the energy from each start; those that have met are followed only once.
+
+        Resolutions whose voxels are larger than the accuracy [m] of the starts are left out: where
+        the clouds overlap in part only, wide Gaussians would pull them away from a good start.
+        """
         with using_threads(self.method.threads):
-            return self._registered(observations(observation, self.levels), starts)
+            levels = tuple(level for level in self.levels if level.voxel <= accuracy)
+            levels = levels or self.levels[-1:]
+            return self._registered(levels, observations(observation, levels), starts)
 
     def evaluate(self, observation: Observation, pose: Pose) -> Evaluation:
         """Returns the energy at the finest resolution, with the neighbours in the given pose."""
@@ -104,12 +110,15 @@ class BoundCoarseToFine(Registrar):
             return Evaluation(_energy(stage, pose), probability)
 
     def _registered(
-        self, data: Sequence[Observation], starts: Sequence[Pose]
+        self,
+        levels: Sequence[Resolution],
+        data: Sequence[Observation],
+        starts: Sequence[Pose],
     ) -> list[RegistrationResult]:
-        """Returns one result for each start, from data at all resolutions."""
+        """Returns one result for each start, from data at some resolutions."""
         followed = [_Progress(pose) for pose in starts]
         place = np.arange(len(starts))
-        for level, downsampled in zip(self.levels, data, strict=True):
+        for level, downsampled in zip(levels, data, strict=True):
             stage = self._stage(level, downsampled)
             within = self.method.motion_tolerance * level.voxel
             ended: list[_Progress] = []

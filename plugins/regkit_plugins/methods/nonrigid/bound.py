@@ -51,10 +51,10 @@ class BoundNonrigid(Registrar):
         return self._deformed(observation, posed)
 
     def register_each(
-        self, observation: Observation, starts: Sequence[Pose]
+        self, observation: Observation, starts: Sequence[Pose], *, accuracy: float = np.inf
     ) -> list[RegistrationResult]:
         """Poses the body from each start, and deforms each result."""
-        found = self.first.register_each(observation, starts)
+        found = self.first.register_each(observation, starts, accuracy=accuracy)
         return [self._deformed(observation, posed) for posed in found]
 
     def evaluate(self, observation: Observation, pose: Pose) -> Evaluation:
