@@ -167,6 +167,11 @@ class Registrar(Brief, ABC):
     def evaluate(self, observation: Observation, pose: Pose) -> Evaluation:
         """Returns the quality of a pose for a frame without changing the pose."""
 
+    @property
+    def reads_landmarks(self) -> bool:
+        """Whether the method looks at the landmarks of a frame."""
+        return False
+
     def effective_points(self, observation: Observation, pose: Pose) -> float:
         """Returns the effective number of independent points of a frame in a registered pose.
 

@@ -79,6 +79,9 @@ class Term(Plugin, ABC):
     informed: ClassVar[bool] = False
     """Whether its energy of the joints contains that of a prior with information."""
 
+    reads_landmarks: ClassVar[bool] = False
+    """Whether it looks at the landmarks of a frame."""
+
     weighs: ClassVar[bool] = False
     """Whether the term returns visibility weights, to which the kernel is bound, and no energy."""
 

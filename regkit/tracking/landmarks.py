@@ -25,3 +25,16 @@ def tell_unknown(landmarks: Landmarks | None, template: Template, *, place: str)
             "(dataset.keypoint_markers)",
             place=place,
         )
+
+
+def tell_unread(landmarks: Landmarks | None) -> None:
+    """Tells that a method looks at no landmark, although a frame has some.
+
+    Args:
+        landmarks: The landmarks of a frame, if it has some.
+    """
+    if landmarks is not None:
+        note(
+            "the recording has keypoints, and the method looks at none of them; choose a method "
+            "with a term that does, such as the default one"
+        )

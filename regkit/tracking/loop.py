@@ -22,6 +22,7 @@ from regkit.skeleton import Pose
 from regkit.system.compilations import loaded_loops
 from regkit.system.errors import NoDataError, RegkitError
 from regkit.tracking.clocks import ClockWatch
+from regkit.tracking.landmarks import tell_unread
 from regkit.tracking.segmented import segmented
 
 LONG = 1.0
@@ -93,6 +94,8 @@ class Follower:
         if found.observation is None:
             self._interrupt()
         else:
+            if not self._past.frames and not self._registrar.reads_landmarks:
+                tell_unread(found.observation.landmarks)
             self._past = self._past.followed_by(found.registered)
             if self._clocks is not None:
                 self._clocks.add(found.observation, found.registered.pose)

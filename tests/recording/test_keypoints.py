@@ -186,3 +186,13 @@ def test_keypoints_that_no_marker_follows_are_told(tmp_path):
     walk = regkit.load_recording(examples_folder() / "data" / "human_walk", frames=1)
     with pytest.warns(regkit.RegkitWarning, match=r"snout.*left_knee.*keypoint_markers"):
         regkit.track(walk, template, start=rest, keypoints=path, segmentation=[])
+
+
+def test_keypoints_that_the_method_does_not_read_are_told(tmp_path):
+    path = write(tmp_path / "k.csv", "frame,name,x,y,z,confidence", "0,left_knee,0.1,0.1,2,1")
+    template = regkit.load_template({"kind": "human", "height": 1.63})
+    rest = template.body(1.63).skeleton.rest()
+    walk = regkit.load_recording(examples_folder() / "data" / "human_walk", frames=1)
+    options = {"start": rest, "keypoints": path, "segmentation": []}
+    with pytest.warns(regkit.RegkitWarning, match="the method looks at none of them"):
+        regkit.track(walk, template, "spheres", **options)

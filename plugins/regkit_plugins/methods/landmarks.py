@@ -90,6 +90,11 @@ class BoundLandmarks(Registrar):
     body: Body
     primitives: Primitives
 
+    @property
+    def reads_landmarks(self) -> bool:
+        """Whether the method looks at the landmarks of a frame: at nothing else."""
+        return True
+
     def register(
         self,
         observation: Observation,

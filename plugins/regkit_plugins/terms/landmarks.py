@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
@@ -32,6 +32,7 @@ class LandmarksTerm(Term):
     """
 
     kind: Literal["landmarks"] = "landmarks"
+    reads_landmarks: ClassVar[bool] = True
 
     weight: Weight = 0.01
     """Weight of one landmark of full confidence at its typical error, relative to the kernel's

@@ -12,17 +12,13 @@ import numpy as np
 from regkit.body import Body
 from regkit.interfaces import (
     Evaluation,
-    JointEnergy,
     Prior,
     Registrar,
     RegistrationResult,
     Scene,
-    Similarity,
     Solution,
     Term,
-    VisibilityWeights,
 )
-from regkit.interfaces.term import Effect
 from regkit.observation import Observation
 from regkit.primitives import Primitives
 from regkit.registration import (
@@ -39,7 +35,8 @@ from regkit.registration import (
 )
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
-from regkit.system.errors import ConfigError, DataError, PluginError
+from regkit.system.errors import ConfigError, DataError
+from regkit_plugins.methods.direct.effects import Effects
 from regkit_plugins.methods.direct.views import best_in_views
 
 if TYPE_CHECKING:
@@ -173,6 +170,11 @@ class BoundDirect(Registrar):
         moved = skeleton.dof_mask[skeleton.independent_dofs][:, self.primitives.segments]
         return np.asarray(moved / np.maximum(moved.sum(axis=1, keepdims=True), 1.0))
 
+    @property
+    def reads_landmarks(self) -> bool:
+        """Whether one of the terms looks at the landmarks of a frame."""
+        return any(term.reads_landmarks for term in self.method.terms)
+
     def effective_points(self, observation: Observation, pose: Pose) -> float:
         """Returns the effective number of independent points; NaN if the kernel has no residuals.
 
@@ -230,50 +232,10 @@ class BoundDirect(Registrar):
     ) -> SummedEnergy:
         """Returns the sum of the kernel and terms, by default all, bound to a frame at a pose."""
         scene = self.scene(observation, pose, prior)
-        effects = self.effects(scene, terms)
+        effects = Effects.of(self.method.terms if terms is None else terms, self.primitives, scene)
         primitives = self.primitives
         if effects.weights is not primitives.weights:
             primitives = replace(primitives, weights=effects.weights)
         placed = replace(scene.placed, primitives=primitives)
         kernel = self.method.kernel.bind(observation, placed, smoothing=smoothing)
         return SummedEnergy(self.body, primitives, kernel, effects.terms, effects.joints)
-
-    def effects(self, scene: Scene, terms: Sequence[Term] | None = None) -> Effects:
-        """Returns the effects of terms, by default of all."""
-        weights = self.primitives.weights
-        energies: dict[str, Similarity] = {}
-        joints: list[JointEnergy] = []
-        for index, term in enumerate(self.method.terms if terms is None else terms):
-            effect = term.bind(scene)
-            if isinstance(effect, VisibilityWeights) is not term.weighs:
-                raise _undeclared(term, effect)
-            if isinstance(effect, VisibilityWeights):
-                weights = weights * effect.factors
-            elif isinstance(effect, JointEnergy):
-                joints.append(effect)
-            else:
-                energies[f"terms[{index}] ({term.kind})"] = effect
-        return Effects(weights, energies, tuple(joints))
-
-
-@dataclass(frozen=True)
-class Effects:
-    """The effects of all terms.
-
-    Attributes:
-        weights: Weights of the primitives in this frame, (K,).
-        terms: The bound terms on primitives, by their places in the YAML.
-        joints: The bound terms on joints.
-    """
-
-    weights: Array
-    terms: dict[str, Similarity]
-    joints: tuple[JointEnergy, ...]
-
-
-def _undeclared(term: Term, effect: Effect) -> PluginError:
-    """Returns the error of a term whose effect is not the one that its class declares."""
-    return PluginError(
-        f"term '{term.kind}' returns {type(effect).__name__}, but its class declares "
-        f"weighs = {term.weighs}; set it to {not term.weighs}"
-    )

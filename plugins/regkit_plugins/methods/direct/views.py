@@ -17,6 +17,7 @@ from regkit.registration import (
     ViewsEnergy,
 )
 from regkit.skeleton import Pose
+from regkit_plugins.methods.direct.effects import Effects
 
 if TYPE_CHECKING:
     from regkit_plugins.methods.direct.bound import BoundDirect
@@ -76,5 +77,6 @@ def _of_views(
         views.append(ViewEnergy(energy, view.to_camera, share))
     if joints is None:
         # Joints are bound to the prior and to the landmarks in the world.
-        joints = method.effects(method.scene(observation, pose, prior)).joints
+        scene = method.scene(observation, pose, prior)
+        joints = Effects.of(method.method.terms, method.primitives, scene).joints
     return ViewsEnergy(method.body.skeleton, tuple(views), joints)

@@ -38,6 +38,11 @@ class BoundNonrigid(Registrar):
     method: Nonrigid
     first: Registrar
 
+    @property
+    def reads_landmarks(self) -> bool:
+        """Whether the first method looks at the landmarks of a frame."""
+        return self.first.reads_landmarks
+
     def register(
         self,
         observation: Observation,
