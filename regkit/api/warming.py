@@ -22,7 +22,9 @@ from regkit.config.preset import presets_of
 from regkit.geometry.camera import Camera
 from regkit.geometry.rigid import rigid
 from regkit.interfaces import Method, Template
+from regkit.observation import Keypoints
 from regkit.primitives.accumulation import accumulated_wrenches
+from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit.system.cache import VARIABLE, cache_folder
 from regkit.system.errors import DataError, NotFoundError, RegkitError
@@ -107,22 +109,31 @@ def _samples() -> Iterator[tuple[str, Callable[[], object]]]:
     """Yields what compiles the loops, with its name."""
     template = SampleTemplate()
     body = template.body(template.given_size())
-    images = np.stack([_image(body, frame) for frame in range(FRAMES)])
+    poses = [_pose(body, frame) for frame in range(FRAMES)]
+    images = np.stack([_image(body, pose) for pose in poses])
+    markers = np.stack([body.markers.place(body.place(pose).transforms) for pose in poses])
+    keypoints = Keypoints.in_space(body.markers.names, markers)
     cloud = CAMERA.back_projected(images[0])
     yield "a cloud", partial(register, cloud, template)
     for name in presets_of(Method.group):
-        yield f"method {name}", partial(track, images, template, name, camera=CAMERA)
+        follow = partial(track, images, template, name, camera=CAMERA, keypoints=keypoints)
+        yield f"method {name}", follow
     yield "two clouds", partial(align, cloud, cloud + 0.01)
 
 
-def _image(body: Body, frame: int) -> Array:
-    """Returns a depth image (H, W) [m] of the body in a stance; 0 where nothing is."""
+def _pose(body: Body, frame: int) -> Pose:
+    """Returns the pose of a body in a stance before the camera."""
     pose = body.stances[0].pose if body.stances else body.skeleton.rest()
     root = rigid(
         np.diag([1.0, -1.0, -1.0]) @ pose.root[:3, :3],
         np.array([0.02 * frame, 0.0, AWAY]) * body.size,
     )
-    depth = depth_image(body, replace(pose, root=root), CAMERA)
+    return replace(pose, root=root)
+
+
+def _image(body: Body, pose: Pose) -> Array:
+    """Returns a depth image (H, W) [m] of a body; 0 where nothing is."""
+    depth = depth_image(body, pose, CAMERA)
     return np.where(np.isfinite(depth), depth, 0.0)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import shutil
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -63,8 +64,8 @@ class Example:
         """Files and folders that the experiment names and that come with it, relative to it."""
         if self.file.suffix == ".py":
             return []
-        named = dict.fromkeys(_texts(Document.read(self.file).data))
-        return [Path(text) for text in named if (self.file.parent / text).exists()]
+        folder = self.file.parent
+        return [path.relative_to(folder) for path in dict.fromkeys(_files(self.file))]
 
     @property
     def command(self) -> str:
@@ -107,6 +108,18 @@ def examples() -> list[Example]:
     """
     files = [*examples_folder().glob("*.yaml"), *examples_folder().glob("*.py")]
     return [Example(file) for file in sorted(files)]
+
+
+def _files(file: Path) -> Iterator[Path]:
+    """Yields the files and folders that a YAML file names, and those that these name."""
+    for text in _texts(Document.read(file).data):
+        path = file.parent / text
+        # A text may be longer than a name can be.
+        with suppress(OSError):
+            if path.exists() and path != file.parent:
+                yield path
+                if path.suffix == ".yaml":
+                    yield from _files(path)
 
 
 def _texts(data: Any) -> Iterator[str]:

@@ -142,7 +142,7 @@ def test_lists_are_readable_on_80_columns(regkit, monkeypatch):
         lines = regkit(command).out.splitlines()
         assert max(len(line) for line in lines if not line.startswith("to install")) <= 80
         # A description in a narrow column would take many lines.
-        assert len(lines) < 200
+        assert len(lines) < 240
 
 
 def test_schema_check_passes_on_the_committed_files(regkit):
@@ -286,6 +286,6 @@ def test_plugin_of_another_distribution_is_found(regkit, distribution, tmp_path)
 
 def test_examples_folder_can_be_copied_away(regkit, tmp_path):
     """Paths are meant from the file, not from where the user stands."""
+    folder = shutil.copytree(ROOT / "docs" / "examples", tmp_path / "examples")
     for path in EXAMPLES:
-        shutil.copy(path, tmp_path)
-        assert regkit("validate", tmp_path / path.name).code == 0
+        assert regkit("validate", folder / path.name).code == 0

@@ -145,7 +145,7 @@ segments:
          ("reversed", "[90.0, 0.0]", "[0.0, 90.0]")),
         ("axis: x", "axis: [0, 0, 0]", "FILE:3: segments.arm.joint.axis", "zero"),
         ("type: hinge", "type: hing", "FILE:3: segments.arm.joint",
-         ("'hing'", "'free', 'fixed', 'hinge', 'universal', 'ball'")),
+         ("'hing'", "'free', 'fixed', 'hinge', 'prismatic', 'universal', 'ball'")),
         ("type: fixed", "type: free", "FILE:4: segments.hand.joint",
          ("'hand'", "free joint", "root")),
     ],

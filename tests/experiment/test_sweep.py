@@ -161,7 +161,7 @@ def test_items_of_a_presets_list_are_swept(files):
     text = files.experiment.read_text()
     for wrong, expected in (
         ("terms.0.lest", "small.yaml:9: methods.best,lest=0.1.terms.0.lest: no such field"),
-        ("terms.9.least", "terms is a list of 4"),
+        ("terms.9.least", "terms is a list of 5"),
     ):
         files.experiment.write_text(text.replace("terms.0.least", wrong))
         with pytest.raises(ConfigError, match=re.escape(expected)):
