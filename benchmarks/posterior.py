@@ -9,7 +9,9 @@ it is unmeasured if no data are near the true joint, as also inside of a trunk. 
 of one coordinate of a joint, 1.64 standard deviations to both sides of the marker; it has to hold
 the joint's coordinate after subtraction of the marker's constant displacement. Then 200 pairs of
 bunnies are aligned as in ``benchmarks/rigid.py``, with intervals of the six components of the
-error's twist. With ``--utd``, the recordings of UTD-MHAD in a folder are tracked in the same ways.
+error's twist. ``people`` follows once more as 1, 2 and 4 cameras see it, as in
+``benchmarks/views.py``. With ``--utd``, the recordings of UTD-MHAD in a folder are tracked in the
+same ways.
 """
 
 from __future__ import annotations
@@ -20,6 +22,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import views
 from _posterior_align import alignment_coverage
 from _posterior_tracks import SUITES, Compared, Tracked, compared
 from _posterior_utd import utd
@@ -43,6 +46,8 @@ def main() -> None:
         figures |= coverage(rows)
         figures["coverage_align_percent"] = alignment_coverage()
         figures |= motion(rows)
+        each = views.accuracy(set())
+        figures["views"] = {cameras: found["raw_cm"] for cameras, found in each.items()}
         if folder is not None:
             figures["utd"] = utd(folder)
     last_line(figures)
