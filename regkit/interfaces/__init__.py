@@ -16,7 +16,8 @@ from regkit.interfaces.keypoints import KeypointRecording, KeypointStream
 from regkit.interfaces.method import Method
 from regkit.interfaces.preprocessor import Preprocessor
 from regkit.interfaces.prior import Prior
-from regkit.interfaces.registrar import Evaluation, Registrar, RegistrationResult
+from regkit.interfaces.registrar import Registrar
+from regkit.interfaces.result import Evaluation, RegistrationResult
 from regkit.interfaces.segmenter import (
     BoundSegmenter,
     Chain,

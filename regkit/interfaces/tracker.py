@@ -7,7 +7,8 @@ from dataclasses import dataclass, field, replace
 from math import exp, isnan, log
 
 from regkit.config.plugin import Plugin
-from regkit.interfaces.registrar import Registrar, RegistrationResult
+from regkit.interfaces.registrar import Registrar
+from regkit.interfaces.result import RegistrationResult
 from regkit.interfaces.window import Window
 from regkit.observation import Observation
 from regkit.skeleton import Pose

@@ -12,7 +12,7 @@ from regkit.body import Body
 from regkit.clouds import voxel_downsampled, voxel_for
 from regkit.deformation import fitted
 from regkit.interfaces import Evaluation, Prior, Registrar, RegistrationResult
-from regkit.interfaces.registrar import LITTLE
+from regkit.interfaces.result import LITTLE
 from regkit.observation import Observation
 from regkit.primitives import Primitives
 from regkit.skeleton import Pose
