@@ -86,6 +86,9 @@ class MethodScene:
             "shapes": [shape.json() for shape in track.shapes],
             "verdicts": [[name, len(list(run))] for name, run in groupby(map(str, track.verdicts))],
             "confidence": confidence,
+            "ellipsoids": None
+            if track.ellipsoids is None
+            else packed(track.ellipsoids[frames], "f4"),
             "curves": [
                 {
                     "name": curve.name,

@@ -69,6 +69,8 @@ def scene_arrays(scene: TrackScene) -> dict[str, NDArray[Any]]:
     }
     if scene.camera is not None:
         named["camera"] = np.array([float(value) for value in vars(scene.camera).values()])
+    if scene.ellipsoids is not None:
+        named["ellipsoids"] = scene.ellipsoids
     named |= {f"points_{name}": one for name, one in scene.points.arrays().items()}
     for number, shape in enumerate(scene.shapes):
         named |= {f"shape{number}_{name}": one for name, one in shape.arrays().items()}
@@ -99,6 +101,8 @@ def scene_of(named: Mapping[str, NDArray[Any]]) -> TrackScene:
         "curves": (len(named["curve_names"]), frames),
         "marked_frames": (len(named["marked_why"]),),
     }
+    if "ellipsoids" in named:
+        numbers["ellipsoids"] = (frames, len(names), 7)
     values: dict[str, NDArray[Any]] = {
         name: (whole_numbers if name in WHOLE else real_numbers)(named[name], name)
         for name in numbers
@@ -142,6 +146,7 @@ def scene_of(named: Mapping[str, NDArray[Any]]) -> TrackScene:
         reference=values["reference"],
         marked=dict(zip(marked.tolist(), _texts(named["marked_why"]), strict=True)),
         camera=camera,
+        ellipsoids=values["ellipsoids"].astype(np.float32) if "ellipsoids" in values else None,
     )
 
 

@@ -20,6 +20,7 @@ from regkit.viewer.model_shapes import shapes_of, transforms_of
 from regkit.viewer.points import FramePoints
 from regkit.viewer.reference import reference_of
 from regkit.viewer.shapes import Shape, moved
+from regkit.viewer.uncertainty import ellipsoids_of
 
 CHUNK = 256
 """Number of frames that are placed together."""
@@ -59,6 +60,8 @@ class TrackScene:
         reference: Their positions in these frames, (F, J, 3) [m]; NaN where unknown.
         marked: Why frames are marked, by their numbers.
         camera: The camera, if it is known.
+        ellipsoids: Where the markers are with a probability of 90 %, (T, M, 7), as
+            ``ellipsoids_of``; None if it is unknown.
     """
 
     fps: float
@@ -75,6 +78,7 @@ class TrackScene:
     reference: Array
     marked: Mapping[int, str]
     camera: Camera | None
+    ellipsoids: Singles | None = None
 
     @classmethod
     def of(
@@ -125,6 +129,7 @@ class TrackScene:
             reference=reference,
             marked=dict(marked or {}),
             camera=camera,
+            ellipsoids=ellipsoids_of(track, body),
         )
 
     @classmethod

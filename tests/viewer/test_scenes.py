@@ -18,6 +18,7 @@ from regkit.viewer.recording_scene import recording_scene
 from regkit.viewer.run_scene import run_scene
 from regkit.viewer.scene import Scene
 from regkit.viewer.track_file import read_scene, scene_arrays, write_scene
+from regkit.viewer.track_scene import TrackScene
 from regkit_plugins.shapes.gsog import GeneralizedSumOfGaussians
 from regkit_plugins.shapes.mesh import Mesh
 from regkit_plugins.shapes.sphere import SphereMesh
@@ -166,6 +167,28 @@ def test_verdicts_and_confidence_are_in_the_document():
         "inlier share", "surface distance", "joint error",
     ]  # fmt: skip
     assert unpacked(method["curves"][0]["values"])[-1] == pytest.approx(10.0)
+
+
+def test_ellipsoids_hold_the_markers_with_their_covariance(tmp_path, random):
+    track, dofs = made_track(HUMAN, 4), HUMAN.skeleton.dofs
+    factor = 0.02 * random.normal(size=(4, dofs, dofs))
+    covariances = factor @ factor.transpose(0, 2, 1)
+    covariances[2] = np.nan
+    track = replace(track, covariances=covariances)
+    registrar = MadeRegistrar(HUMAN, GeneralizedSumOfGaussians().bind(HUMAN))
+    points = {frame: np.ones((4, 3)) for frame in range(4)}
+    scene = TrackScene.of(track, registrar, points, fps=30.0)
+    write_scene(scene, tmp_path)
+    found = read_scene(tmp_path).ellipsoids
+    assert np.isnan(found[2]).all()
+    known = track.marker_covariances(HUMAN)
+    axes, halves = to_matrix(found[0, :, :4].astype(float)), found[0, :, 4:].astype(float)
+    # In three dimensions, 90 % of a Gaussian are within 2.5 standard deviations.
+    shapes = np.einsum("mij,mj,mkj->mik", axes, (halves / 2.5003) ** 2, axes)
+    np.testing.assert_allclose(shapes, known[0], rtol=1e-3, atol=1e-7)
+    shown = recording_scene("walk", {"m": scene}, {"m": "#111111"}, 4)
+    (method,) = document(Scene("t", (shown,)))["recordings"][0]["methods"]
+    assert unpacked(method["ellipsoids"]).shape == (4, len(HUMAN.markers.names), 7)
 
 
 def test_long_and_many_recordings_are_thinned_and_it_is_told():

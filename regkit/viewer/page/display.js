@@ -9,12 +9,13 @@ const BOXES = {
   bones: "show-bones",
   joints: "show-joints",
   confidence: "show-confidence",
+  uncertainty: "show-uncertainty",
   solid: "show-solid",
 };
 
 /**
  * @typedef {{model: string, points: boolean, depth: boolean, bones: boolean, joints: boolean,
- *   confidence: boolean, solid: boolean, methods: Set<string>}} Display
+ *   confidence: boolean, uncertainty: boolean, solid: boolean, methods: Set<string>}} Display
  */
 
 /** Returns the display of a page that was just opened. @returns {Display} */
@@ -25,6 +26,7 @@ export const everything = () => ({
   bones: true,
   joints: true,
   confidence: true,
+  uncertainty: false,
   solid: false,
   methods: new Set(),
 });
@@ -78,6 +80,10 @@ export function offer(recording, display) {
   shown(
     "show-confidence",
     recording.live || frames.some((frame) => frame.poses.some((pose) => pose.confidence)),
+  );
+  shown(
+    "show-uncertainty",
+    frames.some((frame) => frame.poses.some((pose) => pose.ellipsoids)),
   );
   shown(
     "show-solid",

@@ -27,6 +27,9 @@ function* meanings(recording, display, cell) {
   if (frames.some((frame) => frame.poses.some((pose) => pose.confidence))) {
     yield ["sure", readable(first.colour), "model, from little to good support by data"];
   }
+  if (display.uncertainty && frames.some((frame) => frame.poses.some((pose) => pose.ellipsoids))) {
+    yield ["plain", readable(first.colour), "ellipsoids: where each marker is, with 90 %"];
+  }
   if (cell !== undefined) {
     yield [
       "line",

@@ -8,6 +8,7 @@ import { setMatrices } from "./rigid.js";
 import { Skeleton } from "./skeleton.js";
 import { Skin } from "./skin.js";
 import { readable } from "./theme.js";
+import { Uncertainty } from "./uncertainty.js";
 
 /** The choice of each method's own kind of shape. */
 export const OWN = "own";
@@ -42,7 +43,8 @@ export class Model {
     this.presence = { value: 1 };
     this.matrices = method.segments.map(() => new Matrix4());
     this.skeleton = new Skeleton(method, 0.009 * size);
-    this.object = new Group().add(this.skeleton.object);
+    this.uncertainty = new Uncertainty(method);
+    this.object = new Group().add(this.skeleton.object, this.uncertainty.object);
     /** Shapes by their kind. */
     this.shapes = new Map();
     for (const entry of method.shapes) {
@@ -75,6 +77,11 @@ export class Model {
         shape.weigh(pose.confidence);
       }
     }
+    this.uncertainty.object.visible = display.uncertainty && Boolean(pose.ellipsoids);
+    if (this.uncertainty.object.visible) {
+      this.uncertainty.place(pose);
+      this.uncertainty.fade(this.presence.value);
+    }
     this.skeleton.object.visible = display.bones;
     if (!display.bones) return;
     this.skeleton.place(pose);
@@ -94,11 +101,13 @@ export class Model {
   /** Takes the method's colour as it is at present. */
   paint() {
     this.skeleton.paint();
+    this.uncertainty.paint();
     for (const shape of [...this.shapes.values()].flat()) shape.paint(readable(this.method.colour));
   }
 
   dispose() {
     this.skeleton.dispose();
+    this.uncertainty.dispose();
     for (const shape of [...this.shapes.values()].flat()) shape.dispose();
   }
 }

@@ -8,8 +8,10 @@ import { Verdicts } from "./verdicts.js";
  * @typedef {{origin: number[], step: number, positions: Int16Array}} Points
  *
  * A method's result in a frame: T_camera_segment as quaternion and translation (S, 7), markers
- * (M, 3) [m], and how well data support each segment (S), if that is known.
- * @typedef {{transforms: Float32Array, markers: Float32Array, confidence: Float32Array | null}} Pose
+ * (M, 3) [m], how well data support each segment (S), and the ellipsoids that hold the markers, as
+ * quaternion and half axes (M, 7) [m], if that is known.
+ * @typedef {{transforms: Float32Array, markers: Float32Array, confidence: Float32Array | null,
+ *   ellipsoids?: Float32Array | null}} Pose
  *
  * A frame; its points may still be at the address `href`.
  * @typedef {{number: number, time: number, points: Points | null, href: string | null,
@@ -98,10 +100,11 @@ function framesOf(source) {
   const whole = points.href === undefined ? numbers(points.positions) : null;
   const offsets = whole && numbers(points.offsets);
   const truth = joints && rows(joints.positions);
-  const results = methods.map(({ transforms, markers, confidence }) => ({
+  const results = methods.map(({ transforms, markers, confidence, ellipsoids }) => ({
     transforms: rows(transforms),
     markers: rows(markers.positions),
     confidence: confidence && rows(confidence),
+    ellipsoids: ellipsoids ? rows(ellipsoids) : null,
   }));
   return source.frames.map((number, index) => ({
     number,
@@ -113,10 +116,11 @@ function framesOf(source) {
     },
     href: whole ? null : points.href.replace("{index}", index),
     joints: truth && truth[index],
-    poses: results.map(({ transforms, markers, confidence }) => ({
+    poses: results.map(({ transforms, markers, confidence, ellipsoids }) => ({
       transforms: transforms[index],
       markers: markers[index],
       confidence: confidence && confidence[index],
+      ellipsoids: ellipsoids && ellipsoids[index],
     })),
   }));
 }
