@@ -267,3 +267,25 @@ def test_body_without_a_mesh_is_told(linkage):
 def test_terms_of_solid_primitives_refuse_a_mesh(term):
     with pytest.raises(ValueError, match=f"term '{term.kind}' looks at Volumes"):
         Direct(shape=Mesh(), kernel=PointToPlane(), solver=GaussNewton(), terms=(term,))
+
+
+@pytest.mark.parametrize("reverse_weight", [0.0, 0.5])
+def test_whitened_residuals_are_those_of_the_points(skinned, random, reverse_weight):
+    """Each point has its own, in its place; one without a correspondence has none."""
+    start, surfels, data = scene(skinned, random)
+    placed = surfels.place(skinned.place(start).transforms)
+    kernel = PointToPlane(reverse_weight=reverse_weight, noise=3.0, robust=Robust(loss="tukey"))
+    residuals, shares = kernel.bind(data, placed).whitened(placed)
+    assert residuals.shape == (150, 1)
+    assert 0.0 < shares.mean() < 1.0
+    assert (residuals[shares == 0.0] == 0.0).all()
+    few = replace(
+        data,
+        points=data.points[::2],
+        weights=data.weights[::2],
+        variances=data.variances[::2],
+        normals=data.normals[::2],
+    )
+    found, some = kernel.bind(few, placed).whitened(placed)
+    np.testing.assert_allclose(found, residuals[::2], atol=1e-9)
+    np.testing.assert_array_equal(some, shares[::2])

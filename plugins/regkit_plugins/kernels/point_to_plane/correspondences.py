@@ -95,6 +95,25 @@ class BoundMatching(ResidualSimilarity):
         probability[found.points] = self.loss.inlier_probability(self._sizes(offsets, normals))
         return probability
 
+    def whitened(self, placed: Placed[Surfels]) -> tuple[Array, Array]:
+        """Returns each point's offset from its plane in units of the loss (N, 1), and its share.
+
+        The share is zero without a correspondence. Without planes, the offset is that from the
+        surfel, (N, 3). Residuals of surfels to the data are none of the points.
+        """
+        found = self._partners(placed)
+        offsets, normals = self._offsets(placed, found.points, found.surfels)
+        if self._point_share < 1.0:
+            offsets = np.einsum("mi,mi->m", offsets, normals)[:, None]
+        weights = self.loss.weights(np.linalg.norm(offsets, axis=1))
+        residuals, shares = (
+            np.zeros((len(self.points), offsets.shape[1])),
+            np.zeros(len(self.points)),
+        )
+        residuals[found.points] = np.sqrt(weights)[:, None] * offsets
+        shares[found.points] = 1.0
+        return residuals, shares
+
     def _bound_loss(self, deviation: float, start: Placed[Surfels], smoothing: float) -> Loss:
         """Returns the loss for data with a standard deviation [m]."""
         robust, noise = self._kernel.robust, self._kernel.noise
