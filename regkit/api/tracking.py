@@ -14,7 +14,7 @@ from regkit.api.registration import Registration
 from regkit.api.tables import Summary
 from regkit.body import Body
 from regkit.interfaces import Registrar, Start
-from regkit.metrics import JointErrors, Measure, joint_errors, measured
+from regkit.metrics import JointErrors, Measure, in_words, joint_errors, measured
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError, DataError, RegkitError
@@ -309,7 +309,7 @@ class Tracking(Summary):
             "recording": f"{self.name}, {len(self)} frames",
             **self.summary(measure),
             "converged": f"{int(self.track.converged.sum())} of {len(self)}",
-            "speed": f"{measure.fps:.3g} frames per second",
+            "speed": in_words(measure.fps),
             **self.warning(),
         }
 

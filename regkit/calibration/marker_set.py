@@ -7,6 +7,7 @@ from typing import Self
 from pydantic import Field, model_validator
 
 from regkit.body import BodyDescription
+from regkit.config.document import Document
 from regkit.config.model import Model, did_you_mean, misplaced
 from regkit.skeleton.joints import Position
 from regkit.system.errors import ConfigError
@@ -31,12 +32,34 @@ class MarkerSet(Model):
                 )
         return self
 
+    def check(self, template: BodyDescription, document: Document | None = None) -> None:
+        """Checks that all markers are on segments of a template.
+
+        Args:
+            template: The template.
+            document: Where the markers are written, for the place of a mistake.
+
+        Raises:
+            ConfigError: If a marker is on none.
+        """
+        known = list(template.segments)
+        for name, places in self.markers.items():
+            for segment in places:
+                if segment not in known:
+                    at = ("markers", name)
+                    raise ConfigError(
+                        f"'{segment}' is not a segment (there are: {', '.join(known)})"
+                        + did_you_mean(segment, known),
+                        place=".".join(at) if document is None else document.place(at),
+                    )
+
     def added_to(self, template: BodyDescription) -> BodyDescription:
         """Returns a template with the markers, which replace its own of the same name.
 
         Raises:
             ConfigError: If a marker is on no segment of the template.
         """
+        self.check(template)
         segments = {
             name: one.model_copy(
                 update={"markers": {m: p for m, p in one.markers.items() if m not in self.markers}}
@@ -45,11 +68,5 @@ class MarkerSet(Model):
         }
         for name, places in self.markers.items():
             for segment, place in places.items():
-                if segment not in segments:
-                    raise ConfigError(
-                        f"'{segment}' is not a segment (there are: {', '.join(segments)})"
-                        + did_you_mean(segment, list(segments)),
-                        place=f"markers.{name}",
-                    )
                 segments[segment].markers[name] = place
         return template.model_copy(update={"segments": segments})

@@ -145,7 +145,9 @@ def calibrate(
 
 def _by_markers(template: Template, markers: Path, seen: Recording, frames: int, out: Path) -> None:
     """Writes the template of a subject with markers."""
-    chosen = Document.read(markers).validated(MarkerSet)
+    document = Document.read(markers)
+    chosen = document.validated(MarkerSet)
+    chosen.check(template.description(), document)
     try:
         subject = MarkerSubject.of(template, chosen, seen, frames)
     except ConfigError as error:

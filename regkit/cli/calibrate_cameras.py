@@ -108,7 +108,7 @@ def _print_summary(found: FoundCameras) -> None:
     """Prints where each camera is, and how well the body fits."""
     table = Table("camera")
     for column in ("x [m]", "y [m]", "z [m]", "markers apart [cm]", "clock [ms]"):
-        table.add_column(column, justify="right")
+        table.add_column(escape(column), justify="right")
     for name, pose in found.poses.items():
         apart = f"{100.0 * found.rough[name]:.1f}" if name in found.rough else "-"
         place = [f"{value:.3f}" for value in pose[:3, 3]]

@@ -17,6 +17,7 @@ from regkit.cli.console import errors, output
 from regkit.cli.track_files import write_track
 from regkit.cli.verdicts import conclude
 from regkit.interfaces import Template
+from regkit.metrics import in_words
 from regkit.tracking import Verdict
 
 OFTEN = 0.1
@@ -130,7 +131,7 @@ def _table(tracking: Tracking, figures: dict[str, Any]) -> Table:
         ("verdict", verdict),
         ("stream", _stream(figures)),
         # The first frame includes the loading of data, so its speed says little.
-        ("speed", "" if fps is None else f"{fps:.3g} frames per second"),
+        ("speed", "" if fps is None else in_words(fps)),
     ):
         if value and (name != "speed" or len(tracking) > 1):
             table.add_row(name, escape(value))

@@ -77,8 +77,9 @@ def tune(
         str | None,
         typer.Option(
             metavar="NOISE",
-            help="Depth noise: that of a known camera by its name, none, a standard deviation [m], "
-            "or a mapping with its parts. (default: that of a known camera, none of any other)",
+            help="Depth noise: that of a known camera by its name, none, a standard deviation in "
+            "metres, or a mapping with its parts. (default: that of a known camera, none of any "
+            "other)",
             show_default=False,
         ),
     ] = None,

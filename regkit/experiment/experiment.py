@@ -71,6 +71,8 @@ def _not_reserved(name: str) -> str:
 
 
 def _smooth(value: Any) -> Any:
+    if isinstance(value, str) and value != "smooth":
+        raise ValueError(f"there is no refinement '{value}'; write smooth, or how the body moves")
     return {} if value == "smooth" else value
 
 

@@ -4,7 +4,15 @@ from regkit.metrics.checked import checked_measure
 from regkit.metrics.joints import JointErrors, joint_errors
 from regkit.metrics.losses import Losses
 from regkit.metrics.matching import check_reference_unit, matched, tell_unmatched
-from regkit.metrics.measure import METRICS, PCK_FRACTION, TEN_CM, Measure, mean_of, measured
+from regkit.metrics.measure import (
+    METRICS,
+    PCK_FRACTION,
+    TEN_CM,
+    Measure,
+    in_words,
+    mean_of,
+    measured,
+)
 from regkit.metrics.pairs import Pair, compared
 from regkit.metrics.statistics import Summary, summary
 from regkit.metrics.thresholds import auc, fraction_within
@@ -23,6 +31,7 @@ __all__ = [
     "checked_measure",
     "compared",
     "fraction_within",
+    "in_words",
     "joint_errors",
     "matched",
     "mean_of",

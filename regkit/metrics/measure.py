@@ -187,6 +187,13 @@ def mean_of(measures: Sequence[Measure]) -> Measure:
     return Measure(**means)
 
 
+def in_words(fps: float | None) -> str:
+    """Returns a speed [1/s] with three digits or more, never as a power of ten; a dash for None."""
+    if fps is None:
+        return "-"
+    return f"{fps:.0f} frames per second" if fps >= 100.0 else f"{fps:.3g} frames per second"
+
+
 def _deviations(track: Track, body: Body) -> Array | None:
     """Returns the standard deviations of all markers, (T, M) [m]; None if they are unknown."""
     sides = track.marker_deviations(body)

@@ -14,7 +14,7 @@ from regkit.observation.frame import Frame
 from regkit.observation.landmarks import Landmarks
 from regkit.system.arrays import Array, Indices
 from regkit.system.brief import Brief
-from regkit.system.errors import ConfigError, DataError
+from regkit.system.errors import ConfigError
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ class Keypoints(Brief):
             camera: Camera of the frame, whose image the fractions are of.
 
         Raises:
-            DataError: If the keypoints are in the picture, and there is no camera.
+            ConfigError: If the keypoints are in the picture, and there is no camera.
         """
         row = self._rows.get(number)
         if row is None:
@@ -70,9 +70,10 @@ class Keypoints(Brief):
         pixels = self.pixels[row]
         if np.isfinite(pixels).any():
             if camera is None:
-                raise DataError(
-                    "keypoints in the picture need the camera of a depth image, and this recording "
-                    "has none; give keypoints in space (frame,name,x,y,z,confidence)"
+                raise ConfigError(
+                    "keypoints in the picture belong to the depth images of one camera, and this "
+                    "recording has none, or has several; give keypoints in space "
+                    "(frame,name,x,y,z,confidence)"
                 )
             if self.relative:
                 # The middle of the first pixel is half a pixel from the border.
@@ -87,11 +88,11 @@ class Keypoints(Brief):
             number: Its number in the recording.
 
         Raises:
-            DataError: If the keypoints are in the picture, and the frame has no camera.
+            ConfigError: If the keypoints are in the picture, and the frame has no camera.
         """
         try:
             return replace(frame, landmarks=self.landmarks(number, frame.camera))
-        except DataError as error:
+        except ConfigError as error:
             raise error.at(str(self.files[0]) if self.files else "keypoints") from None
 
     def renamed(self, markers: Mapping[str, str]) -> Keypoints:

@@ -11,7 +11,7 @@ import numpy as np
 from regkit.geometry.rigid import transformed
 from regkit.system.arrays import Array
 from regkit.system.brief import Brief
-from regkit.system.errors import DataError
+from regkit.system.errors import ConfigError, DataError
 
 
 @dataclass(frozen=True)
@@ -82,12 +82,12 @@ class Landmarks(Brief):
             T_new_old: Pose of this frame in the other one, (4, 4) [m].
 
         Raises:
-            DataError: If a landmark is known in the picture alone, which says little without its
+            ConfigError: If a landmark is known in the picture alone, which says little without its
                 camera.
         """
         unknown = np.isnan(self.positions).any(axis=1) & (self.confidences > 0.0)
         if unknown.any():
-            raise DataError(
+            raise ConfigError(
                 f"the landmark '{self.names[int(np.flatnonzero(unknown)[0])]}' is known in the "
                 "picture alone; with several cameras, landmarks need positions in space"
             )

@@ -207,18 +207,27 @@ class Skeleton(Brief):
             )
         return self.joint_dofs[joint]
 
-    def rotating(self, joint: str) -> Indices:
+    def rotating(self, joint: str, *, place: str) -> Indices:
         """Returns the indices of the degrees of freedom of a segment's joint that rotates.
+
+        Args:
+            joint: The segment.
+            place: Field whose degrees are the joint's, for the place of a mistake.
 
         Raises:
             ConfigError: If there is no such segment, or its joint is fixed or prismatic.
         """
+        try:
+            dofs = self.dofs_of(joint)
+        except ConfigError as error:
+            raise error.at(place) from None
         if self.is_prismatic(joint):
             raise ConfigError(
-                f"the joint of '{joint}' is prismatic; degrees are for joints that rotate, and "
-                "displacement holds for all prismatic joints"
+                f"the joint of '{joint}' is prismatic, and degrees are for joints that rotate; "
+                "give [m] for all prismatic joints in the field 'displacement'",
+                place=place,
             )
-        return self.dofs_of(joint)
+        return dofs
 
     def is_prismatic(self, joint: str) -> bool:
         """Returns whether the moving joint of a segment is prismatic."""

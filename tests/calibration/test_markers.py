@@ -7,6 +7,7 @@ from marker_files import write_trc
 import regkit
 from regkit.calibration import MarkerSet, MarkerSubject
 from regkit.calibration.shape import Shape
+from regkit.config.document import Document
 from regkit.geometry.rigid import rigid
 from regkit.interfaces import Dataset, Method, Template
 from regkit.observation import Observation
@@ -83,6 +84,10 @@ def test_marker_on_an_unknown_segment_is_told(human, tmp_path):
     markers = MarkerSet(markers={"a": {"left_tigh": (0, 0, 0)}, "b": {"chest": (0, 0, 0)}})
     with pytest.raises(RegkitError, match=r"'left_tigh'.*left_thigh"):
         MarkerSubject.of(human, markers, recording_of(path))
+    (tmp_path / "set.yaml").write_text("markers:\n  b: {chest: [0, 0, 0]}\n  a: {tail: [0, 0, 0]}")
+    document = Document.read(tmp_path / "set.yaml")
+    with pytest.raises(RegkitError, match=r"set\.yaml:3: markers\.a: 'tail'"):
+        document.validated(MarkerSet).check(human.description(), document)
     with pytest.raises(ValueError, match="one segment"):
         MarkerSet(markers={"a": {"chest": (0, 0, 0), "head": (0, 0, 0)}})
     strange = MarkerSet(markers={"c": {"chest": (0, 0, 0)}})

@@ -311,6 +311,13 @@ def test_link_without_a_name_is_refused_with_its_line(tmp_path: Path) -> None:
         _read(tmp_path, ARM.replace('"lower"', '""'))
 
 
+def test_a_prismatic_joint_without_limits_is_told(tmp_path: Path) -> None:
+    """A sliding part without ends has no range to search."""
+    text = ARM.replace('type="revolute"', 'type="prismatic"', 1)
+    with pytest.raises(RegkitError, match=r"arm\.urdf:\d+: .*'turn' has no <limit>"):
+        _read(tmp_path, text.replace('<limit lower="-1" upper="1"/>', "", 1))
+
+
 def test_limits_that_may_be_degrees_are_told(tmp_path: Path) -> None:
     with pytest.warns(RegkitWarning, match="turn.*-90 to 90 rad"):
         _read(tmp_path, ARM.replace('lower="-1" upper="1"', 'lower="-90" upper="90"'))

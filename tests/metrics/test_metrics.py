@@ -8,7 +8,15 @@ import pytest
 from regkit.body import Body
 from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import vector_to_matrix
-from regkit.metrics import METRICS, PCK_FRACTION, Measure, joint_errors, mean_of, tell_unmatched
+from regkit.metrics import (
+    METRICS,
+    PCK_FRACTION,
+    Measure,
+    in_words,
+    joint_errors,
+    mean_of,
+    tell_unmatched,
+)
 from regkit.metrics import measured as measured_from
 from regkit.observation import Truth
 from regkit.skeleton import Pose
@@ -330,3 +338,9 @@ def test_mean_time_to_recover_is_that_of_the_recordings_with_losses():
 
 def test_mean_of_nothing_is_none():
     assert set(mean_of([]).to_dict().values()) == {None}
+
+
+def test_a_great_speed_is_told_without_a_power_of_ten():
+    assert in_words(1096.1) == "1096 frames per second"
+    assert in_words(3.456) == "3.46 frames per second"
+    assert in_words(None) == "-"

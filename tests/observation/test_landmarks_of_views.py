@@ -13,7 +13,7 @@ from regkit.geometry.rotation import vector_to_matrix
 from regkit.interfaces import Method
 from regkit.observation import Frame, Landmarks, View
 from regkit.skeleton import PoseDescription
-from regkit.system.errors import DataError
+from regkit.system.errors import ConfigError
 from regkit_plugins.preprocessors.points import PointsPreprocessor
 
 SIDE = rigid(vector_to_matrix(np.array([0.1, 1.2, -0.2])), np.array([0.5, -0.3, 2.0]))
@@ -40,7 +40,7 @@ def test_landmarks_are_in_the_world_and_those_of_the_surest_camera(random) -> No
 def test_landmarks_in_the_picture_alone_are_refused(random) -> None:
     flat = Landmarks.in_picture(("head",), np.array([[10.0, 20.0]]))
     points = random.normal(size=(50, 3))
-    with pytest.raises(DataError, match="'head' is known in the picture alone"):
+    with pytest.raises(ConfigError, match="'head' is known in the picture alone"):
         Frame.of_views([seen(points, SIDE, flat), seen(points, FRONT, flat)])
 
 

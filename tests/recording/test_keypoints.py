@@ -175,7 +175,7 @@ def test_keypoints_of_several_recordings_need_a_folder(tmp_path):
 
 def test_keypoints_in_the_picture_need_a_camera():
     keypoints = Keypoints.in_picture(("tip",), np.zeros((1, 1, 2)))
-    with pytest.raises(RegkitError, match="need the camera"):
+    with pytest.raises(RegkitError, match="of one camera"):
         regkit.track([np.zeros((40, 3))], "human", keypoints=keypoints)
 
 

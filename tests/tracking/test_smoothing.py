@@ -87,5 +87,5 @@ def test_experiment_names_the_refinement_or_its_settings():
     assert Experiment.read(file, ("refine=smooth",)).refine == Smoothing()
     found = Experiment.read(file, ("refine={joint_deg: 2}",)).refine
     assert found == Smoothing(joint_deg=2.0)
-    with pytest.raises(ConfigError, match="refine"):
+    with pytest.raises(ConfigError, match=r"refine: .*'sharpen'; write smooth"):
         Experiment.read(file, ("refine=sharpen",))

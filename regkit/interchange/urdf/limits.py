@@ -36,7 +36,12 @@ def _travel(element: Element, name: str) -> tuple[float, float]:
     Raises:
         DataError: If they are missing, infinite, in the wrong order or beyond ``LONGEST``.
     """
-    found = element.need("limit")
+    found = element.find("limit")
+    if found is None:
+        raise element.wrong(
+            f"the prismatic joint '{name}' has no <limit>; it needs one, such as "
+            '<limit lower="0" upper="0.1"/> [m]'
+        )
     low, high = (_limit(found, word) for word in ("lower", "upper"))
     if not -LONGEST <= low <= high <= LONGEST:
         raise found.wrong(

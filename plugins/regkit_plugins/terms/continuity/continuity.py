@@ -42,7 +42,7 @@ class Continuity(Term):
             ConfigError: If ``joints_deg`` names an unknown joint, or one that does not rotate.
         """
         for name in self.joints_deg:
-            body.skeleton.rotating(name)
+            body.skeleton.rotating(name, place=f"terms.continuity.joints_deg.{name}")
 
     def bind(self, scene: Scene) -> BoundContinuity:
         """Binds the term to the prior pose."""

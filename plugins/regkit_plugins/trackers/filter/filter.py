@@ -68,7 +68,7 @@ class Filter(Tracker):
             noise[:3], noise[3:6] = self.root_m, np.radians(self.root_deg)
         noise[skeleton.hinge_dofs][skeleton.limits.prismatic] = self.displacement
         for name, degrees in self.joints_deg.items():
-            noise[skeleton.rotating(name)] = np.radians(degrees)
+            noise[skeleton.rotating(name, place=f"tracker.joints_deg.{name}")] = np.radians(degrees)
         return noise**2
 
 
