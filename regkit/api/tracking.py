@@ -67,6 +67,7 @@ class Tracking(Summary):
         indices: Positions of the frames among those that were recorded.
         track: The frames as arrays: numbers (T,), times (T,) [s], root (T, 4, 4) [m], balls
             (T, n_ball, 4), hinges (T, n_hinge) [rad], markers, seconds and more.
+        is_smoothed: Whether the poses are those of ``smoothed``.
     """
 
     name: str
@@ -77,6 +78,7 @@ class Tracking(Summary):
     recorder: TrackRecorder
     indices: range
     track: Track
+    is_smoothed: bool = False
 
     @classmethod
     def of(
@@ -205,7 +207,8 @@ class Tracking(Summary):
         Raises:
             ConfigError: If the method does not know how sure its poses are.
         """
-        return replace(self, track=smoothed(self.track, self.body, settings))
+        track = smoothed(self.track, self.body, settings)
+        return replace(self, track=track, is_smoothed=True)
 
     def plot(self, truth: Reference | None = None) -> Figure:
         """Returns a figure of the first, the worst and the last frame, from the front and the side.

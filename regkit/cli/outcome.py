@@ -96,6 +96,7 @@ def _figures(tracking: Tracking) -> dict[str, Any]:
         "template": tracking.body.name,
         "size": tracking.size,
         "method": tracking.method,
+        "smoothed": tracking.is_smoothed,
         "surface_distance_mm": measure.surface_distance_mm,
         "inlier_share": _share(measure.inlier_percent),
         "coverage": _share(measure.coverage_percent),
@@ -120,7 +121,7 @@ def _table(tracking: Tracking, figures: dict[str, Any]) -> Table:
     table = Table(show_header=False)
     for name, value in (
         ("frames", f"{tracking.name}, {len(tracking)}"),
-        ("method", tracking.method),
+        ("method", tracking.method + (", smoothed" if tracking.is_smoothed else "")),
         ("body", f"{tracking.body.name}, {tracking.size:.4g} m"),
         ("markers", str(len(tracking.joint_names))),
         ("surface distance", "-" if distance is None else f"{distance:.1f} mm (median)"),

@@ -65,6 +65,10 @@ def test_smoothed_track_has_less_jitter_and_its_uncertainty(regkit, tmp_path):
     for smooth in (["--out", "plain"], ["--smooth", "--out", "smooth"]):
         ended = regkit("track", WALK, *HUMAN, *START, *frames, "--method", "filtered", *smooth)
         assert ended.code == 0, ended.err
+    told = [
+        json.loads((tmp_path / name / "result.json").read_text()) for name in ("plain", "smooth")
+    ]
+    assert [one["smoothed"] for one in told] == [False, True]
     plain, smooth = arrays(tmp_path / "plain"), arrays(tmp_path / "smooth")
     assert np.abs(plain["markers"] - smooth["markers"]).max() < 0.1
     jitter = [np.abs(np.diff(one["markers"], n=2, axis=0)).mean() for one in (plain, smooth)]
