@@ -72,7 +72,7 @@ def preview(
 def _table(shown: Preview) -> Table:
     """Returns a table of the points that each step removes, by frame."""
     table = Table("frame", title=shown.name)
-    for name in ("points", *(f"{step} removes" for step in shown.steps), "left"):
+    for name in ("points", *(f"{step} removes" for step in shown.steps), "kept"):
         table.add_column(name, justify="right")
     for frame in shown.frames:
         table.add_row(str(frame.index), str(len(frame.whole.points)), *map(str, frame.counts))

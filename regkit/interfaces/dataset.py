@@ -186,7 +186,11 @@ class Dataset(Plugin, ABC):
         found: dict[str, Recording] = {}
         for recording in map(_named_for_files, self.found()):
             if recording.name in found:
-                raise DataError(f"two recordings are called '{recording.name}'", place="dataset")
+                raise DataError(
+                    f"two recordings are called '{recording.name}'; give each its name, or, if "
+                    "they are of several cameras at one time, describe these in cameras.json",
+                    place="dataset",
+                )
             found[recording.name] = recording
         if self.recordings is None:
             return self._beside_keypoints(found.values())

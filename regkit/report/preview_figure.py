@@ -91,7 +91,7 @@ def _colours(frame: PreviewedFrame) -> list[str]:
 def _add_legend(figure: Figure, frames: Sequence[PreviewedFrame]) -> None:
     from matplotlib.patches import Patch
 
-    names = [*(f"removed by {name}" for name in frames[0].steps), "left"]
+    names = [*(f"removed by {name}" for name in frames[0].steps), "kept"]
     handles = [
         Patch(color=colour, label=name)
         for colour, name in zip(_colours(frames[0]), names, strict=True)
