@@ -13,7 +13,7 @@ from regkit_plugins.methods.deformable.coherent import INSTALL, CoherentPointDri
 
 
 class BioCPDDeformable(CoherentPointDrift):
-    """Deformable coherent point drift by biocpd, with sparse responsibilities and low rank."""
+    """Deformable coherent point drift by biocpd."""
 
     kind: Literal["biocpd_deformable"] = "biocpd_deformable"
 

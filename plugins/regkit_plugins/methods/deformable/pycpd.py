@@ -13,7 +13,7 @@ from regkit_plugins.methods.deformable.coherent import INSTALL, CoherentPointDri
 
 
 class PyCPD(CoherentPointDrift):
-    """Deformable coherent point drift by pycpd, with time and memory for all pairs."""
+    """Deformable coherent point drift by pycpd."""
 
     kind: Literal["pycpd"] = "pycpd"
 

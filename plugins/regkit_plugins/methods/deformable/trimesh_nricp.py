@@ -18,11 +18,11 @@ NEIGHBOURS = 6
 
 
 class TrimeshNRICP(LibraryDeformation):
-    """Non-rigid iterative closest points of Amberg et al. (2007) by trimesh.
+    """Non-rigid iterative closest points by trimesh.
 
-    The library wants a mesh as source, for the edges along which it is stiff: here each point makes
-    triangles with its nearest neighbours. The target is a cloud. Other points move by an
-    interpolation.
+    The method is that of Amberg et al. (2007). The library wants a mesh as source, for the edges
+    along which it is stiff: here each point makes triangles with its nearest neighbours. The target
+    is a cloud. Other points move by an interpolation.
     """
 
     kind: Literal["trimesh_nricp"] = "trimesh_nricp"
