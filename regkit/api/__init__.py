@@ -1,6 +1,7 @@
 """The Python API: functions for scripts and notebooks, with arrays in and out."""
 
 from regkit.api.aligning import CloudAlignment, align
+from regkit.api.aligning_views import ViewsAlignment, align_all
 from regkit.api.choices import load_template
 from regkit.api.frame_files import load_frame
 from regkit.api.keypoint_files import load_keypoints
@@ -39,7 +40,9 @@ __all__ = [
     "Truth",
     "Tuned",
     "Verdict",
+    "ViewsAlignment",
     "align",
+    "align_all",
     "examples_folder",
     "frame_of_views",
     "load_frame",

@@ -168,19 +168,31 @@ def align(
     """
     method = Method.default("rigid") if method is None else method
     chosen = Method.parse(method, place="regkit.align", field="method")
-    clouds = [_cloud(source, "source"), _cloud(target, "target")]
-    begin = start if isinstance(start, (str, AlignmentStart)) else _start(start)
+    clouds = [cloud_of(source, "source"), cloud_of(target, "target")]
+    begin = start_of(start, place="regkit.align")
     found = align_clouds(clouds[0], clouds[1], chosen, voxel=voxel, start=begin, threads=threads)
     return CloudAlignment(clouds[0], clouds[1], name_of(method), found)
 
 
-def _start(start: Choice[AlignmentStart]) -> str | AlignmentStart:
+def start_of(start: Choice[AlignmentStart], *, place: str) -> str | AlignmentStart:
+    """Returns a start by its name or file, or as a plug-in.
+
+    Raises:
+        RegkitError: If it is invalid.
+    """
+    if isinstance(start, (str, AlignmentStart)):
+        return start
     if isinstance(start, Path):
         return str(start)
-    return AlignmentStart.parse(start, place="regkit.align", field="start")
+    return AlignmentStart.parse(start, place=place, field="start")
 
 
-def _cloud(given: Cloud, place: str) -> Array:
+def cloud_of(given: Cloud, place: str) -> Array:
+    """Returns the points (N, 3) [m] of a cloud.
+
+    Raises:
+        RegkitError: If it cannot be read, or is no cloud.
+    """
     if isinstance(given, (str, Path)):
         return read_cloud(Path(given))
     return without_missing(checked_numbers(given, place=place, whole=True), place=place)

@@ -12,7 +12,7 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
-from regkit.alignment import JointAlignment, align_all, judged
+from regkit.alignment import JointAlignment, align_all, judged, judged_all
 from regkit.body.verdict import Verdict
 from regkit.cli.console import errors, output
 from regkit.cli.matrix import matrix_rows
@@ -45,7 +45,7 @@ def align_views(
     names = [str(file) for file in files]
     with working("aligning"):
         found = align_all(views, method, voxel=voxel, start=start, places=names, threads=threads)
-    verdict, reason = _verdict(found, names)
+    verdict, reason = judged_all(found, names)
     if as_json:
         figures = _figures(found, names) | {"verdict": verdict}
         typer.echo(json.dumps(figures, indent=2, allow_nan=False))
@@ -61,24 +61,6 @@ def align_views(
         write_cloud(out, np.concatenate([transformed(pose, view) for pose, view in placed]))
         errors.print(f"written: {out}")
     conclude(verdict, reason, strict=strict)
-
-
-def _verdict(found: JointAlignment, names: Sequence[str]) -> tuple[Verdict, str]:
-    """Returns whether all views are linked, and by alignments that are not doubtful."""
-    alone = [name for name, linked in zip(names, found.linked, strict=True) if not linked]
-    if alone:
-        return Verdict.LOST, f"nothing links {', '.join(alone)} to {names[0]}"
-    reached, size = {0}, 0
-    while len(reached) > size:
-        size = len(reached)
-        for pair in found.pairs:
-            sure = pair.kept and judged(pair.found)[0] is Verdict.FOUND
-            if sure and reached & {pair.source, pair.target}:
-                reached |= {pair.source, pair.target}
-    unsure = [name for index, name in enumerate(names) if index not in reached]
-    if unsure:
-        return Verdict.DOUBTFUL, f"only doubtful alignments link {', '.join(unsure)} to {names[0]}"
-    return Verdict.FOUND, ""
 
 
 def _figures(found: JointAlignment, names: Sequence[str]) -> dict[str, Any]:

@@ -7,6 +7,7 @@ from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 from regkit.alignment.rigid_method import RigidMethod
+from regkit.deformation import LibraryDeformation
 from regkit.interfaces import Method
 from regkit.system.errors import RegkitError
 from regkit.system.optional import load_library
@@ -70,7 +71,7 @@ def _of_method(kind: str) -> Extra | None:
     try:
         plugin = Method.load(kind)
         library: Any = None
-        if issubclass(plugin, RigidMethod):
+        if issubclass(plugin, (RigidMethod, LibraryDeformation)):
             library = plugin.model_validate({}).library()
     except RegkitError as error:
         state, _, command = str(error).rpartition("run: ")

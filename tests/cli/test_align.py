@@ -258,3 +258,16 @@ def test_symmetric_objects_have_a_rival(regkit, tmp_path, lump, random):
     assert found["verdict"] == "doubtful"
     assert found["rivals"]
     assert "another transform, 180 degrees away" in ended.err
+
+
+@pytest.mark.parametrize("shared", [True, False])
+def test_a_rough_plane_that_slides_in_itself_is_doubtful(regkit, random, tmp_path, shared):
+    source, other = (
+        np.column_stack([random.uniform(-0.5, 0.5, (1000, 2)), 0.01 * random.normal(size=1000)])
+        for _ in range(2)
+    )
+    np.savetxt(tmp_path / "a.xyz", source)
+    np.savetxt(tmp_path / "b.xyz", (source if shared else other) + [0.1, 0.05, 0.0])
+    ended = regkit("align", tmp_path / "a.xyz", tmp_path / "b.xyz", "--strict")
+    assert ended.code == 3
+    assert "slides its surface along itself" in ended.err

@@ -30,6 +30,9 @@ NUMERICAL = (
     "small_gicp",
     "biocpd",
     "probreg",
+    "pycpd",
+    "rustcpd",
+    "trimesh",
     "pillow",
     "h5py",
 )

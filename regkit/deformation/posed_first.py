@@ -1,4 +1,4 @@
-"""The non-rigid method bound to a body."""
+"""Methods that deform a body, bound to it: another method poses it first."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ import numpy as np
 
 from regkit.body import Body
 from regkit.clouds import voxel_downsampled, voxel_for
-from regkit.deformation import fitted
 from regkit.interfaces import Evaluation, Prior, Registrar, RegistrationResult
 from regkit.interfaces.result import LITTLE
 from regkit.observation import Observation
@@ -19,12 +18,12 @@ from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 
 if TYPE_CHECKING:
-    from regkit_plugins.methods.nonrigid.nonrigid import Nonrigid
+    from regkit.deformation.deforming_method import DeformingMethod
 
 
 @dataclass(frozen=True)
-class BoundNonrigid(Registrar):
-    """``Nonrigid`` bound to a body.
+class PosedFirst(Registrar):
+    """A ``DeformingMethod`` bound to a body.
 
     Attributes:
         body: The body.
@@ -35,7 +34,7 @@ class BoundNonrigid(Registrar):
 
     body: Body
     primitives: Primitives
-    method: Nonrigid
+    method: DeformingMethod
     first: Registrar
 
     @property
@@ -69,25 +68,17 @@ class BoundNonrigid(Registrar):
     def _deformed(self, observation: Observation, posed: RegistrationResult) -> RegistrationResult:
         """Returns a result with the deformation that moves the posed body onto the data."""
         assert self.body.surface is not None
-        method, surface = self.method, self.body.surface
-        source = surface.place(self.body.place(posed.pose).transforms)
-        fit = fitted(
-            _some(source, method.points),
-            _some(observation.points, method.points),
-            method.stages,
-            method.field_prior,
-            centres=method.centres,
-            tolerance=method.tolerance,
-        )
-        ended = "the displacements settled" if fit.converged else "the maximum number of steps"
+        source = self.body.surface.place(self.body.place(posed.pose).transforms)
+        count = self.method.points
+        found = self.method.deformed(_some(source, count), _some(observation.points, count))
         return replace(
             posed,
-            inlier_share=float((fit.probability >= LITTLE).mean()),
-            energy=fit.energy,
-            converged=posed.converged and fit.converged,
-            iterations=posed.iterations + fit.steps,
-            message=f"{posed.message}; {ended}",
-            deformation=fit.field,
+            inlier_share=float((found.probability >= LITTLE).mean()),
+            energy=found.energy,
+            converged=posed.converged and found.converged,
+            iterations=posed.iterations + found.iterations,
+            message=f"{posed.message}; {found.message}",
+            deformation=found.deformation,
         )
 
 

@@ -6,17 +6,14 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from regkit.body import Body
 from regkit.config.quantities import Iterations, Tolerance
-from regkit.deformation import FieldPrior, Stage
-from regkit.interfaces import Method, ShapeModel
-from regkit.system.errors import ConfigError
-from regkit_plugins.methods.nonrigid.bound import BoundNonrigid
+from regkit.deformation import Deformed, DeformingMethod, FieldPrior, Stage, fitted
+from regkit.system.arrays import Array
 
 Part = Annotated[float, Field(ge=1e-3, le=1e3)]
 
 
-class Nonrigid(Method):
+class Nonrigid(DeformingMethod):
     """Moves the body onto the data by a smooth displacement field, after it was posed.
 
     The field is an affine map and a Gaussian process, fitted as the posterior mean under the
@@ -27,8 +24,6 @@ class Nonrigid(Method):
 
     kind: Literal["nonrigid"] = "nonrigid"
 
-    first: Method | None = None
-    """Method that poses the body; by default regkit's own, for rigid or for articulated bodies."""
     lengths: Annotated[tuple[Part, ...], Field(min_length=1)] = (1.2, 0.6)
     """Distances over which displacements vary, for one fit after the other."""
     stiffness: Annotated[float, Field(ge=1e-3, le=1e9)] = 1000.0
@@ -43,9 +38,6 @@ class Nonrigid(Method):
     out."""
     begin: Part = 0.3
     """Standard deviation of the pairs at the start."""
-    points: Annotated[int, Field(ge=50, le=20_000)] = 2000
-    """Approximate number of points of the body and of the data from which the field is fitted; it
-    moves all points."""
     centres: Annotated[int, Field(ge=10, le=2000)] = 150
     """Number of places at which the field is free."""
     max_iterations: Iterations = 20
@@ -64,27 +56,15 @@ class Nonrigid(Method):
         """What is expected of the field."""
         return FieldPrior(self.stiffness, self.affine, self.outliers, self.sides, self.begin)
 
-    def shape_model(self) -> ShapeModel | None:
-        """Returns the shape model of the first method."""
-        return None if self.first is None else self.first.shape_model()
-
-    def bind(self, body: Body) -> BoundNonrigid:
-        """Binds the first method to a body, and the deformation to its surface.
-
-        Raises:
-            RegkitError: If the first method does not support the body, or it has no surface.
-        """
-        if body.surface is None:
-            raise ConfigError(
-                f"method 'nonrigid' deforms a surface, and the template '{body.name}' has none; "
-                "add a mesh to its YAML (mesh: FILE.npz)"
-            )
-        first = self._first(body).bind(body)
-        return BoundNonrigid(first.body, first.primitives, self, first)
-
-    def _first(self, body: Body) -> Method:
-        """Returns the method that poses a body."""
-        if self.first is not None:
-            return self.first
-        purpose = "" if len(body.skeleton.names) > 1 else "rigid"
-        return Method.parse(Method.default(purpose), place="method nonrigid", field="first")
+    def deformed(self, source: Array, target: Array) -> Deformed:
+        """Fits the field."""
+        fit = fitted(
+            source,
+            target,
+            self.stages,
+            self.field_prior,
+            centres=self.centres,
+            tolerance=self.tolerance,
+        )
+        message = "the displacements settled" if fit.converged else "the maximum number of steps"
+        return Deformed(fit.field, fit.probability, fit.energy, fit.converged, fit.steps, message)
