@@ -100,6 +100,12 @@ def align_all(
             views[i], views[j], method,
             voxel=voxel, start=start, places=(names[i], names[j]), threads=threads,
         )  # fmt: skip
+        if one.deformation is not None:
+            raise ConfigError(
+                "the method deforms clouds, and views of one object are aligned rigidly; choose a "
+                "rigid method",
+                place="method",
+            )
         if judged(one)[0] is not Verdict.LOST:
             found[i, j] = one
     tree, begins = _tree(count, found)

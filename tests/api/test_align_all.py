@@ -36,3 +36,8 @@ def test_views_are_placed_in_the_frame_of_the_first(lump, motions, tmp_path):
 def test_one_view_is_refused(lump):
     with pytest.raises(ConfigError, match="1 views; at least two are needed"):
         regkit.align_all([lump])
+
+
+def test_views_are_not_deformed(lump):
+    with pytest.raises(ConfigError, match="choose a rigid method"):
+        regkit.align_all([lump, lump + 0.05], "nonrigid", start="nearest")
