@@ -20,12 +20,14 @@ import time
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 from _nonrigid_posed import posed_bodies
 from threadpoolctl import threadpool_limits
 
 import regkit
+from regkit.deformation import LibraryDeformation
 from regkit.interfaces import Method
 from regkit.system.arrays import Array
 from regkit.system.errors import DependencyError
@@ -94,9 +96,9 @@ def libraries() -> dict[str, Aligner]:
     """Returns the methods of other libraries that are installed."""
     found: dict[str, Aligner] = {}
     for kind in LIBRARIES:
-        method = Method.parse(kind, place="benchmark", field="method")
+        method = cast(LibraryDeformation, Method.parse(kind, place="benchmark", field="method"))
         try:
-            method.library()  # type: ignore[attr-defined]
+            method.library()
         except DependencyError:
             continue
         found[kind] = partial(by_library, kind)

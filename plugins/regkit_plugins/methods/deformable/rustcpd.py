@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from regkit.deformation import Displaced
 from regkit.system.arrays import Array
-from regkit.system.optional import load_library
-from regkit_plugins.methods.deformable.coherent import INSTALL, CoherentPointDrift
+from regkit_plugins.methods.deformable.coherent import CoherentPointDrift
 
 
 class RustCPD(CoherentPointDrift):
@@ -17,9 +16,7 @@ class RustCPD(CoherentPointDrift):
 
     kind: Literal["rustcpd"] = "rustcpd"
 
-    def library(self) -> Any:
-        """Returns the module ``rustcpd``."""
-        return load_library("rustcpd", install=INSTALL)
+    module: ClassVar[str] = "rustcpd"
 
     def displaced(self, source: Array, target: Array) -> Displaced:
         """Registers with ``register_deformable``."""
