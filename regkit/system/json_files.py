@@ -23,7 +23,11 @@ def read_json(path: Path) -> dict[str, Any]:
         text = path.read_text(encoding="utf-8-sig")
         try:
             content = json.loads(
-                text, object_pairs_hook=_once, parse_constant=_not_finite, parse_float=_finite
+                text,
+                object_pairs_hook=_once,
+                parse_constant=_not_finite,
+                parse_float=_finite,
+                parse_int=_whole,
             )
         except json.JSONDecodeError as error:
             raise DataError(f"not JSON: {error.msg}", place=f"{path}:{error.lineno}") from None
@@ -49,6 +53,12 @@ def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 def _finite(text: str) -> float:
     value = float(text)
     return value if abs(value) < float("inf") else _not_finite(text)
+
+
+def _whole(text: str) -> int:
+    # A whole number beyond the floats would overflow wherever it is used.
+    _finite(text)
+    return int(text)
 
 
 def _not_finite(text: str) -> NoReturn:

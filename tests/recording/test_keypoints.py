@@ -107,6 +107,14 @@ def test_damaged_csv_is_refused_at_its_line(tmp_path, lines, said):
         load_keypoints(write(tmp_path / "k.csv", *lines))
 
 
+def test_number_too_large_is_refused_with_its_file(tmp_path):
+    marks = [{"x": 10**400, "y": 0.5}] + 32 * [{"x": 0.5, "y": 0.5}]
+    path = tmp_path / "marks.json"
+    path.write_text(json.dumps({"frames": [{"landmarks": marks}]}))
+    with pytest.raises(RegkitError, match=r"marks\.json.*not a finite number"):
+        load_keypoints(path)
+
+
 def test_unknown_keypoint_of_a_map_and_unknown_formats_are_told(tmp_path):
     path = write(tmp_path / "k.csv", "frame,name,x,y,confidence", "0,nose,1,2,1")
     assert load_keypoints(path, {"nose": "head"}).names == ("head",)

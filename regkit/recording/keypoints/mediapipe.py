@@ -51,10 +51,9 @@ def _add(table: KeypointTable, number: int, landmarks: list[Any], place: str) ->
         zip(detector_of("mediapipe", len(landmarks)), landmarks, strict=True)
     ):
         values = mark if isinstance(mark, dict) else {}
-        x, y = values.get("x"), values.get("y")
         sure = values.get("visibility", values.get("presence", 1.0))
-        if not all(
-            isinstance(one, int | float) and not isinstance(one, bool) for one in (x, y, sure)
-        ):
+        numbers: list[Any] = [values.get("x"), values.get("y"), sure]
+        if not all(isinstance(one, int | float) and not isinstance(one, bool) for one in numbers):
             raise DataError(f"{place}.landmarks[{at}] must have numbers x, y and visibility")
-        table.add(number, name, (float(x), float(y)), float(sure))  # type: ignore[arg-type]
+        x, y, sure = (float(one) for one in numbers)
+        table.add(number, name, (x, y), sure)
