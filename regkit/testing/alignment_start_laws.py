@@ -61,4 +61,5 @@ class AlignmentStartLaws(Laws):
         try:
             return start.candidates(source, target, method)
         except DependencyError as error:
+            # The library of a start may be an extra that is not installed.
             pytest.skip(str(error))

@@ -20,12 +20,12 @@ from regkit_plugins.trackers.filter.compiled import predicted_information
 
 
 class Filter(Tracker):
-    """Maximum a posteriori filter on the tangent space, with a damped constant velocity.
+    """Maximum a posteriori filter on the tangent space, with a damped velocity.
 
-    The posterior of the last frame moves on with the body's velocity and widens by the process
-    noise; the method's term `motion_prior` weighs it against the data of the next frame. So a joint
-    that the data show follows them, and one that they do not show keeps on moving for a while, and
-    grows uncertain. Without that term it is a constant-velocity tracker.
+    The posterior of the last frame moves on by the damped velocity and widens by the process noise;
+    the method's term `motion_prior` weighs it against the data of the next frame. A joint that the
+    data show follows them; one that they do not show stays, or with a damping above 0 keeps a part
+    of its velocity, and grows uncertain. Without that term the prediction is only a start pose.
     """
 
     kind: Literal["filter"] = "filter"
