@@ -50,7 +50,7 @@ def read_tracked_motion(folder: Path, fps: float | None = None) -> TrackedMotion
     setup, size = Setup.read(results), float(arrays["size"])
     for field in setup.templates:
         template = _present(results, field, setup)
-        body = setup.body(field, name, size) if template is None else template.body(size)
+        body = setup.body(field, name, size, results) if template is None else template.body(size)
         transforms = placed(body, arrays)
         if transforms is not None:
             skin = None

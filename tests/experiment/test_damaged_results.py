@@ -147,6 +147,15 @@ def test_damaged_file_of_the_folder_is_no_foreign_error(done, track, damage):
     assert errors_of_reading(done, track) == []
 
 
+def test_damaged_template_of_the_setup_is_refused_with_its_file(done, track):
+    file = track.parents[1] / "setup.json"
+    file.write_text(file.read_text().replace('"swing_deg"', '"swing_ddg"'))
+    config, setup = errors_of_reading(done, track)
+    assert "swing_ddg" in config
+    assert "swing_ddg" in setup
+    assert setup.startswith(str(file))
+
+
 LIES = {
     "config.yaml": ("[]", '{"name": "x", "methods": [1]}', '{"name": "x", "methods": {"a": 1}}'),
     "environment.json": ("[]", '{"format": 3, "regkit": []}', '{"format": 3, "libraries": [1]}'),

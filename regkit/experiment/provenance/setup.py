@@ -70,14 +70,21 @@ class Setup:
             setup: Self = TypeAdapter(cls).validate_json(file.read_bytes())
             return setup
 
-    def body(self, field: str, name: str, size: float) -> Body:
+    def body(self, field: str, name: str, size: float, folder: Path) -> Body:
         """Returns the body of a template of the run, without its shapes and surface.
+
+        Args:
+            field: Field of the experiment with the template.
+            name: Name of the body.
+            size: Size of the body [m].
+            folder: The results folder, for messages.
 
         Raises:
             ConfigError: If the description is damaged.
         """
         data = {**self.templates[field], "mesh": None}
-        return Document(data, {(): f"{FILE}: {field}"}).validated(BodyDescription).body(name, size)
+        document = Document(data, {(): f"{folder / FILE}: {field}"})
+        return document.validated(BodyDescription).body(name, size)
 
     def holds(self, field: str, template: Template) -> bool:
         """Whether a template and its files are those of the run.
