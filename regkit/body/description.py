@@ -72,6 +72,9 @@ class BodyDescription(SkeletonDescription):
     mesh: InputPath | None = None
     """Skinned mesh for shape models that use one: an ``.npz`` file whose bones are named after the
     segments."""
+    modes: InputPath | None = None
+    """Shape modes: an ``.npz`` file of displacements of the mesh's vertices and of the joints, with a
+    prior. ``regkit calibrate`` then finds the shape of a body as a combination of them."""
 
     @model_validator(mode="after")
     def _shapes_are_on_segments(self) -> BodyDescription:
@@ -90,6 +93,10 @@ class BodyDescription(SkeletonDescription):
 
     @model_validator(mode="after")
     def _parts_fit_together(self) -> BodyDescription:
+        if self.modes is not None and self.mesh is None:
+            raise misplaced(
+                type(self), "shape modes displace the vertices of a mesh; name it as mesh", "modes"
+            )
         check_lengths(type(self), self.segments, self.size.value)
         if self.stances:
             check_stances(type(self), compiled(self), self.stances)

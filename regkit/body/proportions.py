@@ -52,7 +52,7 @@ class Proportions:
             }
             for key, by_segment in template.shapes.items()
         }
-        subject = template.model_copy(update={"segments": segments, "shapes": shapes, "mesh": None})
+        subject = template.model_copy(update={"segments": segments, "shapes": shapes, "mesh": None, "modes": None})
         size = template.size.value * height(subject) / height(template)
         return subject.model_copy(
             update={"size": template.size.model_copy(update={"value": size, "range": (size, size)})}

@@ -38,11 +38,13 @@ Primitives of shape models; sigma is a standard deviation [m], and the surface l
 
 _BESIDE = "The skin: vertices that follow the segments, in a file in the same folder."
 
+_MODES = "Its shape modes: how skin and joints move with a few coefficients that have a prior."
+
 
 def template_text(body: BodyDescription, opening: str, comments: Mapping[str, str]) -> str:
     """Returns the YAML of a template; lengths have four decimals [m] and angles one [deg].
 
-    The mesh, if any, must be in the same folder.
+    The mesh and its shape modes, if any, must be in the same folder.
 
     Args:
         body: The template.
@@ -74,6 +76,8 @@ def template_text(body: BodyDescription, opening: str, comments: Mapping[str, st
         lines += ["", *comment_lines(_SHAPES), *shape_lines(body.shapes)]
     if body.mesh is not None:
         lines += ["", *comment_lines(_BESIDE), f"mesh: {json.dumps(body.mesh.name)}"]
+    if body.modes is not None:
+        lines += ["", *comment_lines(_MODES), f"modes: {json.dumps(body.modes.name)}"]
     return "\n".join(lines) + "\n"
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from regkit.body import BodyDescription
+from regkit.body.template_file import modes_file, skin_file
 from regkit.config.schema_line import schema_line
 from regkit.fitting.skin import decimated, on_segments
 from regkit.geometry.skinned_mesh import SkinnedMesh
@@ -37,11 +38,16 @@ class FittedTemplate:
     text: Callable[[BodyDescription], str]
 
     def write(self, path: Path) -> tuple[Path, Path]:
-        """Write the YAML file, and the mesh beside it; their paths."""
-        mesh = path.with_name(f"{path.stem}_mesh.npz")
+        """Write the YAML file, and the mesh beside it; their paths.
+
+        Shape modes that are beside it, made by ``regkit_synthesis.modes``, are named in it.
+        """
+        mesh = skin_file(path)
         self.mesh.write(mesh)
+        modes = modes_file(path)
         line = schema_line(path, "template")
-        text = self.text(self.description.model_copy(update={"mesh": mesh}))
+        files = {"mesh": mesh, "modes": modes if modes.exists() else None}
+        text = self.text(self.description.model_copy(update=files))
         write_text(path, text if line is None else f"{line}\n{text}")
         return path, mesh
 
