@@ -73,8 +73,8 @@ class BodyDescription(SkeletonDescription):
     """Skinned mesh for shape models that use one: an ``.npz`` file whose bones are named after the
     segments."""
     modes: InputPath | None = None
-    """Shape modes: an ``.npz`` file of displacements of the mesh's vertices and of the joints, with a
-    prior. ``regkit calibrate`` then finds the shape of a body as a combination of them."""
+    """Shape modes: an ``.npz`` file of displacements of the mesh's vertices and of the joints, with
+    a prior. ``regkit calibrate`` then finds the shape of a body as a combination of them."""
 
     @model_validator(mode="after")
     def _shapes_are_on_segments(self) -> BodyDescription:

@@ -107,7 +107,7 @@ class LinearShape:
         )
 
     def surface(self, x: Array) -> SkinnedSurface:
-        """Returns the skin with the coefficients x (P,) in the segments' frames, without normals."""
+        """Returns the skin with the coefficients x (P,) in the segments' frames, no normals."""
         own = self.own
         return replace(own, points=own.points + np.tensordot(x, self.points, 1), normals=None)
 
@@ -127,7 +127,7 @@ class LinearShape:
         """Displacement of each vertex in the frames of its segments, (P, V, A, 3) [m]."""
         turns = self.mesh.rest[self.mesh.indices, :3, :3]
         moved = self.vertices[:, :, None] - self.joints[:, self.mesh.indices]
-        return np.einsum("vaji,pvaj->pvai", turns, moved)
+        return np.asarray(np.einsum("vaji,pvaj->pvai", turns, moved))
 
     @cached_property
     def offsets(self) -> Array:
@@ -137,7 +137,8 @@ class LinearShape:
         """
         parents = self._bones.parents
         moved = self.joints - self.joints[:, parents]
-        offsets = np.einsum("sji,psj->psi", self.mesh.rest[parents, :3, :3], moved)
+        turns = self.mesh.rest[parents, :3, :3]
+        offsets = np.asarray(np.einsum("sji,psj->psi", turns, moved))
         offsets[:, parents < 0] = 0.0
         return offsets
 
@@ -161,7 +162,7 @@ class LinearShape:
         wanted = extents[0] * size / self.size(self.mean)
         away = np.linalg.solve(self.information, slopes)
         x = self.mean + away * (wanted - extents[0]) / (slopes @ away)
-        return np.clip(x, *self.bounds.T)
+        return np.asarray(np.clip(x, *self.bounds.T))
 
     def _heights(self, several: Array) -> Array:
         """Returns the heights of the vertices in the template's rest pose, (X, V) [m]."""

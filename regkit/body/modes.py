@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -110,7 +111,7 @@ class Modes(Brief):
         write_arrays(path, dict(zip(KEYS, values, strict=True)))
 
 
-def _names(array: np.ndarray, key: str) -> tuple[str, ...]:  # type: ignore[type-arg]
+def _names(array: np.ndarray[Any, Any], key: str) -> tuple[str, ...]:
     """Returns an array of different names.
 
     Raises:

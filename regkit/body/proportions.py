@@ -52,7 +52,9 @@ class Proportions:
             }
             for key, by_segment in template.shapes.items()
         }
-        subject = template.model_copy(update={"segments": segments, "shapes": shapes, "mesh": None, "modes": None})
+        subject = template.model_copy(
+            update={"segments": segments, "shapes": shapes, "mesh": None, "modes": None}
+        )
         size = template.size.value * height(subject) / height(template)
         return subject.model_copy(
             update={"size": template.size.model_copy(update={"value": size, "range": (size, size)})}

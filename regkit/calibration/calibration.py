@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import islice
 
 import numpy as np
 
 from regkit.calibration.frames import Looks, spread
-from regkit.calibration.problem import SubjectProblem
-from regkit.calibration.shape import Shape
 from regkit.calibration.subject import Subject
+from regkit.calibration.subject_shape import SubjectShape
 from regkit.config.model import Model
 from regkit.config.plugin import slot_default, slot_defaults
 from regkit.config.quantities import Count, FrameCount
@@ -25,7 +23,6 @@ from regkit.interfaces import (
     Template,
     Tracker,
 )
-from regkit.system.arrays import Array
 from regkit.system.errors import ConfigError
 from regkit.system.optional import one_blas_thread
 from regkit.system.progress import steps, working
@@ -71,7 +68,7 @@ class Calibration(Model):
             return self._subject(recording)
 
     def _subject(self, recording: Recording) -> Subject:
-        shape = Shape(self.template.description())
+        shape = SubjectShape.of(self.template.description())
         # The fit finds the size; the start needs only a rough one.
         session = Session(
             recording,
@@ -91,7 +88,8 @@ class Calibration(Model):
         x = shape.origin(start.body.size)
         for _ in range(ROUNDS):
             looks = self._looks(session, start)
-            x, looks = self._fitted(shape, x, looks)
+            with working("fitting"):
+                x, looks = shape.fitted(x, looks, self.solver)
             start = Start(shape.body(x), looks.first)
         return Subject.found(shape, x, looks, recording.name)
 
@@ -110,10 +108,3 @@ class Calibration(Model):
         registrar = self.method.bind(start.body)
         track = session.tracked(registrar, self.method.tracker or self.tracker, start.pose)
         return spread(steps(islice(track, length), "tracking", length), length, self.frames)
-
-    def _fitted(self, shape: Shape, x: Array, looks: Looks) -> tuple[Array, Looks]:
-        """Returns the fitted proportions (1 + 2 G) and poses."""
-        problem = SubjectProblem(shape, x, looks.clouds, looks.poses)
-        with working("fitting"):
-            solution = self.solver.minimize(problem)
-        return problem.shape(solution.x), replace(looks, poses=problem.poses(solution.x))

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from regkit.body import Body, BodyDescription, BodyFit
-from regkit.body.proportions import Proportions
 from regkit.body.verdict import frame_verdicts
-from regkit.calibration.frames import Looks, distances
-from regkit.calibration.shape import Shape
+from regkit.calibration.frames import Looks
+from regkit.calibration.subject_shape import ADVICE, SubjectShape
+from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.system.arrays import Array
 from regkit.system.errors import NotFoundError
 from regkit.tracking import Verdict
@@ -18,16 +18,11 @@ from regkit.tracking import Verdict
 FARTHEST = 0.015
 """A fit has failed if the median distance of the data exceeds this fraction of the body's size."""
 
-EXTREME = 1.25
-"""A fit has failed if a bone's length differs by more than this factor from the scaled template."""
-
 FAR = 0.03
 """Points farther from the surface than this fraction of the size are hardly the body's."""
 
 SLACK = 1.05
 """A fit has failed if the size is beyond the template's range by more than this factor."""
-
-ADVICE = "the body was not found; give its size or a start, or use another recording"
 
 
 @dataclass(frozen=True)
@@ -35,37 +30,41 @@ class Subject:
     """The person or hand in a recording.
 
     Attributes:
-        description: The template with the subject's proportions, at the subject's size.
-        proportions: Ratios of the subject's proportions to the template's.
+        shape: What was varied.
+        x: The shape that was found, (P,).
+        description: The template with the subject's shape, at the subject's size.
+        skin: Its mesh; None without one.
         frames: Number of frames used for the fit.
         distance: Median distance of their data to the surface [m].
         strange: Fraction of the data too far from the surface to be the subject's.
         verdict: Whether the body was found in the frames, on average: found or doubtful.
     """
 
+    shape: SubjectShape
+    x: Array
     description: BodyDescription
-    proportions: Proportions
+    skin: SkinnedMesh | None
     frames: int
     distance: float
     strange: float
     verdict: Verdict
 
     @classmethod
-    def found(cls, shape: Shape, x: Array, looks: Looks, recording: str) -> Subject:
-        """Returns the subject with the shape parameters x (1 + 2 G).
+    def found(cls, shape: SubjectShape, x: Array, looks: Looks, recording: str) -> Subject:
+        """Returns the subject with the shape x (P,).
 
         Args:
-            shape: The parametrised template.
-            x: Shape parameters, (1 + 2 G).
+            shape: The template whose shape was varied.
+            x: The shape, (P,).
             looks: The frames used for the fit.
             recording: Name of the recording.
 
         Raises:
-            NotFoundError: If the proportions are implausible, the data are far from the surface, or
+            NotFoundError: If the shape is implausible, the data are far from the surface, or
                 the body is lost in the frames.
         """
         body = shape.body(x)
-        gaps = distances(body, looks)
+        gaps = shape.gaps(x, looks)
         off = float(np.median(gaps))
         verdict = _verdict(body, looks)
         try:
@@ -75,8 +74,10 @@ class Subject:
         except NotFoundError as error:
             raise error.at(recording) from None
         return cls(
+            shape=shape,
+            x=x,
             description=_named(shape.description(x), recording, len(looks.poses)),
-            proportions=shape.proportions(x),
+            skin=shape.skin(x),
             frames=len(looks.poses),
             distance=off,
             strange=float((gaps > FAR * body.size).mean()),
@@ -108,17 +109,17 @@ def _named(description: BodyDescription, recording: str, frames: int) -> BodyDes
     )
 
 
-def check(shape: Shape, x: Array, off: float) -> None:
-    """Checks that proportions are plausible; a failed start or track makes them implausible.
+def check(shape: SubjectShape, x: Array, off: float) -> None:
+    """Checks that a shape is plausible; a failed start or track makes it implausible.
 
     Args:
-        shape: The parametrised template.
-        x: Shape parameters, (1 + 2 G).
+        shape: The template whose shape was varied.
+        x: The shape, (P,).
         off: Median distance of the data to the surface [m].
 
     Raises:
         NotFoundError: If the surface is far from the data, the size is beyond the template's range,
-            or a bone's length is extreme.
+            or the shape is extreme.
     """
     size = shape.description(x).size
     smallest, largest = shape.template.size.range
@@ -129,10 +130,4 @@ def check(shape: Shape, x: Array, off: float) -> None:
         )
     if off > FARTHEST * size.value:
         raise NotFoundError(f"the body's surface lies {100.0 * off:.1f} cm from the data: {ADVICE}")
-    lengths = x[1 : 1 + len(shape.groups.names)]
-    worst = int(np.abs(lengths).argmax())
-    if abs(lengths[worst]) > np.log(EXTREME):
-        raise NotFoundError(
-            f"'{shape.groups.names[worst]}' came out {np.exp(lengths[worst]):.2f} times as long as "
-            f"in the scaled template: {ADVICE}"
-        )
+    shape.check(x)

@@ -11,9 +11,9 @@ from rich.markup import escape
 from rich.table import Table
 
 from regkit.body.description import SizeDescription
-from regkit.body.proportions import Proportions
 from regkit.body.template_file import check_replaceable, write_template
 from regkit.calibration import MarkerSet, MarkerSubject, Subject
+from regkit.calibration.subject_shape import COLUMNS, proportion_rows
 from regkit.cli.calibration_source import Source
 from regkit.cli.choices import segmentation_named
 from regkit.cli.completion import plugin_names
@@ -135,9 +135,8 @@ def calibrate(
         return
     subject = found.calibration(frames).subject(seen)
     opening = OPENING.format(frames=subject.frames, recording=seen.name, file=out.name)
-    skin = subject.proportions.skin(found.template.description())
-    write_template(out, subject.description, skin, opening)
-    _print_summary(subject, found.template.description().size.value)
+    write_template(out, subject.description, subject.skin, opening)
+    _print_summary(subject)
     output.print(f"written: {out}")
     reason = "" if subject.verdict is Verdict.FOUND else DOUBT
     conclude(subject.verdict, reason, strict=strict)
@@ -156,7 +155,8 @@ def _by_markers(template: Template, markers: Path, seen: Recording, frames: int,
     skin = subject.proportions.skin(template.description())
     write_template(out, subject.description, skin, opening)
     size = subject.description.size
-    _print_proportions(size, subject.proportions, template.description().size.value)
+    scale = size.value / template.description().size.value
+    _print_changes(size, COLUMNS, proportion_rows(subject.proportions, scale))
     unseen = [name for name, error in zip(subject.names, subject.errors, strict=True)
               if not error >= 0.0]  # fmt: skip
     if unseen:
@@ -172,9 +172,9 @@ def _by_markers(template: Template, markers: Path, seen: Recording, frames: int,
     output.print(f"written: {out}")
 
 
-def _print_summary(subject: Subject, template_size: float) -> None:
-    """Prints the size, proportions and fit of the calibrated template."""
-    _print_proportions(subject.description.size, subject.proportions, template_size)
+def _print_summary(subject: Subject) -> None:
+    """Prints the size, shape and fit of the calibrated template."""
+    _print_changes(subject.description.size, *subject.shape.changes(subject.x))
     output.print(
         f"half of the data lies within {1000.0 * subject.distance:.1f} mm of the surface",
     )
@@ -187,19 +187,12 @@ def _print_summary(subject: Subject, template_size: float) -> None:
         )
 
 
-def _print_proportions(
-    size: SizeDescription, proportions: Proportions, template_size: float
-) -> None:
-    """Prints the size and the proportions relative to a template."""
-    scale = size.value / template_size
-    output.print(
-        f"{size.name} {size.value:.4g} m; relative to the template at this {size.name}:",
-    )
-    table = Table("segments")
-    for column in ("length", "girth"):
+def _print_changes(size: SizeDescription, columns: list[str], rows: list[list[str]]) -> None:
+    """Prints the size, and a table of what a shape changes."""
+    output.print(f"{size.name} {size.value:.4g} m; relative to the template at this {size.name}:")
+    table = Table(columns[0])
+    for column in columns[1:]:
         table.add_column(column, justify="right")
-    for name, length, girth in zip(
-        proportions.groups.names, proportions.lengths, proportions.girths, strict=True
-    ):
-        table.add_row(escape(name), f"{length / scale:.2f}", f"{girth / scale:.2f}")
+    for row in rows:
+        table.add_row(*map(escape, row))
     output.print(table)

@@ -49,7 +49,8 @@ class Hand(Template):
 def with_forearm(hand: BodyDescription) -> BodyDescription:
     """Returns the template of a hand with the forearm in ``forearm.yaml``.
 
-    The hand's shape modes say nothing about a forearm and are left out. To a named list of the hand that the forearm lacks, it adds the primitives of the same kind.
+    The hand's shape modes say nothing about a forearm and are left out. To a named list of the hand
+    that the forearm lacks, it adds the primitives of the same kind.
     """
     part = description_in(FOLDER / "forearm.yaml")
     shapes = {

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,6 +13,7 @@ import numpy as np
 from regkit.body import BodyDescription
 from regkit.body.modes import Modes
 from regkit.body.reading import description_in
+from regkit.fitting.layout import Layout
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.system.errors import RegkitError
 from regkit_synthesis import assets
@@ -29,6 +31,9 @@ PEOPLE_COMPONENTS, HAND_COMPONENTS = 16, 8
 
 PHENOTYPES = ("muscle", "age", "gender")
 """Phenotypes of anny that become modes, beside height and weight."""
+
+
+Layouts = Callable[[SkinnedMesh], Layout]
 
 
 def human_modes(folder: Path) -> Modes:
@@ -61,15 +66,15 @@ def hand_modes(folder: Path) -> Modes:
 
 
 def mirrored(modes: Modes) -> Modes:
-    """Returns the modes of the mirror image in the plane x = 0: a left hand's from a right one's."""
+    """Returns the modes of the mirror image in the plane x = 0: a left hand's of a right one's."""
     flip = np.array([-1.0, 1.0, 1.0])
     return replace(modes, joints=modes.joints * flip, vertices=modes.vertices * flip)
 
 
-def _reference(file: Path, mesh: SkinnedMesh, layout: object) -> Reference:
+def _reference(file: Path, mesh: SkinnedMesh, layout: Layouts) -> Reference:
     template: BodyDescription = description_in(file)
     assert template.mesh is not None
-    return Reference.of(template, SkinnedMesh.read(template.mesh), mesh, layout)  # type: ignore[arg-type]
+    return Reference.of(template, SkinnedMesh.read(template.mesh), mesh, layout)
 
 
 def main() -> int:

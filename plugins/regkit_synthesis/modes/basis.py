@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from regkit.body.modes import Modes
-from regkit.system.arrays import Array
+from regkit.system.arrays import Array, Indices
 
 SPREAD = 3.5
 """Bounds of the coefficients, in standard deviations from their mean."""
@@ -77,7 +77,7 @@ def height(vertices: Array) -> Array:
     return np.asarray(np.ptp(vertices[:, :, 1], axis=1))
 
 
-def mass(vertices: Array, faces: Array) -> Array:
+def mass(vertices: Array, faces: Indices) -> Array:
     """Returns the masses (N,) [kg] of closed meshes (N, V, 3) with the density of people."""
     corners = vertices[:, faces]
     crossed = np.cross(corners[:, :, 1], corners[:, :, 2])
