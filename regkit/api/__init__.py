@@ -13,6 +13,8 @@ from regkit.api.recordings import load_recording
 from regkit.api.registering import register, track
 from regkit.api.registration import Registration
 from regkit.api.several import track_each
+from regkit.api.shaped_body import ShapedBody
+from regkit.api.shaping import fit_shape
 from regkit.api.sources import open_source
 from regkit.api.tracking import Tracking, TrackingError
 from regkit.api.tuning import Tuned, tune
@@ -35,6 +37,7 @@ __all__ = [
     "Registration",
     "RegkitError",
     "RegkitWarning",
+    "ShapedBody",
     "Tracking",
     "TrackingError",
     "Truth",
@@ -44,6 +47,7 @@ __all__ = [
     "align",
     "align_all",
     "examples_folder",
+    "fit_shape",
     "frame_of_views",
     "load_frame",
     "load_keypoints",

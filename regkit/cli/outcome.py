@@ -28,7 +28,14 @@ SHOWN = 4
 
 
 def finish(
-    tracking: Tracking, template: Template, out: Path | None, *, as_json: bool, strict: bool
+    tracking: Tracking,
+    template: Template,
+    out: Path | None,
+    *,
+    as_json: bool,
+    strict: bool,
+    more: Mapping[str, Any] | None = None,
+    rows: Mapping[str, str] | None = None,
 ) -> None:
     """Prints the result, writes it to a folder, and tells whether the body was found.
 
@@ -38,12 +45,14 @@ def finish(
         out: The folder, if it is to be written.
         as_json: Whether to print JSON instead of a table.
         strict: Whether a doubtful result counts as not found.
+        more: What else ``result.json`` holds.
+        rows: What else the table shows, before the verdict.
 
     Raises:
         RegkitError: If a file cannot be written.
         Exit: With ``NOT_FOUND``, if the body was lost, or is doubtful and ``strict`` is set.
     """
-    show(tracking, template, out, as_json=as_json)
+    show(tracking, template, out, as_json=as_json, more=more, rows=rows)
     judged = tracking.judged
     conclude(judged.verdict, judged.reason, strict=strict)
 
@@ -56,6 +65,7 @@ def show(
     as_json: bool,
     console: Console = output,
     more: Mapping[str, Any] | None = None,
+    rows: Mapping[str, str] | None = None,
 ) -> None:
     """Prints the result and writes it to a folder.
 
@@ -65,7 +75,8 @@ def show(
         out: The folder, if it is to be written.
         as_json: Whether to print JSON instead of a table.
         console: Where the table is printed.
-        more: What else ``result.json`` holds, of a stream.
+        more: What else ``result.json`` holds, of a stream or of a shape.
+        rows: What else the table shows, before the verdict.
 
     Raises:
         RegkitError: If a file cannot be written.
@@ -74,7 +85,7 @@ def show(
     if as_json:
         typer.echo(json.dumps(figures, indent=2, allow_nan=False))
     else:
-        console.print(_table(tracking, figures))
+        console.print(_table(tracking, figures, rows or {}))
     if out is not None:
         write_track(out, tracking, template, figures)
         errors.print(f"written: {out}")
@@ -113,7 +124,7 @@ def _figures(tracking: Tracking) -> dict[str, Any]:
     return figures
 
 
-def _table(tracking: Tracking, figures: dict[str, Any]) -> Table:
+def _table(tracking: Tracking, figures: dict[str, Any], rows: Mapping[str, str]) -> Table:
     distance, fps = figures["surface_distance_mm"], figures["frames_per_second"]
     verdict = str(figures["verdict"])
     if len(tracking) > 1:
@@ -129,6 +140,7 @@ def _table(tracking: Tracking, figures: dict[str, Any]) -> Table:
         ("covered", _percent(figures["coverage"], "the visible body has data")),
         ("little data", _told(figures["segments_with_little_data"])),
         ("converged", f"{figures['converged_frames']} of {len(tracking)}"),
+        *rows.items(),
         ("verdict", verdict),
         ("stream", _stream(figures)),
         # The first frame includes the loading of data, so its speed says little.
