@@ -203,4 +203,5 @@ class ModeShape(SubjectShape):
 
 
 def _measured(looks: Looks) -> list[Measured]:
-    return [Measured.of(cloud.observation) for cloud in looks.clouds]
+    share = 1.0 / len(looks.clouds)
+    return [Measured.of(cloud.observation, share) for cloud in looks.clouds]

@@ -165,10 +165,10 @@ def scaling(shape: LinearShape) -> LinearShape:
 def test_mode_that_enlarges_everything_scales_the_template(shape):
     larger = shaped(scaling(shape), np.array([2.0]))
     template: BodyDescription = shape.template
-    assert larger.size.value == pytest.approx(1.2 * template.size.value, rel=1e-9)
+    assert larger.size.value == pytest.approx(1.2 * template.size.value, rel=1e-4)
     for name, segment in template.segments.items():
         scaled = larger.segments[name]
-        np.testing.assert_allclose(scaled.offset, 1.2 * np.array(segment.offset), atol=1e-6)
+        np.testing.assert_allclose(scaled.offset, 1.2 * np.array(segment.offset), atol=1e-4)
         for one, other in zip(segment.capsules, scaled.capsules, strict=True):
             np.testing.assert_allclose(other.start, 1.2 * np.array(one.start), atol=1e-3)
             np.testing.assert_allclose(other.radius, 1.2 * np.array(one.radius), rtol=5e-3)

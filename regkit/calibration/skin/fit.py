@@ -16,14 +16,15 @@ from regkit.interfaces import Solver
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 
-ROUNDS = 3
-"""Number of fits; each has the cutoff that suits the distances of the last."""
+WIDE = (0.03, 0.015, 0.0)
+"""Least cutoffs of distances in the fits that follow each other, as fractions of the body's size: a
+part of the wrong length is first drawn from afar."""
 
 CUTOFF = 2.0
 """Cutoff of distances in units of the median of the data's, which covers noise and misfit."""
 
 SMALLEST_CUTOFF = 0.002
-"""Least cutoff, as a fraction of the body's size."""
+"""Least cutoff of all, as a fraction of the body's size."""
 
 
 @dataclass(frozen=True)
@@ -45,8 +46,6 @@ def fitted(
     frames: Sequence[Measured],
     poses: Sequence[Pose],
     solver: Solver,
-    *,
-    rounds: int = ROUNDS,
 ) -> SkinFit:
     """Returns the most probable shape and poses.
 
@@ -56,12 +55,11 @@ def fitted(
         frames: Data of F frames.
         poses: Initial poses of the body in these frames.
         solver: The solver.
-        rounds: Number of fits.
     """
     found = SkinFit(start, tuple(poses))
-    for _ in range(rounds):
+    for wide in WIDE:
         gaps = np.abs(skin_distances(shape, found.coefficients, frames, found.poses))
-        least = SMALLEST_CUTOFF * shape.size(found.coefficients)
+        least = max(wide, SMALLEST_CUTOFF) * shape.size(found.coefficients)
         cutoff = max(CUTOFF * float(np.median(gaps)), least)
         problem = SkinProblem(shape, found.coefficients, frames, found.poses, cutoff)
         x = solver.minimize(problem).x

@@ -15,11 +15,11 @@ from regkit.geometry.camera import Camera
 from regkit.observation import Observation
 from regkit.system.arrays import Array, Indices
 
-MOST_POINTS = 2000
-"""This many points of a frame, spread evenly, determine the shape as well as all of them."""
+MOST_POINTS = 3000
+"""This many points of all frames together, spread evenly, determine the shape as well as all."""
 
 MOST_SKIN_POINTS = 2000
-"""Number of points of the skin whose distance to the data is asked."""
+"""Number of points of the skin whose distance to the data is asked, in all frames together."""
 
 NEIGHBOURS = 8
 """Number of points of the skin near a pixel, of which that at the nearest depth corresponds."""
@@ -47,32 +47,34 @@ class Measured:
         observation: The observation.
         points: All its points: of a depth image every measured pixel, (N, 3) [m].
         camera: The camera of a depth image; None of a cloud.
+        share: The part of all compared points that are this frame's.
     """
 
     observation: Observation
     points: Array
     camera: Camera | None
+    share: float = 1.0
 
     @classmethod
-    def of(cls, observation: Observation) -> Measured:
+    def of(cls, observation: Observation, share: float = 1.0) -> Measured:
         """Returns the data of an observation by one camera, or without one."""
         camera, depth = observation.camera, observation.depth
         if camera is None or depth is None:
-            return cls(observation, observation.points, None)
+            return cls(observation, observation.points, None, share)
         rows, columns = np.nonzero(depth > 0.0)
         z = depth[rows, columns]
         x = (columns - camera.cx) / camera.fx * z
         y = (rows - camera.cy) / camera.fy * z
-        return cls(observation, np.column_stack([x, y, z]), camera)
+        return cls(observation, np.column_stack([x, y, z]), camera, share)
 
     @cached_property
     def chosen(self) -> Array:
         """The points that are compared with the skin, (M, 3) [m]."""
-        count = len(self.points)
-        if count <= MOST_POINTS:
+        count, most = len(self.points), round(self.share * MOST_POINTS)
+        if count <= most:
             return self.points
-        # Pixels and scanned points come in rows; every k-th of a random order is even.
-        return self.points[np.random.default_rng(0).permutation(count)[:MOST_POINTS]]
+        # Pixels and scanned points come in rows; a part of a random order is even.
+        return self.points[np.random.default_rng(0).permutation(count)[:most]]
 
     @cached_property
     def tree(self) -> scipy.spatial.KDTree:
@@ -141,7 +143,8 @@ class Measured:
 
         Only those count that the data would show.
         """
-        chosen = np.linspace(0, len(placed) - 1, min(MOST_SKIN_POINTS, len(placed))).astype(np.intp)
+        most = min(round(self.share * MOST_SKIN_POINTS), len(placed))
+        chosen = np.linspace(0, len(placed) - 1, most).astype(np.intp)
         chosen = chosen[shown[chosen]]
         sight = self.observation.sight
         if sight is not None:
