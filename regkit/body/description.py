@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import AfterValidator, Field, model_validator
 
 from regkit.body.body import Body, Markers, Stance
-from regkit.body.checks import check_lengths, check_stances
+from regkit.body.checks import check_lengths, check_modes, check_stances
 from regkit.body.deformation import Scaling
 from regkit.body.listed import ListedShape
 from regkit.body.shape_parameters import ShapeParameters, UncheckedParameters
@@ -72,6 +72,8 @@ class BodyDescription(SkeletonDescription):
     mesh: InputPath | None = None
     """Skinned mesh for shape models that use one: an ``.npz`` file whose bones are named after the
     segments."""
+    modes: InputPath | None = None
+    """Linear shape modes of the skeleton and of ``mesh``: an ``.npz`` file."""
 
     @model_validator(mode="after")
     def _shapes_are_on_segments(self) -> BodyDescription:
@@ -86,6 +88,11 @@ class BodyDescription(SkeletonDescription):
                         key,
                         name,
                     )
+        return self
+
+    @model_validator(mode="after")
+    def _modes_are_of_the_mesh(self) -> BodyDescription:
+        check_modes(type(self), self.modes, self.mesh, self.segments)
         return self
 
     @model_validator(mode="after")

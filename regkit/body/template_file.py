@@ -1,4 +1,4 @@
-"""Writing of templates, each with its mesh in a file beside it."""
+"""Writing of templates, each with its mesh and shape modes in files beside it."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from regkit.body.description import BodyDescription
+from regkit.body.modes import Modes
 from regkit.body.writing import template_text
 from regkit.config.document import Document
 from regkit.config.schema_line import schema_line
@@ -39,14 +40,20 @@ def skin_file(out: Path) -> Path:
     return out.with_name(f"{out.stem}_mesh.npz")
 
 
+def modes_file(out: Path) -> Path:
+    """Returns the file of the shape modes beside a template's file."""
+    return out.with_name(f"{out.stem}_modes.npz")
+
+
 def write_template(
     out: Path,
     description: BodyDescription,
     skin: SkinnedMesh | None,
     opening: str,
     comments: Mapping[str, str] | None = None,
+    modes: Modes | None = None,
 ) -> None:
-    """Writes a template and its mesh.
+    """Writes a template, its mesh and its shape modes.
 
     If a schema of templates is nearby, the file names it for editors.
 
@@ -56,11 +63,16 @@ def write_template(
         skin: Its mesh, written beside the file; None without one.
         opening: Comment at the top of the file.
         comments: Comments on joints, by joint.
+        modes: Shape modes of the mesh, written beside the file; None without any.
     """
     if skin is not None:
         mesh = skin_file(out)
         skin.write(mesh)
         description = description.model_copy(update={"mesh": mesh})
+    if modes is not None:
+        beside = modes_file(out)
+        modes.write(beside)
+        description = description.model_copy(update={"modes": beside})
     line = schema_line(out, "template")
     text = template_text(description, opening, comments or {})
     write_text(out, text if line is None else f"{line}\n{text}")

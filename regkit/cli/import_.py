@@ -7,14 +7,23 @@ from typing import Annotated
 
 import typer
 
-from regkit.body.template_file import check_replaceable, skin_file, write_template
+from regkit.body.template_file import (
+    check_replaceable,
+    modes_file,
+    skin_file,
+    write_template,
+)
 from regkit.cli.console import output, print_warning
-from regkit.cli.options import options
+from regkit.cli.options import PluginFiles, options, run_plugin_files
+from regkit.fitting.body_model import body_model_template
+from regkit.fitting.template import parameters_of
+from regkit.interchange.body_model.model_file import SUFFIXES
+from regkit.interchange.body_model.smpl import MODES
 from regkit.interchange.bones import THICKNESS
 from regkit.interchange.imported import ImportedSkeleton
 from regkit.interchange.skeletons import read_skeleton
 from regkit.skeleton.joints import BallJoint
-from regkit.system.errors import ConfigError
+from regkit.system.errors import ConfigError, RegkitError
 from regkit.system.progress import working
 
 OPENING = """\
@@ -36,11 +45,20 @@ UNLIMITED = """\
 
 Ball joints have no limits in the file; set them with `swing_deg` and `twist_deg`."""
 
+MODELLED = """\
+
+The skin has the vertices of the model, and a joint's rotation is the model's own."""
+
 
 def import_(
     file: Annotated[
         Path,
-        typer.Argument(metavar="FILE", help="A .bvh or .urdf file.", show_default=False),
+        typer.Argument(
+            metavar="FILE",
+            help="A .bvh or .urdf file, or a body model in the layout of SMPL: .npz or .pkl, of "
+            "which nothing is executed.",
+            show_default=False,
+        ),
     ],
     out: Annotated[Path, typer.Option(metavar="FILE", help="Template to write.")] = Path(
         "imported.yaml"
@@ -61,7 +79,7 @@ def import_(
         str | None,
         typer.Option(
             metavar="AXIS",
-            help="The file's upward axis, such as y or -z. (default: y for BVH, z for URDF)",
+            help="The file's upward axis, such as y or -z. (default: z for URDF, y for others)",
             show_default=False,
         ),
     ] = None,
@@ -69,7 +87,7 @@ def import_(
         str | None,
         typer.Option(
             metavar="AXIS",
-            help="The file's forward axis. (default: z for BVH, x for URDF)",
+            help="The file's forward axis. (default: x for URDF, z for others)",
             show_default=False,
         ),
     ] = None,
@@ -82,29 +100,96 @@ def import_(
             show_default=False,
         ),
     ] = None,
+    modes: Annotated[
+        int | None,
+        typer.Option(
+            min=0,
+            metavar="N",
+            help=f"Number of a body model's shape modes to take. (default: {MODES})",
+            show_default=False,
+        ),
+    ] = None,
+    shape: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="KIND",
+            help="Also fit this shape model to a body model's surface, with one primitive per "
+            "segment; may be repeated. (default: primitives follow from the capsules)",
+            show_default=False,
+        ),
+    ] = None,
+    plugin: PluginFiles = None,
 ) -> None:
-    """Create a template from another program's skeleton: BVH, or URDF with its limits."""
+    """Create a template from another program's skeleton or body model: BVH, URDF, SMPL."""
+    run_plugin_files(plugin)
     if not 0.0 < scale < float("inf"):
         raise ConfigError(f"the scale is {scale:g}; it must be positive", place="--scale")
     for folder in package or ():
         if not folder.is_dir():
             raise ConfigError(f"{folder} is not a folder", place="--package")
     check_replaceable(out)
+    _check_given(file, modes, shape)
+    model = file.suffix.lower() in SUFFIXES
     with options(up="--up", front="--front"), working("importing"):
-        imported = read_skeleton(
-            file, scale=scale, title=title, up=up, front=front, packages=package or ()
-        )
-    given = {"--scale": f"{scale:g}" if scale != 1.0 else None, "--up": up, "--front": front}
+        if model:
+            imported = body_model_template(
+                file,
+                scale=scale,
+                title=title,
+                up=up,
+                front=front,
+                modes=MODES if modes is None else modes,
+                shapes=shape or (),
+            )
+        else:
+            imported = read_skeleton(
+                file, scale=scale, title=title, up=up, front=front, packages=package or ()
+            )
+    given = {
+        "--scale": f"{scale:g}" if scale != 1.0 else None,
+        "--up": up,
+        "--front": front,
+        "--modes": None if modes is None else str(modes),
+    }
     written = [word for option, value in given.items() if value for word in (option, value)]
     opening = OPENING.format(command=" ".join([file.name, *written]), file=out.name)
     if imported.shaped:
         opening += "\n" + UNSHAPED.format(share=THICKNESS)
-    if any(isinstance(one.joint, BallJoint) for one in imported.description.segments.values()):
+    joints = [one.joint for one in imported.description.segments.values()]
+    if any(isinstance(joint, BallJoint) and joint.swing_deg is None for joint in joints):
         opening += "\n" + UNLIMITED
-    write_template(out, imported.description, imported.skin, opening, imported.comments)
+    if model:
+        opening += "\n" + MODELLED
+    write_template(
+        out, imported.description, imported.skin, opening, imported.comments, imported.modes
+    )
     _print_summary(imported)
-    output.print(f"written: {out}" + ("" if imported.skin is None else f" and {skin_file(out)}"))
+    beside = [] if imported.skin is None else [skin_file(out)]
+    beside += [] if imported.modes is None else [modes_file(out)]
+    output.print(f"written: {' and '.join(map(str, [out, *beside]))}")
     output.print(f"template: {{kind: file, path: {out}}}")
+
+
+def _check_given(file: Path, modes: int | None, shape: list[str] | None) -> None:
+    """Checks that the options of body models are given for body models, and are known.
+
+    Raises:
+        ConfigError: If they are not.
+        PluginError: If a shape model is unknown.
+    """
+    if file.suffix.lower() not in SUFFIXES:
+        for option, value in (("--modes", modes), ("--shape", shape)):
+            if value:
+                raise ConfigError(
+                    f"{file.name} is no body model ({', '.join(SUFFIXES)}), which alone has shape "
+                    "modes and a surface to fit",
+                    place=option,
+                )
+    for kind in shape or ():
+        try:
+            parameters_of(kind)
+        except RegkitError as error:
+            raise error.at(f"--shape {kind}") from None
 
 
 def _print_summary(imported: ImportedSkeleton) -> None:
@@ -119,6 +204,8 @@ def _print_summary(imported: ImportedSkeleton) -> None:
     )
     capsules = sum(len(segment.capsules) for segment in segments)
     skin = "" if imported.skin is None else f"skin: {len(imported.skin.vertices)} vertices; "
+    if imported.modes is not None:
+        skin += f"shape modes: {len(imported.modes.names)} of {imported.modes_in_file}; "
     output.print(
         f"segments: {len(kinds)} ({joints}); capsules: {capsules}; {skin}"
         f"{description.size.name}: {description.size.value:.4g} m",
