@@ -74,7 +74,7 @@ class Modes(Brief):
             labels,
             read_only(checked_shape(arrays, "joints", count, len(labels), 3, most=FARTHEST)),
             read_only(checked_shape(arrays, "vertices", count, None, 3, most=FARTHEST)),
-            read_only(checked_shape(arrays, "mean", count)),
+            read_only(checked_shape(arrays, "mean", count, most=FARTHEST)),
             read_only(_covariance(arrays, count)),
             read_only(_bounds(arrays, count)),
         )
@@ -110,7 +110,7 @@ def _names(arrays: Arrays, key: str) -> tuple[str, ...]:
 
 
 def _covariance(arrays: Arrays, count: int) -> Array:
-    covariance = checked_shape(arrays, "covariance", count, count)
+    covariance = checked_shape(arrays, "covariance", count, count, most=FARTHEST)
     if np.abs(covariance - covariance.T).max() > ASYMMETRIC * np.abs(covariance).max():
         raise DataError("covariance is not symmetric")
     least = float(np.linalg.eigvalsh(covariance).min())
@@ -120,7 +120,7 @@ def _covariance(arrays: Arrays, count: int) -> Array:
 
 
 def _bounds(arrays: Arrays, count: int) -> Array:
-    bounds = checked_shape(arrays, "bounds", count, 2)
+    bounds = checked_shape(arrays, "bounds", count, 2, most=FARTHEST)
     wrong = bounds[:, 0] > bounds[:, 1]
     if wrong.any():
         mode = int(np.argmax(wrong))
