@@ -1,5 +1,7 @@
 """``regkit import`` of parametric body models."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from body_models import body_arrays, python2_pickle, sparse, write_npz
@@ -60,6 +62,42 @@ def test_modes_of_another_mesh_are_refused_with_file_and_field(regkit, tmp_path,
         assert f"{out}:" in str(raised.value)
         assert "modes" in str(raised.value)
         assert regkit("validate", out).code == 1
+
+
+def test_a_body_model_is_fitted_by_another_template(regkit, tmp_path):
+    person = SkinnedMesh.read(Path("plugins/regkit_plugins/templates/human_mesh.npz"))
+    vertices, joints = person.vertices, person.rest[:, :3, 3]
+    weights, regressor = np.zeros((2, len(vertices), len(joints)))
+    np.add.at(weights, (np.arange(len(vertices))[:, None], person.indices), person.weights)
+    for joint, place in enumerate(joints):
+        near = np.argsort(np.linalg.norm(vertices - place, axis=1))[:60]
+        system = np.vstack([vertices[near].T, np.ones(60)])
+        regressor[near, joint] = np.linalg.lstsq(system, np.append(place, 1.0), rcond=None)[0]
+    model = write_npz(
+        tmp_path / "model.npz",
+        {
+            "v_template": vertices,
+            "f": person.faces,
+            "weights": weights,
+            "kintree_table": np.array([person.parents, range(len(joints))]),
+            "J_regressor": regressor.T,
+            "shapedirs": 0.05 * vertices[..., None],
+            "joint2num": {label: joint for joint, label in enumerate(person.labels)},
+        },
+    )
+    out = tmp_path / "fitted.yaml"
+    ended = regkit("fit", model, "--template", "human", "--out", out, "--vertices", 300)
+    assert ended.code == 0, ended.err
+    assert "300 vertices; 1 shape modes" in ended.out
+    description = Document.read(out).validated(BodyDescription)
+    assert description.modes is not None
+    skin, modes = SkinnedMesh.read(description.mesh), Modes.read(description.modes)
+    # The mode stretches everything by 5 %, from wherever the root is.
+    root = modes.joints[0, modes.labels.index("pelvis")]
+    np.testing.assert_allclose(modes.vertices[0] - root, 0.05 * skin.vertices, atol=1e-5)
+    order = [modes.labels.index(label) for label in skin.labels]
+    origins = 0.05 * skin.rest[:, :3, 3]
+    np.testing.assert_allclose(modes.joints[0, order] - root, origins, atol=1e-5)
 
 
 def test_a_pickle_that_asks_to_run_something_is_refused(regkit, tmp_path):

@@ -17,7 +17,6 @@ from tests.fuzz import oracles
 from tests.fuzz.kind import Damaged, Files, Kind
 from tests.support.body_models import body_arrays, chumpy, python2_pickle, sparse
 
-
 JOINTS = 4
 """The pelvis, the hips and the first joint of the spine: what grows with a small model is small."""
 
