@@ -69,7 +69,7 @@ def _subject(
 ) -> MarkerSubject:
     own = template.description()
     # What the fit does not need would be scaled again at every step.
-    bare = own.model_copy(update={"shapes": {}, "mesh": None})
+    bare = own.model_copy(update={"shapes": {}, "mesh": None, "modes": None})
     whole, shape = markers.added_to(bare), Shape(bare)
     many = [_observed(frame) for frame in recording.frames()]
     try:

@@ -142,7 +142,7 @@ class TrackDescription(Model):
         """
         arrays = _poses(folder, self.size)
         place = f"{folder / FILE}: template"
-        data = {**self.template, "mesh": None}
+        data = {**self.template, "mesh": None, "modes": None}
         description = Document(data, {(): place}).validated(BodyDescription)
         body = description.body(self.recording, self.size)
         transforms = placed(body, arrays)

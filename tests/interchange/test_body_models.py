@@ -25,6 +25,7 @@ from regkit.config.document import Document
 from regkit.fitting.body_model import body_model_template
 from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import from_matrix, from_vector, to_matrix
+from regkit.interchange.body_model.joints import family_of
 from regkit.interchange.body_model.smpl import BodyModel
 from regkit.interchange.imported import ImportedSkeleton
 from regkit.skeleton import Pose
@@ -171,6 +172,14 @@ def test_python_objects_in_an_archive_are_read_as_data(tmp_path):
     assert same(BodyModel.read(packed.rename(tmp_path / "packed.pkl"), UPRIGHT), expected)
 
 
+def test_an_array_that_chumpy_computes_is_told(tmp_path):
+    added = Instance("chumpy.ch", "add", {"a": chumpy(np.zeros(3)), "b": chumpy(np.zeros(3))})
+    path = tmp_path / "model.pkl"
+    path.write_bytes(python2_pickle({**body_arrays(), "weights": added}))
+    with pytest.raises(DataError, match=r"weights is computed by 'chumpy.ch.add'"):
+        BodyModel.read(path, UPRIGHT)
+
+
 def same(model: BodyModel, other: BodyModel) -> bool:
     assert model.modes is not None
     assert other.modes is not None
@@ -189,6 +198,28 @@ def same(model: BodyModel, other: BodyModel) -> bool:
     return model.mesh.labels == other.mesh.labels and all(
         np.array_equal(one, two) for one, two in pairs
     )
+
+
+@pytest.mark.parametrize(
+    ("family", "parents"),
+    [
+        ("SMPL", "-1 0 0 0 1 2 3 4 5 6 7 8 9 9 9 12 13 14 16 17 18 19 20 21"),
+        (
+            "SMPL-H",
+            "-1 0 0 0 1 2 3 4 5 6 7 8 9 9 9 12 13 14 16 17 18 19 20 22 23 20 25 26 20 28 29 20 31 "
+            "32 20 34 35 21 37 38 21 40 41 21 43 44 21 46 47 21 49 50",
+        ),
+        (
+            "SMPL-X",
+            "-1 0 0 0 1 2 3 4 5 6 7 8 9 9 9 12 13 14 16 17 18 19 15 15 15 20 25 26 20 28 29 20 31 "
+            "32 20 34 35 20 37 38 21 40 41 21 43 44 21 46 47 21 49 50 21 52 53",
+        ),
+        ("MANO", "-1 0 1 2 0 4 5 0 7 8 0 10 11 0 13 14"),
+        ("FLAME", "-1 0 1 1 1"),
+    ],
+)
+def test_the_trees_of_known_models_are_told(family, parents):
+    assert family_of([int(parent) for parent in parents.split()]) == family
 
 
 def test_joints_that_are_no_known_model_have_the_names_of_the_file_or_numbers(tmp_path):

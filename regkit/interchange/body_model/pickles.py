@@ -25,11 +25,10 @@ KNOWN = frozenset(
         "numpy.core.multiarray.scalar",
         "numpy.core.numeric._frombuffer",
         "_codecs.encode",
-        "builtins.object",
-        "builtins.set",
         "copyreg._reconstructor",
         "collections.OrderedDict",
         "collections.defaultdict",
+        *(f"builtins.{name}" for name in ("object", "set", "frozenset", "list", "tuple", "dict")),
     }
 )
 """What body models consist of, besides sparse matrices and the arrays of chumpy."""

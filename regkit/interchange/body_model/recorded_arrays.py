@@ -56,7 +56,12 @@ def array_of(value: Any, depth: int = 0) -> Numbers:
     if origin == "numpy.core.numeric._frombuffer":
         data, dtype, shape, order = _fields(value.args, 4)
         return _array(data, dtype, shape, "F" if order == "F" else "C")
-    raise DataError(f"is a {origin or 'nothing'}; it needs an array")
+    if origin.startswith("chumpy"):
+        raise DataError(
+            f"is computed by '{origin}' from other arrays; write its values into the file, such as "
+            "by `tools/clean_ch.py` of the package smplx"
+        )
+    raise DataError(f"is a '{origin}'; it needs an array")
 
 
 def content_of(value: Any) -> Any:
