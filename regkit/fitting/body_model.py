@@ -7,14 +7,14 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-import scipy
 
 from regkit.body import ShapeParameters
 from regkit.body.description import SizeDescription
 from regkit.body.modes import Modes
-from regkit.fitting.flesh import Flesh, closed, divided, points_in_box
-from regkit.fitting.layout import SegmentFrame
+from regkit.fitting.flesh import Flesh
+from regkit.fitting.parts import parts_of
 from regkit.fitting.segment_capsules import segment_capsules
+from regkit.fitting.skin import decimation
 from regkit.fitting.template import parameters_of
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.interchange.axes import body_axes
@@ -26,15 +26,6 @@ from regkit.interchange.imported import UPRIGHT, ImportedSkeleton
 from regkit.skeleton.joints import FreeJoint
 from regkit.system.errors import DataError
 from regkit.system.guard import reading
-
-FINENESS = 100
-"""Number of grid points along the model's largest extent."""
-
-ENOUGH = 100
-"""A segment with fewer points inside is filled with a finer grid of about as many."""
-
-BOX = 4
-"""About the volume of the box around a segment, in volumes of the segment."""
 
 FEWEST = 8
 """A segment with fewer points inside has no capsule, such as a joint without vertices."""
@@ -62,6 +53,7 @@ def body_model_template(
     up: str | None = None,
     front: str | None = None,
     modes: int = MODES,
+    vertices: int | None = None,
     shapes: Sequence[str] = (),
 ) -> ImportedSkeleton:
     """Returns the template of a body model, in the model's own pose and with its own vertices.
@@ -77,6 +69,7 @@ def body_model_template(
         up: The up axis of the file; y by default.
         front: The front axis of the file; z by default.
         modes: Number of shape modes to take.
+        vertices: Number of vertices of the largest connected piece to keep; all vertices if None.
         shapes: Shape models of which each segment gets one fitted primitive.
 
     Raises:
@@ -87,7 +80,8 @@ def body_model_template(
     axes = body_axes(up or "y", front or "z")
     model = BodyModel.read(path, axes, scale=scale, modes=modes)
     with reading(path, "a body model that a template can describe"):
-        return _template(model, path, title or f"The body model of {path.name}", fitted)
+        imported = _template(model, path, title or f"The body model of {path.name}", fitted)
+        return imported if vertices is None else _decimated(imported, vertices)
 
 
 def _template(
@@ -95,7 +89,7 @@ def _template(
 ) -> ImportedSkeleton:
     mesh = model.mesh
     _check_extent(mesh)
-    parts = _parts(mesh)
+    parts = parts_of(mesh)
     bones = [_bone(model, index, parts[name]) for index, name in enumerate(mesh.labels)]
     if not any(bone.capsules for bone in bones):
         bones = [replace(bone, capsules=None) for bone in bones]
@@ -119,11 +113,21 @@ def _template(
     )
 
 
+def _decimated(imported: ImportedSkeleton, count: int) -> ImportedSkeleton:
+    """Returns the template with some of its skin's vertices, and their modes."""
+    assert imported.skin is not None
+    skin, kept = decimation(imported.skin, count)
+    modes = imported.modes
+    if modes is not None:
+        modes = replace(modes, vertices=modes.vertices[:, kept])
+    return replace(imported, skin=skin, modes=modes)
+
+
 def _check_extent(mesh: SkinnedMesh) -> None:
-    """Checks that the surface has a volume.
+    """Checks that the surface has a volume, and that the joints are there.
 
     Raises:
-        DataError: If it is a point, a line or a plane.
+        DataError: If it is a point, a line or a plane, or a joint is far from it.
     """
     extents = np.ptp(mesh.vertices, axis=0)
     if extents.min() <= FLAT * extents.max():
@@ -131,23 +135,15 @@ def _check_extent(mesh: SkinnedMesh) -> None:
             f"v_template extends over {', '.join(f'{one:.4g}' for one in extents)} m; a body has "
             "a volume"
         )
-
-
-def _parts(mesh: SkinnedMesh) -> dict[str, Flesh]:
-    """Returns samples of each segment in its frame; small ones are as many as of large ones."""
-    labels, spacing = list(mesh.labels), float(np.ptp(mesh.vertices, axis=0).max()) / FINENESS
-    parts = divided(mesh, np.eye(4), {label: label for label in labels}, labels, spacing)
-    whole = closed(mesh.vertices, mesh.faces)
-    owners = mesh.indices[np.arange(len(mesh.vertices)), mesh.weights.argmax(axis=1)]
-    tree = scipy.spatial.cKDTree(mesh.vertices)
-    for index, label in enumerate(labels):
-        own = mesh.vertices[owners == index]
-        if len(own) and len(parts[label].interior) < ENOUGH:
-            points = points_in_box(*whole, own.min(axis=0), own.max(axis=0), BOX * ENOUGH)
-            points = points[owners[tree.query(points)[1]] == index]
-            parts[label] = replace(parts[label], interior=points)
-    frames = [SegmentFrame(origin, np.eye(3)) for origin in mesh.rest[:, :3, 3]]
-    return {label: parts[label].local(frame) for label, frame in zip(labels, frames, strict=True)}
+    joints = mesh.rest[:, :3, 3]
+    low, high = mesh.vertices.min(axis=0) - joints, joints - mesh.vertices.max(axis=0)
+    away = np.maximum(low, high).max(axis=1)
+    if away.max() > extents.max():
+        joint = int(away.argmax())
+        raise DataError(
+            f"J_regressor places the joint '{mesh.labels[joint]}' {away[joint]:.3g} m outside the "
+            f"vertices, which extend over {extents.max():.3g} m"
+        )
 
 
 def _bone(model: BodyModel, index: int, part: Flesh) -> Bone:

@@ -28,7 +28,7 @@ def test_a_body_model_becomes_a_template_with_skin_and_modes(regkit, tmp_path, m
     assert f"written: {out} and {beside[0]} and {beside[1]}" in ended.out
     assert regkit("validate", out).code == 0
     text = out.read_text()
-    assert text.startswith("# Made by `regkit import smpl.npz --modes 2`.")
+    assert text.startswith("# Made by `regkit import smpl.npz --modes 2 --shape gsog`.")
     assert "have no limits" not in text
     description = Document.read(out).validated(BodyDescription)
     assert (description.mesh, description.modes) == (beside[0], beside[1])
@@ -37,6 +37,31 @@ def test_a_body_model_becomes_a_template_with_skin_and_modes(regkit, tmp_path, m
     assert modes.names == ("beta_1", "beta_2")
     assert modes.labels == SkinnedMesh.read(beside[0]).labels == tuple(description.segments)
     np.testing.assert_array_equal(modes.covariance, np.eye(2))
+
+
+def test_vertices_are_kept_with_their_modes(regkit, tmp_path):
+    grid, around = np.meshgrid(np.linspace(0.0, 1.0, 20), np.arange(12) * np.pi / 6, indexing="ij")
+    tube = np.stack([0.2 * np.cos(around), grid, 0.2 * np.sin(around)], axis=-1).reshape(-1, 3)
+    rows, columns = np.meshgrid(np.arange(19), np.arange(12), indexing="ij")
+    corners = [12 * (rows + a) + (columns + b) % 12 for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+    faces = np.stack(corners, axis=-1).reshape(-1, 4)
+    lower = (tube[:, 1] < 0.5).astype(float)
+    model = {
+        "v_template": tube,
+        "f": np.concatenate([faces[:, [0, 1, 2]], faces[:, [0, 2, 3]]]),
+        "weights": np.stack([lower, 1.0 - lower], axis=1),
+        "kintree_table": np.array([[-1, 0], [0, 1]]),
+        "J_regressor": np.stack([lower / lower.sum(), (1.0 - lower) / (1.0 - lower).sum()]),
+        "shapedirs": 0.1 * tube[..., None],
+    }
+    path, out = write_npz(tmp_path / "tube.npz", model), tmp_path / "tube.yaml"
+    ended = regkit("import", path, "--out", out, "--vertices", 60)
+    assert ended.code == 0, ended.err
+    description = Document.read(out).validated(BodyDescription)
+    skin, modes = SkinnedMesh.read(description.mesh), Modes.read(description.modes)
+    assert modes.vertices.shape == (1, 60, 3)
+    root = model["J_regressor"][0] @ tube
+    np.testing.assert_allclose(modes.vertices[0], 0.1 * (skin.vertices + root), atol=1e-6)
 
 
 def test_a_model_without_modes_has_no_file_of_them(regkit, tmp_path, model):
@@ -121,6 +146,7 @@ def test_a_pickle_that_asks_to_run_something_is_refused(regkit, tmp_path):
         (("none.pkl",), "none.pkl: there is no such file"),
         (("mhr_model.pt",), "'.pt' cannot be imported; use .bvh, .urdf, or a body model"),
         (("a.bvh", "--modes", 3), "--modes: a.bvh is no body model"),
+        (("a.urdf", "--vertices", 300), "--vertices: a.urdf is no body model"),
         (("a.npz", "--shape", "ghost"), "--shape ghost: no plug-in 'ghost'"),
         (("a.npz", "--up", "w"), "--up: 'w' is not an axis"),
     ],

@@ -426,6 +426,13 @@ def test_a_missing_file_and_a_text_are_refused(tmp_path):
         BodyModel.read(tmp_path / "text.pkl", UPRIGHT)
 
 
+@pytest.mark.filterwarnings("ignore::regkit.system.notes.RegkitWarning")
+def test_joints_far_from_the_surface_are_refused(tmp_path):
+    path = write_npz(tmp_path / "m.npz", damaged(J_regressor=lambda j: 1e5 * j))
+    with pytest.raises(DataError, match=r"J_regressor places the joint '.*' .* m outside"):
+        body_model_template(path)
+
+
 def test_a_regressor_that_shifts_joints_is_told(tmp_path):
     path = write_npz(tmp_path / "m.npz", damaged(J_regressor=lambda j: 0.5 * j))
     with pytest.warns(RegkitWarning, match="J_regressor of 24 joints does not sum to 1"):
