@@ -374,6 +374,8 @@ def put(place, value):
         (damaged(v_template=lambda v: v.astype("U8")), "v_template has the shape"),
         (damaged(v_template=lambda v: v[:-1]), r"weights has the shape \(480, 24\)"),
         (damaged(f=put((0, 0), 999)), "f has .* in row 0"),
+        (damaged(f=lambda f: f[:0]), "f has 0 triangles of 480 vertices"),
+        (damaged(f=lambda f: np.tile(f, (20, 1))), "f has .* triangles of 480 vertices"),
         (damaged(f=lambda f: f + 0.5), "f has .* in row 0"),
         (damaged(weights=put((2, 3), -1.0)), "weights must not be negative"),
         (damaged(weights=put(2, 0.0)), "each vertex needs one"),

@@ -43,6 +43,9 @@ MOST_VERTICES = 200_000
 MOST_MODES = 1000
 """Number of modes that no body model has."""
 
+MOST_FACES = 10
+"""Number of triangles for each vertex that no surface has; a closed one has two."""
+
 BOUND = 5.0
 """Largest coefficient of a mode, in its standard deviations."""
 
@@ -99,13 +102,19 @@ class BodyModel(Brief):
         vertices = checked_shape(arrays, "v_template", None, 3, most=FARTHEST)
         if not 0 < len(vertices) <= MOST_VERTICES:
             raise DataError(f"v_template has {len(vertices)} vertices; at most {MOST_VERTICES}")
+        faces = checked_indices(arrays, "f", 3, 0, len(vertices))
+        if not 0 < len(faces) <= MOST_FACES * len(vertices):
+            raise DataError(
+                f"f has {len(faces)} triangles of {len(vertices)} vertices; a surface has about "
+                "two for each vertex"
+            )
         indices, weights = _carriers(arrays, tree, len(vertices), file.path)
         regressor = _regressor(arrays, tree, len(vertices), file.path)
         vertices = vertices @ to_body.T
         joints = regressor @ vertices
         mesh = SkinnedMesh(
             vertices=read_only(vertices - joints[0]),
-            faces=checked_indices(arrays, "f", 3, 0, len(vertices)),
+            faces=faces,
             labels=tree.names,
             parents=np.array(tree.parents, dtype=np.intp),
             rest=read_only(rigid(np.tile(np.eye(3), (len(joints), 1, 1)), joints - joints[0])),
