@@ -89,7 +89,7 @@ class BodyModel(Brief):
             DataError: If the file is missing or damaged, has another layout, or asks to run
                 something.
         """
-        with reading(path, "a body model, an .npz file or a pickle"):
+        with reading(path, "a body model in an .npz file or a pickle"):
             file = ModelFile.open(path)
             _check_kind(file)
             file.require(*REQUIRED)
