@@ -99,22 +99,17 @@ class BodyModel(Brief):
     def _of(cls, file: ModelFile, to_body: Array, wanted: int) -> BodyModel:
         arrays = {name: file.array(name) for name in REQUIRED}
         tree = JointTree.of(arrays["kintree_table"], file)
+        count = len(arrays["v_template"]) if arrays["v_template"].ndim else 0
+        if not 0 < count <= MOST_VERTICES:
+            raise DataError(f"v_template has {count} vertices; it needs 1 to {MOST_VERTICES}")
         vertices = checked_shape(arrays, "v_template", None, 3, most=FARTHEST)
-        if not 0 < len(vertices) <= MOST_VERTICES:
-            raise DataError(f"v_template has {len(vertices)} vertices; at most {MOST_VERTICES}")
-        faces = checked_indices(arrays, "f", 3, 0, len(vertices))
-        if not 0 < len(faces) <= MOST_FACES * len(vertices):
-            raise DataError(
-                f"f has {len(faces)} triangles of {len(vertices)} vertices; a surface has about "
-                "two for each vertex"
-            )
         indices, weights = _carriers(arrays, tree, len(vertices), file.path)
         regressor = _regressor(arrays, tree, len(vertices), file.path)
         vertices = vertices @ to_body.T
         joints = regressor @ vertices
         mesh = SkinnedMesh(
             vertices=read_only(vertices - joints[0]),
-            faces=faces,
+            faces=_faces(arrays, len(vertices)),
             labels=tree.names,
             parents=np.array(tree.parents, dtype=np.intp),
             rest=read_only(rigid(np.tile(np.eye(3), (len(joints), 1, 1)), joints - joints[0])),
@@ -122,11 +117,11 @@ class BodyModel(Brief):
             weights=read_only(weights),
         )
         directions = _directions(arrays, len(vertices))
-        count = shape_count(tree.family, len(directions))
-        _tell(file, len(directions) - count)
-        taken = directions[: min(wanted, count)] @ to_body.T
+        available = shape_count(tree.family, len(directions))
+        _tell(file, len(directions) - available)
+        taken = directions[: min(wanted, available)] @ to_body.T
         modes = _modes(taken, regressor, tree.names) if len(taken) else None
-        return cls(mesh, modes, tree.family, count)
+        return cls(mesh, modes, tree.family, available)
 
 
 def _check_kind(file: ModelFile) -> None:
@@ -145,6 +140,17 @@ def _check_kind(file: ModelFile) -> None:
             "holds the poses and the shape of a person; the body model is another file, such as "
             "SMPL_NEUTRAL.pkl or SMPLX_NEUTRAL.npz"
         )
+
+
+def _faces(arrays: Arrays, vertices: int) -> Indices:
+    """Returns the vertices of the triangles, (F, 3)."""
+    count = len(arrays["f"]) if arrays["f"].ndim else 0
+    if not 0 < count <= MOST_FACES * vertices:
+        raise DataError(
+            f"f has {count} triangles of {vertices} vertices; a surface has about two for each "
+            "vertex"
+        )
+    return checked_indices(arrays, "f", 3, 0, vertices)
 
 
 def _carriers(arrays: Arrays, tree: JointTree, vertices: int, path: Path) -> tuple[Indices, Array]:
