@@ -20,6 +20,8 @@ from body_models import (
 )
 
 from regkit.body import BodyDescription
+from regkit.body.groups import Groups
+from regkit.body.proportions import Proportions
 from regkit.body.template_file import write_template
 from regkit.config.document import Document
 from regkit.fitting.body_model import body_model_template
@@ -99,6 +101,17 @@ def test_the_template_moves_as_the_model_does(tmp_path, random, imported):
     np.testing.assert_allclose(placed[:, :3, 3], joints[order], atol=5e-4)
     np.testing.assert_allclose(body.surface.place(placed), vertices, atol=1e-3)
     np.testing.assert_allclose(body.markers.place(placed), placed[:, :3, 3], atol=1e-9)
+
+
+def test_a_template_of_other_proportions_has_no_modes(tmp_path, imported):
+    out = tmp_path / "body.yaml"
+    write_template(out, imported.description, imported.skin, "Made.", {}, imported.modes)
+    description = Document.read(out).validated(BodyDescription)
+    assert description.modes == tmp_path / "body_modes.npz"
+    groups = Groups.of(description)
+    factors = np.full(len(groups.names), 1.1)
+    stretched = Proportions(groups, factors, factors).applied(description)
+    assert (stretched.mesh, stretched.modes) == (None, None)
 
 
 def test_axes_and_units_of_a_file_are_taken_into_account(tmp_path):

@@ -54,6 +54,25 @@ class ModelFile:
             raise DataError(f"the pickle holds a {type(values).__name__}; it needs a dictionary")
         return cls(path, tuple(key for key in values if isinstance(key, str)), values)
 
+    def check_kind(self) -> None:
+        """Refuses files that are no body models, and says what they are.
+
+        Raises:
+            DataError: If it is a mesh file, or the motion of a person.
+        """
+        names = set(self.names)
+        if "v_template" in names:
+            return
+        if {"rest_vertices", "skin_weights"} <= names:
+            raise DataError(
+                "is a skinned mesh and no body model; `regkit fit` makes a template of it"
+            )
+        if {"poses", "trans"} <= names or {"body_pose", "global_orient"} & names:
+            raise DataError(
+                "holds the poses and the shape of a person; the body model is another file, such "
+                "as SMPL_NEUTRAL.pkl or SMPLX_NEUTRAL.npz"
+            )
+
     def array(self, name: str) -> Numbers:
         """Returns a dense array of numbers.
 

@@ -91,7 +91,7 @@ class BodyModel(Brief):
         """
         with reading(path, "a body model in an .npz file or a pickle"):
             file = ModelFile.open(path)
-            _check_kind(file)
+            file.check_kind()
             file.require(*REQUIRED)
             return cls._of(file, scale * axes, modes)
 
@@ -122,24 +122,6 @@ class BodyModel(Brief):
         taken = directions[: min(wanted, available)] @ to_body.T
         modes = _modes(taken, regressor, tree.names) if len(taken) else None
         return cls(mesh, modes, tree.family, available)
-
-
-def _check_kind(file: ModelFile) -> None:
-    """Refuses files that are no body models, and says what they are.
-
-    Raises:
-        DataError: If it is a mesh file or a motion.
-    """
-    names = set(file.names)
-    if "v_template" in names:
-        return
-    if {"rest_vertices", "skin_weights"} <= names:
-        raise DataError("is a skinned mesh and no body model; `regkit fit` makes a template of it")
-    if {"poses", "trans"} <= names or {"body_pose", "global_orient"} & names:
-        raise DataError(
-            "holds the poses and the shape of a person; the body model is another file, such as "
-            "SMPL_NEUTRAL.pkl or SMPLX_NEUTRAL.npz"
-        )
 
 
 def _faces(arrays: Arrays, vertices: int) -> Indices:
