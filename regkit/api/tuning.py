@@ -12,6 +12,7 @@ from regkit.api.choices import Choice
 from regkit.api.tables import Summary
 from regkit.api.tuning_choices import TuningChoices, method_name
 from regkit.body import BodyDescription
+from regkit.body.modes import Modes
 from regkit.body.template_file import check_replaceable, write_template
 from regkit.geometry.camera import Camera
 from regkit.geometry.skinned_mesh import SkinnedMesh
@@ -101,12 +102,13 @@ class Tuned(Summary):
         out = Path(path)
         self.check()
         check_replaceable(out, place="path")
-        mesh = self.description.mesh
+        mesh, modes = self.description.mesh, self.description.modes
         skin = None if mesh is None else SkinnedMesh.read(mesh)
         opening = OPENING.format(
             template=self.template, method=self.method, file=out.name, shape=self.shape
         )
-        write_template(out, self.description, skin, opening)
+        kept = None if modes is None else Modes.read(modes)
+        write_template(out, self.description, skin, opening, modes=kept)
 
 
 def tune(

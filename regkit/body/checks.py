@@ -1,13 +1,16 @@
-"""Checks of a template across its fields: lengths against its size, stances against its joints."""
+"""Checks of a template across its fields: lengths, stances, and shape modes."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from regkit.body.modes import Modes
 from regkit.config.model import Model, misplaced
+from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.skeleton import PoseDescription, Skeleton
 from regkit.skeleton.description import SegmentDescription
 from regkit.system.errors import ConfigError
@@ -41,6 +44,47 @@ def check_lengths(
                     "size",
                     *("segments", name, *field),
                 )
+
+
+def check_modes(
+    model: type[Model],
+    modes: Path | None,
+    mesh: Path | None,
+    segments: Mapping[str, SegmentDescription],
+) -> None:
+    """Refuses shape modes of another mesh or of other segments; files are read where they exist.
+
+    Args:
+        model: The template's class, for the error.
+        modes: Its file of modes; None without one.
+        mesh: Its file of a mesh; None without one.
+        segments: Its segments.
+
+    Raises:
+        ValidationError: If the modes do not belong to the mesh or the segments.
+        DataError: If a file is damaged.
+    """
+    if modes is None:
+        return
+    if mesh is None:
+        raise misplaced(model, "shape modes displace a mesh, and there is none", "modes")
+    if not modes.is_file() or not mesh.is_file():
+        return
+    read, vertices = Modes.read(modes), len(SkinnedMesh.read(mesh).vertices)
+    if read.vertices.shape[1] != vertices:
+        raise misplaced(
+            model,
+            f"{modes} displaces {read.vertices.shape[1]} vertices; {mesh} has {vertices}",
+            "modes",
+        )
+    unknown = [label for label in read.labels if label not in segments]
+    if unknown:
+        raise misplaced(
+            model,
+            f"{modes} displaces '{unknown[0]}', which is not a segment (there are: "
+            f"{', '.join(segments)})",
+            "modes",
+        )
 
 
 def check_stances(

@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import AfterValidator, Field, model_validator
 
 from regkit.body.body import Body, Markers, Stance
-from regkit.body.checks import check_lengths, check_stances
+from regkit.body.checks import check_lengths, check_modes, check_stances
 from regkit.body.deformation import Scaling
 from regkit.body.listed import ListedShape
 from regkit.body.shape_parameters import ShapeParameters, UncheckedParameters
@@ -73,8 +73,8 @@ class BodyDescription(SkeletonDescription):
     """Skinned mesh for shape models that use one: an ``.npz`` file whose bones are named after the
     segments."""
     modes: InputPath | None = None
-    """Shape modes: an ``.npz`` file of displacements of the mesh's vertices and of the joints, with
-    a prior. ``regkit calibrate`` then finds the shape of a body as a combination of them."""
+    """Linear shape modes of the skeleton and of ``mesh``: an ``.npz`` file. ``regkit calibrate`` and
+    ``regkit register`` of a scan then find the shape of a body as a combination of them."""
 
     @model_validator(mode="after")
     def _shapes_are_on_segments(self) -> BodyDescription:
@@ -92,11 +92,12 @@ class BodyDescription(SkeletonDescription):
         return self
 
     @model_validator(mode="after")
+    def _modes_are_of_the_mesh(self) -> BodyDescription:
+        check_modes(type(self), self.modes, self.mesh, self.segments)
+        return self
+
+    @model_validator(mode="after")
     def _parts_fit_together(self) -> BodyDescription:
-        if self.modes is not None and self.mesh is None:
-            raise misplaced(
-                type(self), "shape modes displace the vertices of a mesh; name it as mesh", "modes"
-            )
         check_lengths(type(self), self.segments, self.size.value)
         if self.stances:
             check_stances(type(self), compiled(self), self.stances)

@@ -37,7 +37,8 @@ class Proportions:
     def applied(self, template: BodyDescription) -> BodyDescription:
         """Returns the template with these proportions, at the size of its new height (along y).
 
-        The result has no mesh, since the template's own does not fit; ``skin`` returns one.
+        The result has no mesh and no shape modes, since the template's own do not fit; ``skin``
+        returns a mesh.
         """
         order = parents_first(template.segments)
         stretches = {name: self._stretch(index) for index, name in enumerate(order)}
@@ -52,9 +53,8 @@ class Proportions:
             }
             for key, by_segment in template.shapes.items()
         }
-        subject = template.model_copy(
-            update={"segments": segments, "shapes": shapes, "mesh": None, "modes": None}
-        )
+        stretched = {"segments": segments, "shapes": shapes, "mesh": None, "modes": None}
+        subject = template.model_copy(update=stretched)
         size = template.size.value * height(subject) / height(template)
         return subject.model_copy(
             update={"size": template.size.model_copy(update={"value": size, "range": (size, size)})}

@@ -1,4 +1,4 @@
-"""Writing of templates, each with its mesh and its shape modes in files beside it."""
+"""Writing of templates, each with its mesh and shape modes in files beside it."""
 
 from __future__ import annotations
 
@@ -63,16 +63,16 @@ def write_template(
         skin: Its mesh, written beside the file; None without one.
         opening: Comment at the top of the file.
         comments: Comments on joints, by joint.
-        modes: Shape modes of the skin, written beside the file; None without any.
+        modes: Shape modes of the mesh, written beside the file; None without any.
     """
     if skin is not None:
         mesh = skin_file(out)
         skin.write(mesh)
         description = description.model_copy(update={"mesh": mesh})
     if modes is not None:
-        file = modes_file(out)
-        modes.write(file)
-        description = description.model_copy(update={"modes": file})
+        beside = modes_file(out)
+        modes.write(beside)
+        description = description.model_copy(update={"modes": beside})
     line = schema_line(out, "template")
     text = template_text(description, opening, comments or {})
     write_text(out, text if line is None else f"{line}\n{text}")

@@ -38,13 +38,15 @@ Primitives of shape models; sigma is a standard deviation [m], and the surface l
 
 _BESIDE = "The skin: vertices that follow the segments, in a file in the same folder."
 
-_MODES = "Its shape modes: how skin and joints move with a few coefficients that have a prior."
+_VARIED = (
+    "The shape modes: displacements of the segments and the skin, in a file in the same folder."
+)
 
 
 def template_text(body: BodyDescription, opening: str, comments: Mapping[str, str]) -> str:
     """Returns the YAML of a template; lengths have four decimals [m] and angles one [deg].
 
-    The mesh and its shape modes, if any, must be in the same folder.
+    The mesh and the shape modes, if any, must be in the same folder.
 
     Args:
         body: The template.
@@ -77,7 +79,7 @@ def template_text(body: BodyDescription, opening: str, comments: Mapping[str, st
     if body.mesh is not None:
         lines += ["", *comment_lines(_BESIDE), f"mesh: {json.dumps(body.mesh.name)}"]
     if body.modes is not None:
-        lines += ["", *comment_lines(_MODES), f"modes: {json.dumps(body.modes.name)}"]
+        lines += ["", *comment_lines(_VARIED), f"modes: {json.dumps(body.modes.name)}"]
     return "\n".join(lines) + "\n"
 
 

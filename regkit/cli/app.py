@@ -42,7 +42,7 @@ COMMANDS = {
     "fit": "Create a template with the shape of a skinned mesh.",
     "tune": "Fit a template's shape to a method, on rendered frames, so that it tracks with less "
     "error.",
-    "import": "Create a template from another program's skeleton: BVH, or URDF with its limits.",
+    "import": "Create a template from another program's skeleton or body model: BVH, URDF, SMPL.",
     "validate": "Check YAML files and report each mistake with its line.",
     "plugins": "List the installed plug-ins, or the fields of one of them.",
     "example": "Copy a runnable example with its data, or list the examples.",

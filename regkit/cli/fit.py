@@ -17,7 +17,8 @@ from regkit.cli.console import output
 from regkit.cli.options import PluginFiles, default_of, options, run_plugin_files
 from regkit.fitting.bones import read_bone_map
 from regkit.fitting.template import FittedTemplate, parameters_of
-from regkit.interchange.meshes import read_mesh
+from regkit.interchange.body_model.smpl import MODES
+from regkit.interchange.meshes import read_shaped_mesh
 from regkit.system.errors import RegkitError
 from regkit.system.progress import working
 
@@ -33,7 +34,8 @@ def fit(
         Path,
         typer.Argument(
             metavar="MESH",
-            help="Skinned mesh in metres: a rigged .glb or .gltf file, or an .npz file.",
+            help="Skinned mesh in metres: a rigged .glb or .gltf file, an .npz file, or a body "
+            "model in the layout of SMPL (.npz, .pkl).",
             show_default=False,
         ),
     ],
@@ -80,6 +82,9 @@ def fit(
             "none of its kind.",
         ),
     ] = None,
+    modes: Annotated[
+        int, typer.Option(min=0, metavar="N", help="Number of a body model's shape modes to take.")
+    ] = MODES,
     plugin: PluginFiles = None,
 ) -> None:
     """Create a template with the shape of a skinned mesh."""
@@ -92,15 +97,18 @@ def fit(
             raise error.at(f"--shape {kind}") from None
     description = template_named(template).description()
     with options(parents="--parents"):
-        skinned = read_mesh(mesh, parents)
+        skinned, shaped = read_shaped_mesh(mesh, parents, modes)
     mapped = {} if bones is None else read_bone_map(bones)
     try:
         with working("fitting the mesh"):
-            fitted = FittedTemplate.to(skinned, description, mapped, vertices, shape or ())
+            fitted = FittedTemplate.to(
+                skinned, description, mapped, vertices, shape or (), modes=shaped
+            )
     except RegkitError as error:
         raise error.at(str(mesh)) from None
     named = _named(fitted.description, mesh.name)
-    write_template(out, named, fitted.skin, OPENING.format(mesh=mesh.name, file=out.name))
+    opening = OPENING.format(mesh=mesh.name, file=out.name)
+    write_template(out, named, fitted.skin, opening, modes=fitted.modes)
     _print_summary(fitted)
     output.print(f"written: {out}")
     output.print(f"template: {{kind: file, path: {out}}}")
@@ -129,5 +137,6 @@ def _print_summary(fitted: FittedTemplate) -> None:
     output.print(table)
     output.print(
         f"{description.size.name} {description.size.value:.4g} m; "
-        f"{len(fitted.skin.vertices)} vertices",
+        f"{len(fitted.skin.vertices)} vertices"
+        + ("" if fitted.modes is None else f"; {len(fitted.modes.names)} shape modes"),
     )

@@ -2,45 +2,39 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from regkit.body.template_file import check_replaceable, skin_file, write_template
-from regkit.cli.console import output, print_warning
-from regkit.cli.options import options
-from regkit.interchange.bones import THICKNESS
-from regkit.interchange.imported import ImportedSkeleton
+from regkit.body.template_file import (
+    check_replaceable,
+    modes_file,
+    skin_file,
+    write_template,
+)
+from regkit.cli.console import output
+from regkit.cli.import_texts import opening_of, print_summary
+from regkit.cli.options import PluginFiles, options, run_plugin_files
+from regkit.fitting.body_model import body_model_template
+from regkit.fitting.template import parameters_of
+from regkit.interchange.body_model.model_file import SUFFIXES
+from regkit.interchange.body_model.smpl import MODES
 from regkit.interchange.skeletons import read_skeleton
-from regkit.skeleton.joints import BallJoint
-from regkit.system.errors import ConfigError
+from regkit.system.errors import ConfigError, RegkitError
 from regkit.system.progress import working
-
-OPENING = """\
-Made by `regkit import {command}`. To use it:
-template: {{kind: file, path: {file}}}
-
-Lengths are in metres and angles in degrees. In the rest pose all segments are parallel: y up, z to
-the front, x to the body's left."""
-
-LARGE = 10.0
-"""Size [m] above which a warning suggests that the file is in centimetres."""
-
-UNSHAPED = """\
-
-Segments without a readable shape in the file have a capsule along each of their bones, with a
-radius of {share:g} of the bone's length: set the radii to the true ones."""
-
-UNLIMITED = """\
-
-Ball joints have no limits in the file; set them with `swing_deg` and `twist_deg`."""
 
 
 def import_(
     file: Annotated[
         Path,
-        typer.Argument(metavar="FILE", help="A .bvh or .urdf file.", show_default=False),
+        typer.Argument(
+            metavar="FILE",
+            help="A .bvh or .urdf file, or a body model in the layout of SMPL: .npz or .pkl, of "
+            "which nothing is executed.",
+            show_default=False,
+        ),
     ],
     out: Annotated[Path, typer.Option(metavar="FILE", help="Template to write.")] = Path(
         "imported.yaml"
@@ -61,7 +55,7 @@ def import_(
         str | None,
         typer.Option(
             metavar="AXIS",
-            help="The file's upward axis, such as y or -z. (default: y for BVH, z for URDF)",
+            help="The file's upward axis, such as y or -z. (default: z for URDF, y for others)",
             show_default=False,
         ),
     ] = None,
@@ -69,7 +63,7 @@ def import_(
         str | None,
         typer.Option(
             metavar="AXIS",
-            help="The file's forward axis. (default: z for BVH, x for URDF)",
+            help="The file's forward axis. (default: x for URDF, z for others)",
             show_default=False,
         ),
     ] = None,
@@ -82,54 +76,95 @@ def import_(
             show_default=False,
         ),
     ] = None,
+    modes: Annotated[
+        int | None,
+        typer.Option(
+            min=0,
+            metavar="N",
+            help=f"Number of a body model's shape modes to take. (default: {MODES})",
+            show_default=False,
+        ),
+    ] = None,
+    vertices: Annotated[
+        int | None,
+        typer.Option(
+            min=50,
+            metavar="N",
+            help="Number of a body model's vertices to keep, evenly spread. (default: all)",
+            show_default=False,
+        ),
+    ] = None,
+    shape: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="KIND",
+            help="Also fit this shape model to a body model's surface, with one primitive per "
+            "segment; may be repeated. (default: primitives follow from the capsules)",
+            show_default=False,
+        ),
+    ] = None,
+    plugin: PluginFiles = None,
 ) -> None:
-    """Create a template from another program's skeleton: BVH, or URDF with its limits."""
+    """Create a template from another program's skeleton or body model: BVH, URDF, SMPL."""
+    run_plugin_files(plugin)
     if not 0.0 < scale < float("inf"):
         raise ConfigError(f"the scale is {scale:g}; it must be positive", place="--scale")
     for folder in package or ():
         if not folder.is_dir():
             raise ConfigError(f"{folder} is not a folder", place="--package")
     check_replaceable(out)
+    _check_given(file, {"--modes": modes, "--vertices": vertices, "--shape": shape})
+    for kind in shape or ():
+        try:
+            parameters_of(kind)
+        except RegkitError as error:
+            raise error.at(f"--shape {kind}") from None
+    model = file.suffix.lower() in SUFFIXES
     with options(up="--up", front="--front"), working("importing"):
-        imported = read_skeleton(
-            file, scale=scale, title=title, up=up, front=front, packages=package or ()
-        )
-    given = {"--scale": f"{scale:g}" if scale != 1.0 else None, "--up": up, "--front": front}
-    written = [word for option, value in given.items() if value for word in (option, value)]
-    opening = OPENING.format(command=" ".join([file.name, *written]), file=out.name)
-    if imported.shaped:
-        opening += "\n" + UNSHAPED.format(share=THICKNESS)
-    if any(isinstance(one.joint, BallJoint) for one in imported.description.segments.values()):
-        opening += "\n" + UNLIMITED
-    write_template(out, imported.description, imported.skin, opening, imported.comments)
-    _print_summary(imported)
-    output.print(f"written: {out}" + ("" if imported.skin is None else f" and {skin_file(out)}"))
+        if model:
+            imported = body_model_template(
+                file,
+                scale=scale,
+                title=title,
+                up=up,
+                front=front,
+                modes=MODES if modes is None else modes,
+                vertices=vertices,
+                shapes=shape or (),
+            )
+        else:
+            imported = read_skeleton(
+                file, scale=scale, title=title, up=up, front=front, packages=package or ()
+            )
+    given = {
+        "--scale": f"{scale:g}" if scale != 1.0 else None,
+        "--up": up,
+        "--front": front,
+        "--modes": modes,
+        "--vertices": vertices,
+        "--shape": shape,
+    }
+    opening = opening_of(imported, file, out, given, is_model=model)
+    write_template(
+        out, imported.description, imported.skin, opening, imported.comments, imported.modes
+    )
+    print_summary(imported)
+    beside = [] if imported.skin is None else [skin_file(out)]
+    beside += [] if imported.modes is None else [modes_file(out)]
+    output.print(f"written: {' and '.join(map(str, [out, *beside]))}")
     output.print(f"template: {{kind: file, path: {out}}}")
 
 
-def _print_summary(imported: ImportedSkeleton) -> None:
-    """Prints a summary of the imported skeleton."""
-    description = imported.description
-    segments = description.segments.values()
-    kinds = [segment.joint.type for segment in segments if segment.joint is not None]
-    joints = ", ".join(
-        f"{kinds.count(kind)} {kind}"
-        for kind in ("ball", "universal", "hinge", "prismatic", "fixed")
-        if kind in kinds
-    )
-    capsules = sum(len(segment.capsules) for segment in segments)
-    skin = "" if imported.skin is None else f"skin: {len(imported.skin.vertices)} vertices; "
-    output.print(
-        f"segments: {len(kinds)} ({joints}); capsules: {capsules}; {skin}"
-        f"{description.size.name}: {description.size.value:.4g} m",
-    )
-    if description.size.value > LARGE:
-        print_warning(
-            f"a {description.size.name} of {description.size.value:.4g} m is large; if the file is "
-            "not in metres, give its unit, such as --scale 0.01 for centimetres"
-        )
-    if imported.shaped:
-        output.print(
-            f"segments without a shape, now with capsules along their bones: {imported.shaped}; "
-            "check their radii",
+def _check_given(file: Path, given: Mapping[str, object]) -> None:
+    """Checks that the options of body models are given for body models.
+
+    Raises:
+        ConfigError: If they are not.
+    """
+    named = [option for option, value in given.items() if value not in (None, [])]
+    if named and file.suffix.lower() not in SUFFIXES:
+        raise ConfigError(
+            f"{file.name} is no body model ({', '.join(SUFFIXES)}), which alone has shape modes "
+            "and a surface of its own",
+            place=named[0],
         )

@@ -104,6 +104,27 @@ def interior_points(vertices: Array, faces: Indices, spacing: float) -> Array:
     return np.asarray(grid[inside(grid, corners, triangles)])
 
 
+def points_in_box(vertices: Array, faces: Indices, low: Array, high: Array, count: int) -> Array:
+    """Returns the points (N, 3) [m] inside a closed mesh of a grid that fills a box.
+
+    Args:
+        vertices: Vertices of the mesh, (V, 3) [m].
+        faces: Vertex indices of its triangles, (F, 3).
+        low: Smallest corner of the box, (3,) [m].
+        high: Its largest corner, (3,) [m].
+        count: Number of points of the grid, roughly.
+    """
+    extents = np.maximum(high - low, 1e-3 * float((high - low).max()))
+    spacing = float(np.cbrt(extents.prod() / count))
+    cells = np.maximum(np.ceil(extents / spacing).astype(int), 1)
+    axes = [
+        start + (np.arange(number) + 0.5) * extent / number
+        for start, extent, number in zip(low, extents, cells, strict=True)
+    ]
+    grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+    return np.asarray(grid[inside(grid, vertices, faces)])
+
+
 def closed(vertices: Array, faces: Indices) -> tuple[Array, Indices]:
     """Returns the mesh with each hole closed by a fan of triangles around the hole's centre."""
     edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])

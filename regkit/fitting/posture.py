@@ -64,18 +64,25 @@ class Posture:
     def aligned_root(self) -> tuple[Array, Array, bool]:
         """Returns axes and origin of the root's frame, and whether a reflection is better."""
         name = parents_first(self.template.segments)[0]
-        offsets = np.array([child.offset for child in self._children(name).values()])
-        pairs = self.pairs(name, self.joints[name])
-        origin = self.joints[name]
+        shares = self.root_shares()
+        origin = np.sum([share * self.joints[one] for one, share in shares.items()], axis=0)
+        rotation, mirrored = _aligning_rotation(self.pairs(name, origin), np.eye(3))
+        return rotation, origin, mirrored
+
+    def root_shares(self) -> dict[str, float]:
+        """Returns the shares of the segments' joints in the origin of the root's frame.
+
+        They sum to one, and none is negative.
+        """
+        name = parents_first(self.template.segments)[0]
+        children = self._children(name)
+        offsets = np.array([child.offset for child in children.values()])
         if len(offsets):
-            # Find non-negative weights that sum to one and combine the joints to the root's origin.
             equations = np.vstack([offsets.T / np.abs(offsets).max(), np.ones(len(offsets))])
             shares, missed = scipy.optimize.nnls(equations, np.array([0.0, 0.0, 0.0, 1.0]))
             if missed < 1e-3:
-                origin = shares @ np.array([self.joints[child] for child in self._children(name)])
-                pairs = self.pairs(name, origin)
-        rotation, mirrored = _aligning_rotation(pairs, np.eye(3))
-        return rotation, origin, mirrored
+                return dict(zip(children, shares.tolist(), strict=True))
+        return {name: 1.0}
 
     def frames(self, flesh: Mapping[str, Flesh]) -> dict[str, SegmentFrame]:
         """Returns the frame of every segment; the joints must be in the root's axes.

@@ -49,7 +49,12 @@ def on_segments(mesh: SkinnedMesh, layout: Layout, template: BodyDescription) ->
 
 
 def decimated(mesh: SkinnedMesh, count: int) -> SkinnedMesh:
-    """Returns the largest connected piece of a mesh, reduced to ``count`` vertices.
+    """Returns the largest connected piece of a mesh, reduced; see ``decimation``."""
+    return decimation(mesh, count)[0]
+
+
+def decimation(mesh: SkinnedMesh, count: int) -> tuple[SkinnedMesh, Indices]:
+    """Returns the largest connected piece of a mesh, reduced to ``count`` of its vertices (count,).
 
     The kept vertices are spread evenly over the surface, and every other vertex joins the nearest
     of them. The distance includes the normals, so that the two sides of a finger stay separate.
@@ -58,9 +63,9 @@ def decimated(mesh: SkinnedMesh, count: int) -> SkinnedMesh:
     Source: Valette, Chassery, Approximated centroidal Voronoi diagrams for uniform polygonal mesh
     coarsening, Computer Graphics Forum 23, 2004; here farthest-point samples define the clusters.
     """
-    mesh = _largest_piece(mesh)
+    mesh, piece = _largest_piece(mesh)
     if count >= len(mesh.vertices):
-        return mesh
+        return mesh, piece
     features = np.concatenate(
         [mesh.vertices, _spacing(mesh, count) * vertex_normals(mesh.vertices, mesh.faces)], axis=1
     )
@@ -70,10 +75,11 @@ def decimated(mesh: SkinnedMesh, count: int) -> SkinnedMesh:
     ordered = np.sort(corners, axis=1)
     triangles = corners[(ordered[:, 0] < ordered[:, 1]) & (ordered[:, 1] < ordered[:, 2])]
     _, first = np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)
-    return _subset(replace(mesh, faces=kept[triangles[np.sort(first)]]), kept)
+    return _subset(replace(mesh, faces=kept[triangles[np.sort(first)]]), kept), piece[kept]
 
 
-def _largest_piece(mesh: SkinnedMesh) -> SkinnedMesh:
+def _largest_piece(mesh: SkinnedMesh) -> tuple[SkinnedMesh, Indices]:
+    """Returns the largest connected piece of a mesh, and the indices of its vertices."""
     count = len(mesh.vertices)
     ends = np.concatenate([mesh.faces[:, :2], mesh.faces[:, 1:]])
     adjacency = scipy.sparse.coo_array(
@@ -82,7 +88,8 @@ def _largest_piece(mesh: SkinnedMesh) -> SkinnedMesh:
     _, piece = scipy.sparse.csgraph.connected_components(adjacency, directed=False)
     largest = np.bincount(piece).argmax()
     own = replace(mesh, faces=mesh.faces[piece[mesh.faces[:, 0]] == largest])
-    return _subset(own, np.flatnonzero(piece == largest))
+    members = np.flatnonzero(piece == largest)
+    return _subset(own, members), members
 
 
 def _subset(mesh: SkinnedMesh, kept: Indices) -> SkinnedMesh:

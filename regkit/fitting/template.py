@@ -8,14 +8,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from regkit.body import BodyDescription, ParametricShape, ShapeParameters
+from regkit.body.modes import Modes
 from regkit.body.proportions import Proportions, height
 from regkit.fitting.bones import first_bones, owners_of_bones
+from regkit.fitting.carried_modes import carried_modes
 from regkit.fitting.flesh import Flesh, divided
 from regkit.fitting.layout import Layout
 from regkit.fitting.mesh_shape import MeshShape
 from regkit.fitting.posture import Posture
 from regkit.fitting.sides import check_sides
-from regkit.fitting.skin import decimated, on_segments
+from regkit.fitting.skin import decimation, on_segments
 from regkit.geometry.rigid import inverse, rigid, transformed
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.skeleton.description import parents_first
@@ -50,12 +52,14 @@ class FittedTemplate:
         skin: The mesh with the template's segments as bones.
         owners: Segment of each bone of the mesh.
         proportions: Ratios of the mesh's lengths and girths to the template's.
+        modes: Shape modes of the segments and the skin; None if the mesh has none.
     """
 
     description: BodyDescription
     skin: SkinnedMesh
     owners: Mapping[str, str]
     proportions: Proportions
+    modes: Modes | None = None
 
     @classmethod
     def to(
@@ -65,6 +69,7 @@ class FittedTemplate:
         bones: Mapping[str, str | None],
         vertices: int,
         shapes: Sequence[str] = (),
+        modes: Modes | None = None,
     ) -> FittedTemplate:
         """Returns a template with the joints of another, in the shape of a mesh.
 
@@ -76,6 +81,7 @@ class FittedTemplate:
             vertices: Number of the mesh's vertices to keep.
             shapes: Further shape models to fit: one primitive per segment, unless the template
                 lists others.
+            modes: Shape modes of the mesh's bones and vertices, if it has any.
 
         Raises:
             ConfigError: If bones and segments do not match, or a shape model has no parameters
@@ -88,8 +94,10 @@ class FittedTemplate:
         template.check_shapes()
         owners = owners_of_bones(mesh, template, bones)
         starts = mesh.rest[:, :3, 3]
-        joints = {name: starts[bone] for name, bone in first_bones(mesh, owners).items()}
-        axes, origin = Posture(template, joints).root()
+        bones_of = first_bones(mesh, owners)
+        joints = {name: starts[bone] for name, bone in bones_of.items()}
+        posture = Posture(template, joints)
+        axes, origin = posture.root()
         T_template_mesh = inverse(rigid(axes, origin))
         joints = {name: transformed(T_template_mesh, at[None])[0] for name, at in joints.items()}
         joints[parents_first(template.segments)[0]] = np.zeros(3)
@@ -104,8 +112,11 @@ class FittedTemplate:
         layout = Layout(T_template_mesh, owners, frames)
         shape = MeshShape(template, layout, parts, added)
         description = shape.description()
-        skin = decimated(on_segments(mesh, layout, description), vertices)
-        return cls(_sized(description, template, skin), skin, owners, shape.proportions())
+        skin, kept = decimation(on_segments(mesh, layout, description), vertices)
+        sized = _sized(description, template, skin)
+        if modes is not None:
+            modes = carried_modes(modes, axes.T, bones_of, posture.root_shares(), kept)
+        return cls(sized, skin, owners, shape.proportions(), modes)
 
 
 def parameters_of(kind: str) -> type[ShapeParameters]:

@@ -10,6 +10,7 @@ from pydantic import ValidationError
 
 from regkit.body import BodyDescription
 from regkit.body.description import SizeDescription
+from regkit.body.modes import Modes
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.interchange.bones import (
     MIN_THICKNESS,
@@ -38,12 +39,16 @@ class ImportedSkeleton:
         comments: Comments on the joints, by segment.
         shaped: Number of bones with generated capsules, for lack of a shape in the file.
         skin: Mesh of the surface in the file; None if it has none.
+        modes: Shape modes of the skin; None if the file has none.
+        modes_in_file: Number of shape modes in the file.
     """
 
     description: BodyDescription
     comments: Mapping[str, str]
     shaped: int
     skin: SkinnedMesh | None = None
+    modes: Modes | None = None
+    modes_in_file: int = 0
 
     @classmethod
     def of(

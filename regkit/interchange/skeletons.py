@@ -56,7 +56,8 @@ def read_skeleton(
             raise ConfigError(f"is a template of a URDF file; {XACRO}", place=str(path))
         case suffix:
             raise ConfigError(
-                f"the format '{suffix}' cannot be imported; use .bvh or .urdf, or make a template "
-                "from a rigged .glb or .gltf with `regkit fit`",
+                f"the format '{suffix}' cannot be imported; use .bvh, .urdf, or a body model in "
+                "the layout of SMPL (.npz, .pkl); other models, such as MHR and GHUM, become "
+                "templates by `regkit fit` from a rigged .glb or .gltf",
                 place=str(path),
             )

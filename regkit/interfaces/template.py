@@ -38,9 +38,10 @@ class Template(Plugin, ABC):
         """
 
     def input_files(self) -> Iterable[Path]:
-        """Returns all paths in the configuration, and the mesh of the description."""
-        mesh = self.description().mesh
-        return [*paths_in(self, Plugin), *([] if mesh is None else [mesh])]
+        """Returns all paths in the configuration, and the mesh and modes of the description."""
+        described = self.description()
+        beside = [path for path in (described.mesh, described.modes) if path is not None]
+        return [*paths_in(self, Plugin), *beside]
 
     @abstractmethod
     def given_size(self) -> float | None:

@@ -6,7 +6,7 @@ import zipfile
 from collections.abc import Iterable
 from math import prod
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 
@@ -50,11 +50,30 @@ def array_names(path: Path, what: str = "an .npz file") -> list[str]:
         return _names(archive)
 
 
+def object_pickle(path: Path, name: str) -> bytes | None:
+    """Returns the pickle of an array of Python objects, which is not read; None for other arrays.
+
+    Args:
+        path: The ``.npz`` file.
+        name: Name of the array.
+
+    Raises:
+        DataError: If the file or the array is missing or damaged.
+    """
+    what = "an .npz file"
+    with reading(path, what), path.open("rb") as stream, zipfile.ZipFile(stream) as archive:
+        info = _info(archive, name, path, what)
+        with archive.open(info) as member:
+            _, dtype = _header(member, name)
+            return member.read() if dtype.hasobject else None
+
+
 def _names(archive: zipfile.ZipFile) -> list[str]:
     return [name.removesuffix(".npy") for name in archive.namelist()]
 
 
-def _member(archive: zipfile.ZipFile, name: str, path: Path, what: str) -> np.ndarray[Any, Any]:
+def _info(archive: zipfile.ZipFile, name: str, path: Path, what: str) -> zipfile.ZipInfo:
+    """Returns the entry of an array, which exists once and is not too large."""
     names = _names(archive)
     if names.count(name) != 1:
         found = "several arrays" if name in names else "no array"
@@ -67,15 +86,26 @@ def _member(archive: zipfile.ZipFile, name: str, path: Path, what: str) -> np.nd
             f"array '{name}' would unpack to {info.file_size / 1e9:.3g} GB, more than "
             f"{MAX_EXPANSION} times the size of the file; it holds no measured data"
         )
+    return info
+
+
+def _header(member: IO[bytes], name: str) -> tuple[tuple[int, ...], np.dtype[Any]]:
+    """Returns the shape and the type of an array."""
+    version = np.lib.format.read_magic(member)
+    read = {
+        (1, 0): np.lib.format.read_array_header_1_0,
+        (2, 0): np.lib.format.read_array_header_2_0,
+    }.get(version)
+    if read is None:
+        raise DataError(f"array '{name}' has the unknown format {version}")
+    shape, _, dtype = read(member)
+    return shape, dtype
+
+
+def _member(archive: zipfile.ZipFile, name: str, path: Path, what: str) -> np.ndarray[Any, Any]:
+    info = _info(archive, name, path, what)
     with archive.open(info) as member:
-        version = np.lib.format.read_magic(member)
-        read = {
-            (1, 0): np.lib.format.read_array_header_1_0,
-            (2, 0): np.lib.format.read_array_header_2_0,
-        }.get(version)
-        if read is None:
-            raise DataError(f"array '{name}' has the unknown format {version}")
-        shape, _, dtype = read(member)
+        shape, dtype = _header(member, name)
         asked, held = prod(shape) * dtype.itemsize, info.file_size - member.tell()
     if dtype.hasobject:
         raise DataError(f"array '{name}' holds Python objects, which are never read")

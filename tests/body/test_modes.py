@@ -1,197 +1,61 @@
-"""Shape modes: their file, what they must hold, and what a template with them can do."""
+"""Shape modes in a file beside a template."""
 
+import re
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-from regkit.body import BodyDescription, Scaling
-from regkit.body.linear_shape import LinearShape
 from regkit.body.modes import KEYS, Modes
-from regkit.body.reading import description_in
-from regkit.body.shaped import shaped
-from regkit.body.template_file import write_template
-from regkit.geometry.skinned_mesh import SkinnedMesh
-from regkit.geometry.surface import SkinnedSurface
-from regkit.skeleton import Placement, Pose
-from regkit.skeleton.compile import compiled
-from regkit.system.errors import ConfigError, DataError, RegkitError
-from regkit_plugins.templates.hand import Hand
-from regkit_plugins.templates.human import Human
-
-TEMPLATES = {"human": Human(), "right": Hand(), "left": Hand(side="left")}
+from regkit.system.errors import DataError
 
 
-@pytest.fixture(scope="module", params=TEMPLATES)
-def shape(request) -> LinearShape:
-    return LinearShape.of(TEMPLATES[request.param].description())
-
-
-def drawn(shape: LinearShape, seed: int = 0) -> np.ndarray:
-    factor = np.linalg.cholesky(np.linalg.inv(shape.information))
-    random = np.random.default_rng(seed).normal(size=len(shape))
-    return np.clip(shape.mean + factor @ random, *shape.bounds.T)
-
-
-def bent(shape: LinearShape, x: np.ndarray) -> Placement:
-    bones = shape.skeleton(x)
-    step = 0.4 * np.random.default_rng(1).normal(size=bones.dofs)
-    return Placement.of(bones, bones.limits.projected(bones.retract(bones.rest(), step)))
-
-
-def small_modes() -> Modes:
+@pytest.fixture
+def modes(random) -> Modes:
+    root = random.normal(size=(2, 2))
     return Modes(
-        names=("height", "weight"),
-        labels=("a", "b", "c"),
-        joints=np.arange(18.0).reshape(2, 3, 3),
-        vertices=np.arange(24.0).reshape(2, 4, 3),
-        mean=np.array([0.5, 0.0]),
-        covariance=np.array([[1.0, 0.2], [0.2, 2.0]]),
-        bounds=np.array([[-3.0, 3.0], [-2.0, 4.0]]),
+        names=("height", "beta_1"),
+        labels=("pelvis", "left_hip", "head"),
+        joints=random.normal(size=(2, 3, 3)),
+        vertices=random.normal(size=(2, 5, 3)),
+        mean=random.normal(size=2),
+        covariance=root @ root.T + np.eye(2),
+        bounds=np.array([[-3.0, 3.0], [0.0, 1.0]]),
     )
 
 
-def test_modes_are_read_as_they_were_written(tmp_path):
-    modes = small_modes()
-    modes.write(tmp_path / "modes.npz")
-    again = Modes.read(tmp_path / "modes.npz")
-    assert (again.names, again.labels) == (modes.names, modes.labels)
+def test_modes_are_read_as_written(tmp_path, modes):
+    path = tmp_path / "body_modes.npz"
+    modes.write(path)
+    read = Modes.read(path)
+    assert (read.names, read.labels) == (modes.names, modes.labels)
     for key in KEYS[2:]:
-        np.testing.assert_allclose(getattr(again, key), getattr(modes, key), atol=1e-6)
+        np.testing.assert_allclose(getattr(read, key), getattr(modes, key), atol=1e-6)
+    with np.load(path) as stored:
+        assert set(stored) == set(KEYS)
+        assert stored["vertices"].dtype == np.float32
 
 
 @pytest.mark.parametrize(
-    ("change", "told"),
+    ("change", "complaint"),
     [
-        ({"names": ("height", "height")}, "height"),
-        ({"names": ("height",)}, "joints"),
-        ({"joints": np.zeros((2, 2, 3))}, "joints"),
-        ({"vertices": np.full((2, 4, 3), np.nan)}, "vertices"),
-        ({"covariance": np.array([[1.0, 0.9], [0.2, 1.0]])}, "covariance"),
-        ({"covariance": np.array([[1.0, 2.0], [2.0, 1.0]])}, "covariance"),
-        ({"bounds": np.array([[1.0, 3.0], [-2.0, 4.0]])}, "height"),
-        ({"mean": np.zeros(3)}, "mean"),
+        ({"names": ("a", "a")}, "names must be unique"),
+        ({"names": ("a", "b\n")}, "names has .* cannot be printed"),
+        ({"labels": ("a",)}, r"joints has the shape \(2, 3, 3\)"),
+        ({"joints": np.full((2, 3, 3), np.nan)}, "joints has NaN"),
+        ({"vertices": np.zeros((1, 5, 3))}, r"vertices has the shape \(1, 5, 3\)"),
+        ({"vertices": np.full((2, 5, 3), 1e9)}, "vertices holds 1e"),
+        ({"mean": np.zeros(3)}, r"mean has the shape \(3,\)"),
+        ({"covariance": np.array([[1.0, 2.0], [0.0, 1.0]])}, "covariance is not symmetric"),
+        ({"covariance": np.array([[1.0, 2.0], [2.0, 1.0]])}, "covariance has the eigenvalue -1"),
+        ({"covariance": np.zeros((2, 2))}, "covariance has the eigenvalue 0"),
+        ({"bounds": np.array([[0.0, 1.0], [1.0, 0.0]])}, "bounds of mode 1 are reversed"),
     ],
 )
-def test_damaged_modes_are_refused_with_file_and_array(tmp_path, change, told):
-    replace(small_modes(), **change).write(tmp_path / "modes.npz")
-    with pytest.raises(DataError, match=told) as caught:
-        Modes.read(tmp_path / "modes.npz")
-    assert str(tmp_path / "modes.npz") in str(caught.value)
-
-
-def test_modes_without_a_mesh_are_refused(tmp_path):
-    text = (
-        "title: A rod\nsize: {name: length, value: 1, range: [0.5, 2]}\n"
-        "segments: {rod: {joint: {type: free}, capsules: [{start: [0, 0, 0], end: [0, 1, 0], "
-        "radius: 0.1}]}}\nmodes: rod_modes.npz\n"
-    )
-    small_modes().write(tmp_path / "rod_modes.npz")
-    (tmp_path / "rod.yaml").write_text(text)
-    with pytest.raises(ConfigError, match="mesh") as caught:
-        description_in(tmp_path / "rod.yaml")
-    assert "modes" in str(caught.value)
-
-
-def test_modes_of_another_mesh_are_refused(tmp_path):
-    template = TEMPLATES["right"].description()
-    modes = Modes.read(template.modes)
-    replace(modes, vertices=modes.vertices[:, 1:]).write(tmp_path / "short.npz")
-    with pytest.raises(DataError, match="800") as caught:
-        LinearShape.of(template.model_copy(update={"modes": tmp_path / "short.npz"}))
-    assert "short.npz" in str(caught.value)
-
-
-def test_template_without_modes_has_no_linear_shape():
-    with pytest.raises(ConfigError, match="modes"):
-        LinearShape.of(Human(build="small").description())
-
-
-def test_zero_is_the_template_itself(shape):
-    zero = np.zeros(len(shape))
-    np.testing.assert_allclose(shape.skin(zero).vertices, shape.mesh.vertices, atol=1e-12)
-    own = compiled(shape.template)
-    np.testing.assert_allclose(shape.skeleton(zero).link_offsets, own.link_offsets, atol=1e-12)
-
-
-def test_skin_in_the_segments_is_the_skin_in_the_body(shape):
-    # Bones stretch alike in both, so a skin that is written is the one that was fitted.
-    x = drawn(shape)
-    placement = bent(shape, x)
-    written = SkinnedSurface.of(shape.skin(x)).place(placement.transforms)
-    np.testing.assert_allclose(shape.surface(x).place(placement.transforms), written, atol=1e-6)
-
-
-def test_written_template_is_the_shaped_body(shape, tmp_path):
-    x = drawn(shape, 2)
-    write_template(tmp_path / "subject.yaml", shaped(shape, x), shape.skin(x), "A test.")
-    again = description_in(tmp_path / "subject.yaml")
-    body = again.body("subject", again.size.value)
-    placement = bent(shape, x)
-    pose = Pose(placement.pose.root, placement.pose.balls, placement.pose.hinges)
-    read = body.surface.place(body.place(pose).transforms)
-    fitted = shape.surface(x).place(placement.transforms)
-    # Templates have four decimals.
-    assert np.linalg.norm(read - fitted, axis=1).max() < 1.5e-3
-
-
-def test_most_probable_shape_of_a_size_has_the_size(shape):
-    for factor in (0.95, 1.0, 1.1):
-        size = factor * shape.size(shape.mean)
-        x = shape.at_size(size)
-        assert shape.size(x) == pytest.approx(size, rel=1e-6)
-        for nudge in np.random.default_rng(3).normal(size=(4, len(shape))):
-            other = x + 0.05 * nudge
-            assert shape.size(other) != pytest.approx(size, rel=1e-6) or shape.energy(
-                other
-            ) > shape.energy(x)
-
-
-def scaling(shape: LinearShape) -> LinearShape:
-    """A shape whose one mode enlarges everything by a tenth."""
-    return replace(
-        shape,
-        names=("larger",),
-        modes=1,
-        joints=0.1 * shape.mesh.rest[None, :, :3, 3],
-        vertices=0.1 * shape.mesh.vertices[None],
-        mean=np.zeros(1),
-        information=np.eye(1),
-        bounds=np.array([[-5.0, 5.0]]),
-    )
-
-
-def test_mode_that_enlarges_everything_scales_the_template(shape):
-    larger = shaped(scaling(shape), np.array([2.0]))
-    template: BodyDescription = shape.template
-    assert larger.size.value == pytest.approx(1.2 * template.size.value, rel=1e-4)
-    for name, segment in template.segments.items():
-        scaled = larger.segments[name]
-        np.testing.assert_allclose(scaled.offset, 1.2 * np.array(segment.offset), atol=1e-4)
-        for one, other in zip(segment.capsules, scaled.capsules, strict=True):
-            np.testing.assert_allclose(other.start, 1.2 * np.array(one.start), atol=1e-3)
-            np.testing.assert_allclose(other.radius, 1.2 * np.array(one.radius), rtol=5e-3)
-        for marker, at in segment.markers.items():
-            np.testing.assert_allclose(scaled.markers[marker], 1.2 * np.array(at), atol=1e-3)
-    for name, several in template.shapes["gsog"].items():
-        for one, other in zip(several, larger.shapes["gsog"][name], strict=True):
-            like = one.deformed(Scaling(1.2))
-            np.testing.assert_allclose(other.moments()[0], like.moments()[0], atol=1e-3)
-            np.testing.assert_allclose(other.moments()[1], like.moments()[1], rtol=0.02, atol=1e-6)
-
-
-def test_mirrored_hands_have_mirrored_modes():
-    right, left = (LinearShape.of(TEMPLATES[side].description()) for side in ("right", "left"))
-    x = drawn(right, 4)
-    flip = np.array([-1.0, 1.0, 1.0])
-    np.testing.assert_allclose(left.skin(x).vertices, right.skin(x).vertices * flip, atol=1e-5)
-
-
-def test_bones_that_are_no_segments_are_refused(tmp_path):
-    template = TEMPLATES["right"].description()
-    mesh = SkinnedMesh.read(template.mesh)
-    other = replace(mesh, labels=(*mesh.labels[:-1], "sixth_finger"))
-    other.write(tmp_path / "mesh.npz")
-    with pytest.raises(RegkitError, match="sixth_finger"):
-        LinearShape.of(template.model_copy(update={"mesh": Path(tmp_path / "mesh.npz")}))
+def test_damaged_modes_are_refused_with_file_and_array(tmp_path, modes, change, complaint):
+    path = tmp_path / "body_modes.npz"
+    replace(modes, **change).write(path)
+    with pytest.raises(DataError) as raised:
+        Modes.read(path)
+    assert raised.value.place == str(path)
+    assert re.search(complaint, raised.value.message), raised.value.message

@@ -102,7 +102,7 @@ def test_other_files_are_not_replaced(regkit, tmp_path):
         ((BVH, "--up", "up"), "--up: 'up' is not an axis (there are: x, y, z, -x, -y, -z)"),
         ((BVH, "--package", "none"), "--package: none is not a folder"),
         ((BVH, "--front", "-y"), "--front: up is y; the front cannot be -y"),
-        ((LICENSED / "LICENSE",), "cannot be imported; use .bvh or .urdf"),
+        ((LICENSED / "LICENSE",), "cannot be imported; use .bvh, .urdf, or a body model"),
         (("none.bvh",), "none.bvh: there is no such file"),
     ],
 )

@@ -89,7 +89,6 @@ def main() -> int:
         right = hand_modes(folder)
         found = {"human": human_modes(folder), "hand_right": right, "hand_left": mirrored(right)}
         for name, modes in found.items():
-            modes.check()
             modes.write(folder / f"{name}_modes.npz")
             print(folder / f"{name}_modes.npz")
     except RegkitError as error:

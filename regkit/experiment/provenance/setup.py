@@ -154,7 +154,7 @@ def _change(before: bool, after: bool) -> str:
 
 
 def _of_templates(field: str, before: Any, after: Any) -> Iterator[str]:
-    # The content of the mesh is a file's; its place does not matter.
+    # The contents of mesh and modes are files'; their places do not matter.
     there, here = ({**(one or {}), "mesh": None, "modes": None} for one in (before, after))
     if there != here:
         yield differences({field: there}, {field: here})

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cache
 
 from tests.fuzz.kind import Files, Kind
+from tests.fuzz.seeds.body_models import BODY_MODELS
 from tests.fuzz.seeds.cloud_files import CLOUDS
 from tests.fuzz.seeds.configs import CONFIGS
 from tests.fuzz.seeds.keypoint_files import KEYPOINTS
@@ -24,6 +25,7 @@ GROUPS: dict[str, tuple[Kind, ...]] = {
         *OTHERS,
         *MESHES,
         *SKELETONS,
+        *BODY_MODELS,
         *MOTIONS,
         *RESULTS,
         *STREAMS,

@@ -1,0 +1,1 @@
+"""Parametric body models: SMPL and the models with its layout."""
