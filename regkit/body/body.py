@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from regkit.body.listed import ListedShape
+from regkit.body.parts import Part
 from regkit.geometry.capsules import AxisPoints, Capsules
 from regkit.geometry.surface import SkinnedSurface
 from regkit.skeleton import Placement, Pose, Skeleton
@@ -81,6 +82,7 @@ class Body(Brief):
         upright: Whether y points up in the first frame, with the front towards the camera.
         surface: Skinned mesh or cloud of the template, if it has one.
         optional: Indices of the segments that the data may lack.
+        parts: The parts of a composed body, such as its hands; none if it is not composed.
     """
 
     name: str
@@ -93,6 +95,7 @@ class Body(Brief):
     upright: bool
     surface: SkinnedSurface | None = None
     optional: tuple[int, ...] = ()
+    parts: tuple[Part, ...] = ()
 
     def __repr__(self) -> str:
         """Returns what the body consists of, in one line."""

@@ -22,7 +22,7 @@ from regkit.skeleton.joints import (
     PrismaticJoint,
     UniversalJoint,
 )
-from regkit.skeleton.pose import RootDescription
+from regkit.skeleton.pose import JointAngles, RootDescription
 
 _LETTERS = {
     tuple(float(number) for number in sign * axis): text + letter
@@ -101,15 +101,24 @@ def _size(size: SizeDescription) -> str:
 def _stance(pose: PoseDescription, segments: Mapping[str, SegmentDescription]) -> list[str]:
     lines = []
     if pose.root != RootDescription():
-        position, rotation = row(pose.root.position), row(pose.root.rotation_deg, 1)
-        lines.append(f"    root: {{position: {position}, rotation_deg: {rotation}}}")
+        lines.append(f"    root: {_root(pose.root)}")
     lines.append("    joints:" if pose.joints else "    joints: {}")
     width = max((len(key(joint)) for joint in pose.joints), default=0)
     for joint, angles in pose.joints.items():
-        decimals = 4 if isinstance(segments[joint].joint, PrismaticJoint) else 1
-        value = number(angles, decimals) if isinstance(angles, float) else row(angles, decimals)
-        lines.append(f"      {key(joint):<{width}} {value.strip()}")
+        lines.append(f"      {key(joint):<{width}} {_angles(angles, segments[joint].joint)}")
     return lines
+
+
+def _angles(angles: JointAngles, joint: Joint | None) -> str:
+    if isinstance(angles, RootDescription):
+        return _root(angles)
+    decimals = 4 if isinstance(joint, PrismaticJoint) else 1
+    value = number(angles, decimals) if isinstance(angles, float) else row(angles, decimals)
+    return value.strip()
+
+
+def _root(root: RootDescription) -> str:
+    return f"{{position: {row(root.position)}, rotation_deg: {row(root.rotation_deg, 1)}}}"
 
 
 def _segment(segment: SegmentDescription, comment: str) -> list[str]:

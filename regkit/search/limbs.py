@@ -50,7 +50,8 @@ def limbs_of(skeleton: Skeleton) -> list[Limb]:
     limbs = []
     for segment in range(count):
         parent = int(skeleton.parents[segment])
-        if parent < 0 or len(children[parent]) < 2:
+        # A body that is free in the scene is no limb.
+        if parent < 0 or len(children[parent]) < 2 or skeleton.is_free(skeleton.names[segment]):
             continue
         chain = [segment]
         while len(children[chain[-1]]) == 1:

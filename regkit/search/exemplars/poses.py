@@ -55,7 +55,8 @@ def _shakes_of_hinges(limits: Limits) -> Array:
     """Returns the standard deviation of each hinge about a stance, (n_hinge,) [rad or m]."""
     # A prismatic joint is shaken by the part of its travel that a limb's joint is of half a turn.
     travel = np.diff(limits.hinge, axis=1)[:, 0]
-    return np.where(limits.prismatic, LIMB_SHAKE / np.pi * travel, LIMB_SHAKE)
+    slides = np.where(np.isfinite(travel), LIMB_SHAKE / np.pi * travel, 0.0)
+    return np.where(limits.prismatic, slides, LIMB_SHAKE)
 
 
 def sampled_views(random: np.random.Generator, count: int, elevation: tuple[float, float]) -> Array:
