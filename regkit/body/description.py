@@ -12,7 +12,7 @@ from regkit.body.body import Body, Markers, Stance
 from regkit.body.checks import check_lengths, check_stances
 from regkit.body.deformation import Scaling
 from regkit.body.listed import ListedShape
-from regkit.body.parts import PartDescription, check_parts, parts_of
+from regkit.body.parts import PartDescription, SocketDescription, check_parts, parts_of
 from regkit.body.shape_parameters import ShapeParameters, UncheckedParameters
 from regkit.body.shapes import Shapes
 from regkit.config.model import InputPath, Model, did_you_mean, misplaced
@@ -73,6 +73,8 @@ class BodyDescription(SkeletonDescription):
     it. A shape model that is not listed makes its primitives from the capsules."""
     parts: dict[Name, PartDescription] = Field(default_factory=dict)
     """Parts of a composed body, such as a person's hands or several objects, by name."""
+    sockets: dict[Name, SocketDescription] = Field(default_factory=dict)
+    """By segment: how a part that a composed template puts in its place is attached."""
     mesh: InputPath | None = None
     """Skinned mesh for shape models that use one: an ``.npz`` file whose bones are named after the
     segments."""
@@ -95,7 +97,7 @@ class BodyDescription(SkeletonDescription):
     @model_validator(mode="after")
     def _parts_fit_together(self) -> BodyDescription:
         check_lengths(type(self), self.segments, self.size.value)
-        check_parts(type(self), self.segments, self.parts)
+        check_parts(type(self), self.segments, self.parts, self.sockets)
         if self.stances:
             check_stances(type(self), compiled(self), self.stances)
         return self

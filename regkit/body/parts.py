@@ -10,6 +10,7 @@ import numpy as np
 from regkit.config.model import Model, did_you_mean, misplaced
 from regkit.config.quantities import Length
 from regkit.skeleton import SegmentDescription, Skeleton
+from regkit.skeleton.joints import FixedJoint, Joint, Position, Rotation
 from regkit.system.arrays import Indices
 from regkit.system.brief import Brief
 
@@ -21,6 +22,19 @@ class PartDescription(Model):
     """Name of the part's first segment."""
     size: Length
     """Characteristic length of the part at the template's size [m]."""
+
+
+class SocketDescription(Model):
+    """The place of a part that replaces a segment, such as a hand with fingers a hand without."""
+
+    offset: Position = (0.0, 0.0, 0.0)
+    """Origin of the part's first segment in the replaced segment's frame [m]."""
+    rotation_deg: Rotation = (0.0, 0.0, 0.0)
+    """Rotation vector of the part's first segment in the replaced segment's frame [deg]."""
+    joint: Joint = FixedJoint()
+    """Joint between the part and the segment before it, in the part's frame."""
+    size: Length
+    """Characteristic length of a part that belongs to a body of the template's size [m]."""
 
 
 @dataclass(frozen=True)
@@ -68,13 +82,15 @@ def check_parts(
     model: type[Model],
     segments: Mapping[str, SegmentDescription],
     parts: Mapping[str, PartDescription],
+    sockets: Mapping[str, SocketDescription],
 ) -> None:
-    """Refuses parts without a segment, and two parts with the same one.
+    """Refuses parts and sockets without a segment, and two parts with the same one.
 
     Args:
         model: The template's class, for the error.
         segments: Its segments.
         parts: Its parts.
+        sockets: Its sockets.
 
     Raises:
         ValidationError: At the first wrong part.
@@ -82,16 +98,30 @@ def check_parts(
     roots: dict[str, str] = {}
     for name, part in parts.items():
         place = ("parts", name, "root")
-        if part.root not in segments:
-            known = list(segments)
-            raise misplaced(
-                model,
-                f"'{part.root}' is not a segment (there are: {', '.join(known)})"
-                + did_you_mean(part.root, known),
-                *place,
-            )
+        _check_segment(model, part.root, segments, *place)
         if part.root in roots:
             raise misplaced(
                 model, f"'{part.root}' is the root of '{roots[part.root]}' already", *place
             )
         roots[part.root] = name
+    for name in sockets:
+        _check_segment(model, name, segments, "sockets", name)
+        if segments[name].parent is None or any(one.parent == name for one in segments.values()):
+            raise misplaced(
+                model,
+                f"'{name}' is not at the end of a limb; only such a segment can be replaced",
+                *("sockets", name),
+            )
+
+
+def _check_segment(
+    model: type[Model], name: str, segments: Mapping[str, SegmentDescription], *place: str
+) -> None:
+    if name not in segments:
+        known = list(segments)
+        raise misplaced(
+            model,
+            f"'{name}' is not a segment (there are: {', '.join(known)})"
+            + did_you_mean(name, known),
+            *place,
+        )

@@ -52,7 +52,19 @@ class Proportions:
             }
             for key, by_segment in template.shapes.items()
         }
-        subject = template.model_copy(update={"segments": segments, "shapes": shapes, "mesh": None})
+        sockets = {
+            name: one.model_copy(
+                update={
+                    "offset": stretches[name].point(one.offset),
+                    "size": one.size
+                    * float(self.lengths[self.groups.of_segments[order.index(name)]]),
+                }
+            )
+            for name, one in template.sockets.items()
+        }
+        subject = template.model_copy(
+            update={"segments": segments, "shapes": shapes, "sockets": sockets, "mesh": None}
+        )
         size = template.size.value * height(subject) / height(template)
         return subject.model_copy(
             update={"size": template.size.model_copy(update={"value": size, "range": (size, size)})}

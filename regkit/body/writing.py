@@ -36,6 +36,9 @@ _UPRIGHT = "In the first frame y points up and the front faces the camera."
 _SHAPES = """\
 Primitives of shape models; sigma is a standard deviation [m], and the surface lies at about two."""
 
+_SOCKETS = """\
+How a part with joints of its own, such as a hand with fingers, takes a segment's place."""
+
 _BESIDE = "The skin: vertices that follow the segments, in a file in the same folder."
 
 
@@ -72,6 +75,7 @@ def template_text(body: BodyDescription, opening: str, comments: Mapping[str, st
         lines += [f"  {key(name)}", *_stance(pose, body.segments)]
     if body.shapes:
         lines += ["", *comment_lines(_SHAPES), *shape_lines(body.shapes)]
+    lines += _sockets(body)
     if body.mesh is not None:
         lines += ["", *comment_lines(_BESIDE), f"mesh: {json.dumps(body.mesh.name)}"]
     return "\n".join(lines) + "\n"
@@ -85,6 +89,20 @@ def shape_lines(shapes: Mapping[str, Mapping[str, Sequence[ShapeParameters]]]) -
         for name, several in by_segment.items():
             lines.append(f"    {key(name)}")
             lines += [f"      - {one.yaml()}" for one in several]
+    return lines
+
+
+def _sockets(body: BodyDescription) -> list[str]:
+    lines = ["", *comment_lines(_SOCKETS), "sockets:"] if body.sockets else []
+    for name, socket in body.sockets.items():
+        lines.append(f"  {key(name)}")
+        if any(socket.offset):
+            lines.append(f"    offset: {row(socket.offset)}")
+        lines += [
+            f"    rotation_deg: {row(socket.rotation_deg, 1)}",
+            f"    joint: {_joint(socket.joint)}",
+            f"    size: {socket.size:.4f}",
+        ]
     return lines
 
 

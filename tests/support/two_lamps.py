@@ -7,7 +7,8 @@ import yaml
 from scipy.spatial.transform import Rotation
 
 from regkit.body import Body, BodyDescription
-from regkit.body.composition import Member, beside
+from regkit.body.composing import beside
+from regkit.body.members import Member
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.observation import Observation
 from regkit.skeleton import Pose
@@ -26,7 +27,7 @@ def lamp() -> BodyDescription:
 
 def described() -> BodyDescription:
     """A lamp ``near`` and a lamp ``far``."""
-    return beside("Two lamps.", [Member(name, lamp(), f"{name}_") for name in ("near", "far")], 0)
+    return beside([Member(name, lamp(), f"{name}_") for name in ("near", "far")], 0)
 
 
 def lamps_at(body: Body, places: Sequence[tuple[float, float, float, float]]) -> Pose:

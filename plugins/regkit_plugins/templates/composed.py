@@ -1,8 +1,9 @@
-"""Several templates in one: bodies that move freely beside each other."""
+"""Several templates in one: parts of a body, and bodies that move freely beside each other."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 from typing import Literal, Self
 
@@ -10,28 +11,46 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from regkit.body import Body, BodyDescription
-from regkit.body.composition import Member, beside, scaled
+from regkit.body.composition import Composition, Sized
+from regkit.body.members import Member, scaled
+from regkit.config.model import did_you_mean, misplaced
 from regkit.interfaces.template import Template
 from regkit.skeleton.description import Name
-from regkit.system.errors import RegkitError
+from regkit.system.errors import ConfigError, RegkitError
+
+BASE = "body"
+"""Name of the part that is the base without its parts."""
 
 
 class Composed(Template):
     """Several templates in one, which compete for the same points.
 
-    The bodies in ``free`` move freely beside each other, such as two hands, or a hand and an object
-    that it grasps. The names of their segments and markers begin with the body's: the palm of
-    ``left`` is ``left_palm``.
+    A base has parts in place of some of its segments, such as hands with fingers at the ends of its
+    arms. Other bodies move freely beside it, or beside each other, such as two hands, or a hand and
+    an object that it grasps. The names of a part's segments and markers begin with the part's: the
+    palm of ``left`` is ``left_palm``.
     """
 
     kind: Literal["composed"] = "composed"
-    free: dict[Name, Template] = Field(min_length=1)
-    """Bodies that move freely beside each other, by name. A body without a given size keeps its
-    proportion to the first one without, whose size is that of the whole."""
+    base: Template | None = None
+    """The body that has the parts ``at``."""
+    at: dict[Name, Template] = Field(default_factory=dict)
+    """Parts of the base, by the segment that they replace, where its template has ``sockets``. A
+    part without a given size has that of the socket."""
+    free: dict[Name, Template] = Field(default_factory=dict)
+    """Bodies that move freely beside the base and each other, by name. A body without a given size
+    keeps its proportion to the first one without, whose size is that of the whole."""
 
     @model_validator(mode="after")
     def _compose_early(self) -> Self:
+        if self.base is None and not self.free:
+            raise ValueError(
+                "name a 'base' with parts 'at' its segments, or bodies that are 'free'"
+            )
+        if self.base is None and self.at:
+            raise misplaced(type(self), "parts need a 'base' to which they are attached", "at")
         try:
+            self._check_sockets()
             self.description()
         except RegkitError as error:
             raise PydanticCustomError("plugin_error", "{error}", {"error": str(error)}) from error
@@ -41,36 +60,62 @@ class Composed(Template):
         """Returns the description of the whole.
 
         Raises:
-            RegkitError: If two bodies have segments of the same name, or a file is invalid.
+            RegkitError: If two parts have segments of the same name, or a file is invalid.
         """
-        return self._composed(1.0)
+        return self._composition(1.0).description
 
     def given_size(self) -> float | None:
         """Returns the size of the first body [m], if those of all bodies are given."""
-        sizes = [template.given_size() for template in self.free.values()]
+        sizes = [template.given_size() for template in self._bodies.values()]
         return None if None in sizes else sizes[0]
 
     def input_files(self) -> Iterable[Path]:
         """Returns the files of all templates."""
-        return [path for template in self.free.values() for path in template.input_files()]
+        templates = [*self._bodies.values(), *self.at.values()]
+        return [path for template in templates for path in template.input_files()]
 
     def body(self, size: float) -> Body:
-        """Returns the whole at a size [m]; bodies with a given size keep it."""
-        description = self._composed(size / self.description().size.value)
-        return description.body(self.name(), description.size.value)
+        """Returns the whole at a size [m]; bodies and parts with a given size keep it."""
+        found = self._composition(size / self.description().size.value)
+        whole = found.description.body(self.name(), found.description.size.value)
+        return replace(whole, surface=found.surface(whole.skeleton.names))
 
-    def _composed(self, factor: float) -> BodyDescription:
-        """Returns the description of the whole, with bodies without a given size in a scale."""
+    def _composition(self, factor: float) -> Composition:
+        """Returns the composition in which bodies without a given size are scaled by a factor."""
         members = []
-        for name, template in self.free.items():
+        for name, template in self._bodies.items():
             own = template.description()
             size = template.given_size() or factor * own.size.value
-            members.append(Member(name, scaled(own, size), prefix=f"{name}_"))
-        title = " and ".join(f"{name}: {one.kind}" for name, one in self.free.items())
-        return beside(title, members, self._leading)
+            prefix = "" if name == BASE else f"{name}_"
+            members.append(Sized(Member(name, scaled(own, size), prefix), template.body(size)))
+        sizes = [template.given_size() for template in self._bodies.values()]
+        leading = sizes.index(None) if None in sizes else 0
+        parts = []
+        if self.base is not None:
+            sockets = members[0].member.description.sockets
+            for name, template in self.at.items():
+                size = template.given_size() or sockets[name].size
+                part = Member(name, scaled(template.description(), size), f"{name}_", at=name)
+                parts.append(Sized(part, template.body(size)))
+        return Composition(members, parts, leading)
 
     @property
-    def _leading(self) -> int:
-        """Index of the first body without a given size, or of the first one."""
-        sizes = [template.given_size() for template in self.free.values()]
-        return sizes.index(None) if None in sizes else 0
+    def _bodies(self) -> dict[str, Template]:
+        """The bodies that move freely, by name."""
+        return ({} if self.base is None else {BASE: self.base}) | self.free
+
+    def _check_sockets(self) -> None:
+        """Refuses parts at segments without a socket.
+
+        Raises:
+            ConfigError: At the first one.
+        """
+        sockets = {} if self.base is None else self.base.description().sockets
+        for name in self.at:
+            if name not in sockets:
+                known = ", ".join(sockets) or "none"
+                raise ConfigError(
+                    f"the base has no socket at '{name}' (there are: {known})"
+                    + did_you_mean(name, list(sockets))
+                    + "; a template of your own needs 'sockets' in its file"
+                )
