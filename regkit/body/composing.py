@@ -93,7 +93,7 @@ def attached(body: Member, parts: Sequence[Member]) -> BodyDescription:
         sources=sources_of([body, *parts]),
         size=whole.size,
         segments=segments,
-        stances={name: _with_parts(one, name, parts) for name, one in whole.stances.items()},
+        stances=_stances_with(parts, whole.stances),
         upright=whole.upright,
         shapes=_listed_in_place(body, parts),
         parts=found,
@@ -124,13 +124,17 @@ def _in_socket(
     )
 
 
-def _with_parts(stance: PoseDescription, name: str, parts: Sequence[Member]) -> PoseDescription:
-    """Returns a body's stance with those of the same name of its parts."""
-    joints = dict(stance.joints)
+def _stances_with(
+    parts: Sequence[Member], stances: Mapping[str, PoseDescription]
+) -> dict[str, PoseDescription]:
+    """Returns a body's stances with those of the same name of its parts, and then the others."""
+    found = dict(stances)
     for part in parts:
-        own = part.description.stances.get(name)
-        joints |= {} if own is None else part.joints(own.model_copy(update=_UNMOVED))
-    return stance.model_copy(update={"joints": joints})
+        for name, own in part.description.stances.items():
+            stance = found.get(name, PoseDescription())
+            joints = stance.joints | part.joints(own.model_copy(update=_UNMOVED))
+            found[name] = stance.model_copy(update={"joints": joints})
+    return found
 
 
 def _listed_in_place(body: Member, parts: Sequence[Member]) -> Shapes:

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from regkit.interfaces import Evaluation, Registrar, RegistrationResult
 from regkit.observation import Observation
@@ -63,7 +64,8 @@ class LimbRecovery:
         contest = Contest(self.registrar, observation, found, self.gain)
         for search in self.searches:
             pose = contest.best.pose
-            contest.try_all(search.starts(observation.points, pose, self.starts, observation.sight))
+            starts = search.starts(observation.points, pose, self.starts, observation.sight)
+            contest.try_all(starts, search.beside(observation.points, pose))
         return contest.best
 
     def corrected(self, observation: Observation, found: RegistrationResult) -> RegistrationResult:
@@ -88,7 +90,8 @@ class Contest:
         registrar: The registrar.
         observation: The frame's data.
         found: The registration so far.
-        gain: Minimum increase of the mean inlier probability; a negative one is a loss.
+        gain: Minimum increase of the mean inlier probability of the points that matter; a negative
+            one is a loss.
 
     Attributes:
         best: The best registration so far.
@@ -105,16 +108,26 @@ class Contest:
         self._registrar, self._observation, self._gain = registrar, observation, gain
         self._evaluation: Evaluation | None = None
 
-    def try_all(self, starts: Iterable[Pose]) -> None:
-        """Tries starts, one after the other."""
-        for start in starts:
-            self._try(start)
+    def try_all(
+        self, starts: Iterable[Pose], points: NDArray[np.bool_] | slice = slice(None)
+    ) -> None:
+        """Tries starts, one after the other.
 
-    def _try(self, start: Pose) -> None:
+        Args:
+            starts: The starts.
+            points: Mask of the points that matter, (N,): those beside a small part of the body; by
+                default all.
+        """
+        for start in starts:
+            self._try(start, points)
+
+    def _try(self, start: Pose, points: NDArray[np.bool_] | slice) -> None:
         if self._evaluation is None:
             self._evaluation = self._registrar.evaluate(self._observation, self.best.pose)
         tried = self._registrar.register(self._observation, [start])
         rival, old = self._registrar.evaluate(self._observation, tried.pose), self._evaluation
-        gain = float((rival.inlier_probability - old.inlier_probability).mean())
+        gains = rival.inlier_probability - old.inlier_probability
+        # A method without inlier probabilities has a single NaN.
+        gain = float((gains[points] if len(gains) > 1 else gains).mean())
         if rival.energy < old.energy and gain > self._gain:
             self.best, self._evaluation = tried, rival

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from regkit.body import Body
 from regkit.clouds.compiled_nearest import nearest_distances
@@ -18,10 +19,13 @@ from regkit.skeleton import Placement, Pose
 from regkit.system.arrays import Array, Singles, loop_input
 
 SPACING = 0.05
-"""Distance of the points on a limb's axis, as a fraction of the body's size."""
+"""Distance of the points on a limb's axis, as a fraction of the size of its part of the body."""
 
 MOST_POINTS, FEWEST_POINTS = 24, 3
 """Maximum number of unexplained points to compare, and the minimum that shows where a limb is."""
+
+BESIDE = 1.3
+"""Distance from a part's joint within which points are beside the part, in sizes of the part."""
 
 LIKELY = 30
 """Number of configurations, best for the unexplained points, that are compared with all points."""
@@ -63,12 +67,13 @@ class LimbSearch:
         """
         rest = body.skeleton.rest()
         balls, hinges = body.skeleton.limits.sampled(random, samples)
-        for limb in limbs_of(body.skeleton):
+        for limb in limbs_of(body):
             own = np.isin(body.capsules.segments, limb.segments)
             if not own.any():
                 continue
             poses = limb.rotated(rest, balls, hinges)
-            axes = body.capsules.selected(own).axis_points(SPACING * body.size)
+            size = body.part_size(int(limb.segments[0]))
+            axes = body.capsules.selected(own).axis_points(SPACING * size)
             transforms = Placement.of(body.skeleton, poses).transforms
             places = axes.place(transforms) - transforms[:, limb.parent, None, :3, 3]
             places = places @ transforms[:, limb.parent, :3, :3]
@@ -103,6 +108,19 @@ class LimbSearch:
             if misfits[index] < BETTER * now[0]:
                 chosen = likely[index]
                 yield self.limb.rotated(pose, self.balls[chosen], self.hinges[chosen])
+
+    def beside(self, points: Array, pose: Pose) -> NDArray[np.bool_] | slice:
+        """Returns which points (N, 3) [m] are beside the part of the body with the limb, (N,).
+
+        Those of a body that is no part, or carries others, are all.
+        """
+        first = int(self.limb.segments[0])
+        for part in self.body.attached_parts:
+            if first in part.segments and first != part.segments[0]:
+                origin = self.body.place(pose).transforms[part.segments[0], :3, 3]
+                distances = np.linalg.norm(points - origin, axis=1)
+                return np.asarray(distances < BESIDE * part.size)
+        return slice(None)
 
     def _bare(self, points: Array, transforms: Array, root: Array) -> Array:
         """Returns points within the limb's length that the rest of the body does not explain."""

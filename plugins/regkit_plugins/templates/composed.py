@@ -78,7 +78,12 @@ class Composed(Template):
         """Returns the whole at a size [m]; bodies and parts with a given size keep it."""
         found = self._composition(size / self.description().size.value)
         whole = found.description.body(self.name(), found.description.size.value)
-        return replace(whole, surface=found.surface(whole.skeleton.names))
+        base = found.bodies[0].body if self.coarse() is not None else None
+        return replace(whole, surface=found.surface(whole.skeleton.names), base=base)
+
+    def coarse(self) -> Template | None:
+        """Returns the base, if it has parts and nothing is beside it."""
+        return self.base if self.at and not self.free else None
 
     def _composition(self, factor: float) -> Composition:
         """Returns the composition in which bodies without a given size are scaled by a factor."""

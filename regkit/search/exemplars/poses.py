@@ -35,7 +35,7 @@ def sampled_poses(body: Body, random: np.random.Generator, count: int) -> tuple[
     hinges = np.array([pose.hinges for pose in stances])[chosen]
     any_balls, any_hinges = bones.limits.sampled(random, count)
     shakes = np.full(balls.shape[1], TRUNK_SHAKE)
-    limbs = limbs_of(bones)
+    limbs = limbs_of(body)
     for limb in limbs:
         shakes[limb.balls] = LIMB_SHAKE
     steps = random.normal(size=(*balls.shape[:2], 3)) * shakes[:, None]
