@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -25,11 +25,16 @@ class Sized:
 
     Attributes:
         member: The member, with its description at its size.
-        body: Its body of the same size.
+        make: Makes its body of the same size, when it is needed.
     """
 
     member: Member
-    body: Body
+    make: Callable[[], Body]
+
+    @cached_property
+    def body(self) -> Body:
+        """Its own body."""
+        return self.make()
 
 
 @dataclass(frozen=True)
@@ -61,7 +66,13 @@ class Composition:
             return first.description
         return beside([first, *others], self.leading)
 
-    def surface(self, segments: Sequence[str]) -> SkinnedSurface | None:
+    def body(self, name: str) -> Body:
+        """Returns the body of the whole, called ``name``."""
+        whole = self.description.body(name, self.description.size.value)
+        base = self.bodies[0].body if self.parts and len(self.bodies) == 1 else None
+        return replace(whole, surface=self._surface(whole.skeleton.names), base=base)
+
+    def _surface(self, segments: Sequence[str]) -> SkinnedSurface | None:
         """Returns the surface of the whole; None if a member has none.
 
         Args:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Literal, Self
 
@@ -20,6 +20,11 @@ from regkit.system.errors import ConfigError, RegkitError
 
 BASE = "body"
 """Name of the part that is the base without its parts."""
+
+
+def prefixed(body: str) -> str:
+    """Returns what the names of a body's segments begin with."""
+    return "" if body == BASE else f"{body}_"
 
 
 class Composed(Template):
@@ -62,7 +67,7 @@ class Composed(Template):
         Raises:
             RegkitError: If two parts have segments of the same name, or a file is invalid.
         """
-        return self._composition(1.0).description
+        return self._composition().description
 
     def given_size(self) -> float | None:
         """Returns the size of the first body [m], if those of all bodies are given."""
@@ -76,33 +81,31 @@ class Composed(Template):
 
     def body(self, size: float) -> Body:
         """Returns the whole at a size [m]; bodies and parts with a given size keep it."""
-        found = self._composition(size / self.description().size.value)
-        whole = found.description.body(self.name(), found.description.size.value)
-        base = found.bodies[0].body if self.coarse() is not None else None
-        return replace(whole, surface=found.surface(whole.skeleton.names), base=base)
+        return self._composition(size).body(self.name())
 
     def coarse(self) -> Template | None:
         """Returns the base, if it has parts and nothing is beside it."""
         return self.base if self.at and not self.free else None
 
-    def _composition(self, factor: float) -> Composition:
-        """Returns the composition in which bodies without a given size are scaled by a factor."""
-        members = []
+    def _composition(self, size: float | None = None) -> Composition:
+        """Returns the composition at a size [m], by default at that of its description."""
+        descriptions = {name: one.description() for name, one in self._bodies.items()}
+        sizes = {name: one.given_size() for name, one in self._bodies.items()}
+        free = [name for name, given in sizes.items() if given is None]
+        leading = free[0] if free else next(iter(sizes))
+        usual = descriptions[leading].size.value
+        members, parts = [], []
         for name, template in self._bodies.items():
-            own = template.description()
-            size = template.given_size() or factor * own.size.value
-            prefix = "" if name == BASE else f"{name}_"
-            members.append(Sized(Member(name, scaled(own, size), prefix), template.body(size)))
-        sizes = [template.given_size() for template in self._bodies.values()]
-        leading = sizes.index(None) if None in sizes else 0
-        parts = []
-        if self.base is not None:
-            sockets = members[0].member.description.sockets
-            for name, template in self.at.items():
-                size = template.given_size() or sockets[name].size
-                part = Member(name, scaled(template.description(), size), f"{name}_", at=name)
-                parts.append(Sized(part, template.body(size)))
-        return Composition(members, parts, leading)
+            # The leading one has exactly the size that is asked for.
+            part = 1.0 if name == leading else descriptions[name].size.value / usual
+            own = sizes[name] or part * (usual if size is None else size)
+            member = Member(name, scaled(descriptions[name], own), prefixed(name))
+            members.append(Sized(member, partial(template.body, own)))
+        for name, template in self.at.items():
+            own = template.given_size() or members[0].member.description.sockets[name].size
+            member = Member(name, scaled(template.description(), own), f"{name}_", at=name)
+            parts.append(Sized(member, partial(template.body, own)))
+        return Composition(members, parts, list(sizes).index(leading))
 
     @property
     def _bodies(self) -> dict[str, Template]:

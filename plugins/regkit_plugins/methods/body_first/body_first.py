@@ -10,8 +10,7 @@ from regkit.body import Body
 from regkit.body.lifting import Lifting
 from regkit.config.plugin import slot_default
 from regkit.config.quantities import Length
-from regkit.interfaces import Method, ShapeModel
-from regkit.system.errors import ConfigError
+from regkit.interfaces import Method, Registrar, ShapeModel
 from regkit_plugins.methods.body_first.bound import BoundBodyFirst
 
 
@@ -21,14 +20,15 @@ class BodyFirst(Method):
     It wants fine data, such as voxels of 8 mm for hands. The base is registered to coarser ones, as
     a body without parts is. From there and from the last pose, the whole is registered to data that
     are fine near the parts. Where no part has enough data, because the body is far or hides its
-    hands, the parts keep their joints, and cost nothing.
+    hands, the parts keep their joints, and cost nothing. A body without parts is registered by the
+    method alone.
     """
 
     kind: Literal["body_first"] = "body_first"
 
     method: Method = slot_default(Method)
     """Method that registers the base, and the whole."""
-    least_points: Annotated[int, Field(ge=1, le=1_000_000)] = 120
+    least_points: Annotated[int, Field(ge=1, le=1_000_000)] = 20
     """Least number of points of the data that belong to a part for which it is registered."""
     reach: Annotated[float, Field(ge=0.0, le=10.0)] = 0.35
     """Distance from a part within which the data are fine, as a fraction of the part's size."""
@@ -39,19 +39,14 @@ class BodyFirst(Method):
         """Returns the shape model of the method."""
         return self.method.shape_model()
 
-    def bind(self, body: Body) -> BoundBodyFirst:
-        """Binds the method to a composed body and to its base.
+    def bind(self, body: Body) -> Registrar:
+        """Binds the method to a composed body and to its base, or to a body without parts.
 
         Raises:
-            ConfigError: If the body has no parts that are attached to a base.
             RegkitError: If the method cannot register such bodies.
         """
-        lifting = Lifting.of(body)
+        whole, lifting = self.method.bind(body), Lifting.of(body)
         if lifting is None:
-            raise ConfigError(
-                f"'{body.name}' has no parts that are attached to a base, so there is nothing to "
-                "register after it; take a template {kind: composed, base: ..., at: ...}, or the "
-                "method alone"
-            )
-        base, whole = self.method.bind(lifting.base), self.method.bind(body)
-        return BoundBodyFirst(self, body, lifting, base, whole)
+            return whole
+        base = self.method.bind(lifting.base)
+        return BoundBodyFirst(self, body, whole.primitives, lifting, base, whole)

@@ -12,6 +12,7 @@ from regkit.body import Body
 from regkit.body.lifting import Lifting
 from regkit.interfaces import Evaluation, Prior, Registrar, RegistrationResult
 from regkit.observation import Observation
+from regkit.primitives import Primitives
 from regkit.registration import lifted_curvature
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
@@ -28,6 +29,7 @@ class BoundBodyFirst(Registrar):
     Attributes:
         settings: The settings.
         body: The composed body.
+        primitives: Its primitives.
         lifting: What it has in common with its base.
         base: The method, bound to the base.
         whole: The method, bound to the composed body.
@@ -35,6 +37,7 @@ class BoundBodyFirst(Registrar):
 
     settings: BodyFirst
     body: Body
+    primitives: Primitives
     lifting: Lifting
     base: Registrar
     whole: Registrar

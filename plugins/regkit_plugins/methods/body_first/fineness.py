@@ -41,6 +41,7 @@ class Nearness(Brief):
         """
         capsules = body.capsules.place(body.place(pose).transforms)
         near, most = np.zeros(len(points), dtype=np.bool_), 0
+        columns = np.ascontiguousarray(points.T)
         for part in body.attached_parts:
             own = np.isin(capsules.segments, part.segments)
             if not own.any():
@@ -48,7 +49,10 @@ class Nearness(Brief):
             surface, distance = capsules.selected(own), reach * part.size
             room = float(surface.radii.max()) + distance
             low, high = surface.ends.min(axis=(0, 1)) - room, surface.ends.max(axis=(0, 1)) + room
-            inside = np.flatnonzero(((points >= low) & (points <= high)).all(axis=1))
+            beside = np.ones(len(points), dtype=np.bool_)
+            for column, least, greatest in zip(columns, low, high, strict=True):
+                beside &= (column >= least) & (column <= greatest)
+            inside = np.flatnonzero(beside)
             gaps = surface.surface_distance(points[inside])
             within = inside[gaps <= distance]
             near[within] = True
