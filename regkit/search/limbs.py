@@ -75,6 +75,22 @@ def limbs_of(body: Body) -> list[Limb]:
     return limbs
 
 
+def part_limbs_of(body: Body) -> list[Limb]:
+    """Returns each attached part as a limb as a whole, with the joint that attaches it."""
+    skeleton = body.skeleton
+    first, hinges = skeleton.ball_dofs.start, skeleton.hinge_dofs.start
+    return [
+        Limb(
+            name=skeleton.names[part.segments[0]],
+            parent=int(skeleton.parents[part.segments[0]]),
+            segments=part.segments,
+            balls=np.unique((part.dofs[part.dofs < hinges] - first) // 3),
+            hinges=part.dofs[part.dofs >= hinges] - hinges,
+        )
+        for part in body.attached_parts
+    ]
+
+
 class _Below(NamedTuple):
     """What hangs on the segments of a body.
 

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
-from itertools import product
 
 import numpy as np
 
-from regkit.body import Body, Part
 from regkit.body.lifting import Lifting
 from regkit.interfaces import Method, Start, Template
 from regkit.observation import Observation
-from regkit.skeleton import Pose
+from regkit.search.limb_recovery import LimbRecovery
+from regkit.search.limb_search import LimbSearch
 
-TURNS = np.radians([[0.0, 0.0, 0.0], [0.0, -50.0, 0.0], [0.0, 50.0, 0.0], [35.0, 0.0, 0.0]])
-"""Turns of a part in its socket that are tried: about its bone, and to its front [rad]."""
+SAMPLES, STARTS = 1000, 12
+"""Numbers of configurations of a part that are sampled and registered."""
 
 
 def with_parts(
@@ -23,8 +22,9 @@ def with_parts(
 ) -> Start | None:
     """Returns the start of a template with parts; None if it has none.
 
-    The base is found as any body is. Then each part in turn is tried in its stances and in some
-    turns, registered together with everything else, and the one of least energy stays.
+    The base is found as any body is. Then each part in turn is sought among its stances, turned
+    anywhere. The configurations that match the data best are registered together with everything
+    else, and the one of least energy stays. At last all limbs are searched.
 
     Args:
         find: Search for the start of a template.
@@ -39,26 +39,14 @@ def with_parts(
     body = template.body(start.body.size)
     lifting = Lifting.of(body)
     assert lifting is not None
-    pose = lifting.lifted(start.pose, body.skeleton.rest())
     registrar = method.bind(body)
-    for part in body.attached_parts:
-        found = [registrar.register(observation, [one]) for one in _tries(body, part, pose)]
-        energies = [registrar.evaluate(observation, one.pose).energy for one in found]
-        pose = found[int(np.argmin(energies))].pose
-    return replace(start, body=body, pose=pose)
-
-
-def _tries(body: Body, part: Part, pose: Pose) -> Iterator[Pose]:
-    """Yields the poses in which a part has the joints of one of its stances, turned."""
-    bones = body.skeleton
-    own = part.dofs[~np.isin(part.dofs, bones.joint_dofs[bones.names[part.segments[0]]])]
-    joint = np.setdiff1d(part.dofs, own)
-    turns = TURNS if len(joint) == 3 else TURNS[:1, : len(joint)]
-    steps = {tuple(bones.difference(pose, stance.pose)[own].round(6)) for stance in body.stances}
-    for inner, turn in product(sorted(steps), turns):
-        step = np.zeros(bones.dofs)
-        step[own] = inner
-        tried = bones.retract(pose, step)
-        step = np.zeros(bones.dofs)
-        step[joint] = turn
-        yield bones.limits.projected(bones.retract(tried, step))
+    best = registrar.register(observation, [lifting.lifted(start.pose, body.skeleton.rest())])
+    least = registrar.evaluate(observation, best.pose).energy
+    for search in LimbSearch.of_parts(body, np.random.default_rng(0), SAMPLES):
+        for tried in search.starts(observation.points, best.pose, STARTS, observation.sight):
+            found = registrar.register(observation, [tried])
+            energy = registrar.evaluate(observation, found.pose).energy
+            if energy < least:
+                best, least = found, energy
+    best = LimbRecovery.of(registrar).recovered(observation, best)
+    return replace(start, body=body, pose=best.pose)
