@@ -36,6 +36,8 @@ _UPRIGHT = "In the first frame y points up and the front faces the camera."
 _SHAPES = """\
 Primitives of shape models; sigma is a standard deviation [m], and the surface lies at about two."""
 
+_PARTS = "The parts, by their first segments; each has all that hangs on it but for other parts."
+
 _SOCKETS = """\
 How a part with joints of its own, such as a hand with fingers, takes a segment's place."""
 
@@ -75,7 +77,7 @@ def template_text(body: BodyDescription, opening: str, comments: Mapping[str, st
         lines += [f"  {key(name)}", *_stance(pose, body.segments)]
     if body.shapes:
         lines += ["", *comment_lines(_SHAPES), *shape_lines(body.shapes)]
-    lines += _sockets(body)
+    lines += _parts(body) + _sockets(body)
     if body.mesh is not None:
         lines += ["", *comment_lines(_BESIDE), f"mesh: {json.dumps(body.mesh.name)}"]
     return "\n".join(lines) + "\n"
@@ -89,6 +91,13 @@ def shape_lines(shapes: Mapping[str, Mapping[str, Sequence[ShapeParameters]]]) -
         for name, several in by_segment.items():
             lines.append(f"    {key(name)}")
             lines += [f"      - {one.yaml()}" for one in several]
+    return lines
+
+
+def _parts(body: BodyDescription) -> list[str]:
+    lines = ["", *comment_lines(_PARTS), "parts:"] if body.parts else []
+    for name, part in body.parts.items():
+        lines.append(f"  {key(name)} {{root: {word(part.root)}, size: {part.size:.4f}}}")
     return lines
 
 

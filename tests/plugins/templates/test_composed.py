@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 from regkit.body import Body
+from regkit.body.writing import template_text
 from regkit.interfaces.template import Template
 from regkit.system.errors import ConfigError
+from regkit_plugins.templates.file import FileTemplate
 
 
 def composed(**fields: object) -> Template:
@@ -192,3 +194,31 @@ def test_the_skin_of_the_whole_is_that_of_its_parts(person) -> None:
 def test_what_does_not_fit_together_is_refused(fields: dict[str, object], message: str) -> None:
     with pytest.raises(ConfigError, match=message):
         composed(**fields)
+
+
+@pytest.mark.parametrize(
+    "fields",
+    [
+        {"base": "human", "at": {"left_hand": {"kind": "hand", "side": "left"}}},
+        {"free": {"left": {"kind": "hand", "side": "left"}, "right": "hand"}},
+    ],
+    ids=["attached", "free"],
+)
+def test_a_composition_is_a_template_that_can_be_written(
+    fields: dict[str, object], tmp_path
+) -> None:
+    """The file gives the same joints and parts; lengths are rounded."""
+    description = composed(**fields).description()
+    path = tmp_path / "whole.yaml"
+    path.write_text(template_text(description, "A composed template.", {}))
+    size = description.size.value
+    written = FileTemplate(path=path).body(size)
+    body = description.body("whole", size)
+    assert [part.name for part in written.parts] == [part.name for part in body.parts]
+    for one, other in zip(written.parts, body.parts, strict=True):
+        np.testing.assert_array_equal(one.dofs, other.dofs)
+        assert one.free == other.free
+    places = [
+        one.markers.place(one.place(one.skeleton.rest()).transforms) for one in (written, body)
+    ]
+    np.testing.assert_allclose(places[0], places[1], atol=2e-3)
