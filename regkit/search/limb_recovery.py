@@ -19,6 +19,9 @@ SAMPLES, STARTS, GAIN = 500, 2, 0.01
 """Usual numbers of configurations per limb that are sampled and registered, and what one must
 gain."""
 
+FEWEST = 20
+"""Fewest points beside a part of a body that tell of the part's limbs."""
+
 
 @dataclass(frozen=True)
 class LimbRecovery:
@@ -64,8 +67,11 @@ class LimbRecovery:
         contest = Contest(self.registrar, observation, found, self.gain)
         for search in self.searches:
             pose = contest.best.pose
+            beside = search.beside(observation.points, pose)
+            if isinstance(beside, np.ndarray) and beside.sum() < FEWEST:
+                continue
             starts = search.starts(observation.points, pose, self.starts, observation.sight)
-            contest.try_all(starts, search.beside(observation.points, pose))
+            contest.try_all(starts, beside)
         return contest.best
 
     def corrected(self, observation: Observation, found: RegistrationResult) -> RegistrationResult:
