@@ -20,8 +20,8 @@ class BodyFirst(Method):
     It wants fine data, such as voxels of 8 mm for hands. The base is registered to coarser ones, as
     a body without parts is. From there and from the last pose, the whole is registered to data that
     are fine near the parts. Where no part has enough data, because the body is far or hides its
-    hands, the parts keep their joints, and cost nothing. A body without parts is registered by the
-    method alone.
+    hands, the parts keep their joints, and cost hardly anything. A body without parts is registered
+    by the method alone.
     """
 
     kind: Literal["body_first"] = "body_first"
