@@ -22,11 +22,6 @@ BASE = "body"
 """Name of the part that is the base without its parts."""
 
 
-def prefixed(body: str) -> str:
-    """Returns what the names of a body's segments begin with."""
-    return "" if body == BASE else f"{body}_"
-
-
 class Composed(Template):
     """Several templates in one, which compete for the same points.
 
@@ -54,6 +49,8 @@ class Composed(Template):
             )
         if self.base is None and self.at:
             raise misplaced(type(self), "parts need a 'base' to which they are attached", "at")
+        if self.base is not None and BASE in self.free:
+            raise misplaced(type(self), f"the base is called '{BASE}' already", "free", BASE)
         try:
             self._check_sockets()
             self.description()
@@ -99,7 +96,8 @@ class Composed(Template):
             # The leading one has exactly the size that is asked for.
             part = 1.0 if name == leading else descriptions[name].size.value / usual
             own = sizes[name] or part * (usual if size is None else size)
-            member = Member(name, scaled(descriptions[name], own), prefixed(name))
+            prefix = "" if template is self.base else f"{name}_"
+            member = Member(name, scaled(descriptions[name], own), prefix)
             members.append(Sized(member, partial(template.body, own)))
         for name, template in self.at.items():
             own = template.given_size() or members[0].member.description.sockets[name].size

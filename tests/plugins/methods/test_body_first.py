@@ -5,7 +5,9 @@ import pytest
 
 from regkit.body import Body
 from regkit.body.lifting import Lifting
+from regkit.geometry.rigid import rigid
 from regkit.interfaces import Method, Prior
+from regkit.observation import Observation, View
 from regkit.skeleton import Pose
 from regkit_plugins.methods.body_first.fineness import Nearness, thinned_elsewhere
 from tests.support.scarecrow import measured, scarecrow, standing
@@ -132,3 +134,18 @@ def test_a_body_without_parts_is_registered_by_the_method_alone() -> None:
     alone = lamp().body("lamp", 1.0)
     own = Method.parse("best", place="test", field="method").bind(alone)
     assert type(method().bind(alone)) is type(own)
+
+
+def test_data_of_several_cameras_are_thinned_in_each(body) -> None:
+    pose = standing(body, arm=25)
+    seen = measured(body, pose)
+    aside = rigid(np.eye(3), np.array([0.3, 0.0, 0.0]))
+    both = Observation.of_views([View("one", np.eye(4), seen), View("two", aside, seen)])
+    near = Nearness.of(body, pose, both.points, 0.35)
+    mixed = thinned_elsewhere(both, near.points, 0.05)
+    assert [view.name for view in mixed.views] == ["one", "two"]
+    own = thinned_elsewhere(seen, near.points[: len(seen.points)], 0.05)
+    np.testing.assert_array_equal(mixed.views[0].data.points, own.points)
+    assert len(mixed.points) == sum(len(view.data.points) for view in mixed.views)
+    found = method().bind(body).register(both, [pose])
+    assert found.pose.hinges.shape == pose.hinges.shape

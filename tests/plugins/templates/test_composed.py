@@ -188,6 +188,7 @@ def test_the_skin_of_the_whole_is_that_of_its_parts(person) -> None:
         ({"at": {"left_hand": "hand"}}, "base"),
         ({"base": "human", "at": {"left_hands": "hand"}}, "did you mean 'left_hand'"),
         ({"base": "hand", "at": {"palm": "hand"}}, "no socket"),
+        ({"base": "human", "free": {"body": "hand"}}, "'body' already"),
         ({"base": "human", "free": {"left": {"kind": "hand", "side": "left"}}}, "left_wrist"),
     ],
 )
@@ -222,3 +223,21 @@ def test_a_composition_is_a_template_that_can_be_written(
         one.markers.place(one.place(one.skeleton.rest()).transforms) for one in (written, body)
     ]
     np.testing.assert_allclose(places[0], places[1], atol=2e-3)
+
+
+def test_a_person_with_a_hand_beside_another_hand() -> None:
+    """Parts and free bodies in one: the person is then free in the scene too."""
+    hand = {"kind": "hand", "side": "left"}
+    body = composed(base="human", at={"left_hand": hand}, free={"other": "hand"}).body(1.7)
+    assert [(part.name, part.free) for part in body.parts] == [
+        ("body", True),
+        ("left_hand", False),
+        ("other", True),
+    ]
+    assert sorted(np.concatenate([part.dofs for part in body.parts])) == [
+        *range(body.skeleton.dofs)
+    ]
+    assert body.base is None
+    assert body.surface is not None
+    placed = body.surface.place(body.place(body.skeleton.rest()).transforms)
+    assert np.isfinite(placed).all()
