@@ -65,7 +65,7 @@ def wrong_starts(case: Case, random: np.random.Generator) -> dict[str, Pose]:
     turned = case.start.root @ np.diag([-1.0, 1.0, -1.0, 1.0])
     balls, hinges = body.skeleton.limits.sampled(random, 1)
     other = case.start
-    for limb in limbs_of(body.skeleton):
+    for limb in limbs_of(body):
         if "arm" in limb.name or "thigh" in limb.name:
             other = limb.rotated(other, balls[0], hinges[0])
     mirrored = Pose(turned, case.start.balls, case.start.hinges)

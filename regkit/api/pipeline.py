@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Self
 
 from regkit.api.choices import Choice, Choices, load_template, name_of, segmenters_of
@@ -26,6 +27,9 @@ from regkit.tracking import Session
 
 POINTS = 900
 """Approximate number of points per frame without a preprocessor."""
+
+ACROSS = 24
+"""Number of voxels in the size of a part that is attached to a body, such as a hand's length."""
 
 WIDTH = 0.5
 """Standard deviation of these points, relative to the voxel size."""
@@ -96,7 +100,7 @@ class Pipeline:
             method_name=name_of(method),
             tracker=follows,
             segmentation=segmenters_of(segmentation, place=place),
-            preprocessor=preprocessor or preprocessor_for,
+            preprocessor=preprocessor or partial(preprocessor_for, largest=_voxel_of_parts(loaded)),
             start=_search(start, place),
         )
 
@@ -140,12 +144,25 @@ def _search(start: Beginning | None, place: str) -> StartSearch | Pose:
     return StartSearch.parse(start or StartSearch.default(), place=place, field="start")
 
 
-def preprocessor_for(frame: Frame) -> Preprocessor:
+def _voxel_of_parts(template: Template) -> float | None:
+    """Returns the voxel size [m] that shows the smallest attached part; None without any."""
+    if template.coarse() is None:
+        return None
+    return min(part.size for part in template.description().parts.values()) / ACROSS
+
+
+def preprocessor_for(frame: Frame, largest: float | None = None) -> Preprocessor:
     """Returns a preprocessor that downsamples to about ``POINTS``, each half a voxel wide.
 
     Of several cameras, the one with most points has so many.
+
+    Args:
+        frame: A frame.
+        largest: Largest voxel size [m], at which there may be more points.
     """
     points = max((view.data.points for view in frame.each_view), key=len)
     voxel = voxel_for(points, POINTS)
+    if largest is not None and voxel is not None:
+        voxel = min(voxel, largest)
     data = Preprocessor.default(voxel=voxel, sigma=WIDTH * (voxel or spacing(points)))
     return Preprocessor.parse(data, place=frame.place or "frame", field="preprocessor")

@@ -9,6 +9,7 @@ from regkit.body.fit import BodyFit
 from regkit.body.freedoms import Freedom
 from regkit.body.gaussians import GaussianParameters, IsotropicGaussianParameters
 from regkit.body.listed import ListedShape, capsules, ellipsoids, gaussians, of_capsules
+from regkit.body.parts import Part
 from regkit.body.shape_parameters import ShapeParameters
 from regkit.body.shapes import ParametricShape
 
@@ -27,6 +28,7 @@ __all__ = [
     "Markers",
     "Mirror",
     "ParametricShape",
+    "Part",
     "Scaling",
     "ShapeParameters",
     "Stance",

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from regkit.body.listed import ListedShape
+from regkit.body.parts import Part
 from regkit.geometry.capsules import AxisPoints, Capsules
 from regkit.geometry.surface import SkinnedSurface
 from regkit.skeleton import Placement, Pose, Skeleton
@@ -81,6 +82,9 @@ class Body(Brief):
         upright: Whether y points up in the first frame, with the front towards the camera.
         surface: Skinned mesh or cloud of the template, if it has one.
         optional: Indices of the segments that the data may lack.
+        parts: The parts of a composed body, such as its hands; none if it is not composed.
+        base: The same body with its own segments in place of attached parts, which is found first;
+            None if it has no attached parts.
     """
 
     name: str
@@ -93,6 +97,8 @@ class Body(Brief):
     upright: bool
     surface: SkinnedSurface | None = None
     optional: tuple[int, ...] = ()
+    parts: tuple[Part, ...] = ()
+    base: Body | None = None
 
     def __repr__(self) -> str:
         """Returns what the body consists of, in one line."""
@@ -120,6 +126,15 @@ class Body(Brief):
     def limb_radius(self) -> float:
         """Radius of a typical limb of the required surface [m]."""
         return self.required.limb_radius()
+
+    @property
+    def attached_parts(self) -> tuple[Part, ...]:
+        """The parts that are attached to another part."""
+        return tuple(part for part in self.parts if not part.free)
+
+    def part_size(self, segment: int) -> float:
+        """Returns the size [m] of the part with a segment, or of the body."""
+        return next((part.size for part in self.parts if segment in part.segments), self.size)
 
     def is_optional(self, segments: Indices) -> NDArray[np.bool_]:
         """Returns whether the data may lack each of some segments (K,), (K,)."""

@@ -12,6 +12,7 @@ from regkit.body.body import Body, Markers, Stance
 from regkit.body.checks import check_lengths, check_modes, check_stances
 from regkit.body.deformation import Scaling
 from regkit.body.listed import ListedShape
+from regkit.body.parts import PartDescription, SocketDescription, check_parts, parts_of
 from regkit.body.shape_parameters import ShapeParameters, UncheckedParameters
 from regkit.body.shapes import Shapes
 from regkit.config.model import InputPath, Model, did_you_mean, misplaced
@@ -20,6 +21,7 @@ from regkit.geometry.capsules import Capsules
 from regkit.geometry.surface import SkinnedSurface, surface_in
 from regkit.skeleton import PoseDescription, SkeletonDescription
 from regkit.skeleton.compile import compiled
+from regkit.skeleton.description import Name
 from regkit.skeleton.joints import in_order
 
 ROUNDED = 1e-3
@@ -69,12 +71,16 @@ class BodyDescription(SkeletonDescription):
     """Parameters of shape models, by kind and then by segment: a list with one entry per primitive.
     ``KIND/NAME`` is another list for the same kind, which a shape model takes if ``tuned`` names
     it. A shape model that is not listed makes its primitives from the capsules."""
+    parts: dict[Name, PartDescription] = Field(default_factory=dict)
+    """Parts of a composed body, such as a person's hands or several objects, by name."""
+    sockets: dict[Name, SocketDescription] = Field(default_factory=dict)
+    """By segment: how a part that a composed template puts in its place is attached."""
     mesh: InputPath | None = None
     """Skinned mesh for shape models that use one: an ``.npz`` file whose bones are named after the
     segments."""
     modes: InputPath | None = None
-    """Linear shape modes of the skeleton and of ``mesh``: an ``.npz`` file. ``regkit calibrate`` and
-    ``regkit register`` of a scan then find the shape of a body as a combination of them."""
+    """Linear shape modes of the skeleton and of ``mesh``: an ``.npz`` file. ``regkit calibrate``,
+    and ``regkit register`` of a scan, then find the shape of a body as a combination of them."""
 
     @model_validator(mode="after")
     def _shapes_are_on_segments(self) -> BodyDescription:
@@ -99,6 +105,7 @@ class BodyDescription(SkeletonDescription):
     @model_validator(mode="after")
     def _parts_fit_together(self) -> BodyDescription:
         check_lengths(type(self), self.segments, self.size.value)
+        check_parts(type(self), self.segments, self.parts, self.sockets)
         if self.stances:
             check_stances(type(self), compiled(self), self.stances)
         return self
@@ -149,6 +156,7 @@ class BodyDescription(SkeletonDescription):
             upright=self.upright,
             surface=self._surface(skeleton.names, scale),
             optional=tuple(order[name] for name, one in self.segments.items() if one.optional),
+            parts=parts_of(skeleton, self.parts, scale),
         )
 
     def unchecked(self) -> dict[str, str]:

@@ -53,8 +53,18 @@ class Proportions:
             }
             for key, by_segment in template.shapes.items()
         }
-        stretched = {"segments": segments, "shapes": shapes, "mesh": None, "modes": None}
-        subject = template.model_copy(update=stretched)
+        sockets = {
+            name: one.model_copy(
+                update={
+                    "offset": stretches[name].point(one.offset),
+                    "size": one.size
+                    * float(self.lengths[self.groups.of_segments[order.index(name)]]),
+                }
+            )
+            for name, one in template.sockets.items()
+        }
+        stretched = {"segments": segments, "shapes": shapes, "sockets": sockets}
+        subject = template.model_copy(update={**stretched, "mesh": None, "modes": None})
         size = template.size.value * height(subject) / height(template)
         return subject.model_copy(
             update={"size": template.size.model_copy(update={"value": size, "range": (size, size)})}

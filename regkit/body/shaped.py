@@ -10,6 +10,7 @@ from regkit.body.capsules import CapsuleParameters, deformed_capsule
 from regkit.body.deformation import Deformation
 from regkit.body.description import BodyDescription
 from regkit.body.linear_shape import LinearShape
+from regkit.body.parts import SocketDescription
 from regkit.body.vectors import vector
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.geometry.warp import Warp
@@ -55,10 +56,12 @@ def shaped(shape: LinearShape, x: Array) -> BodyDescription:
         }
         for key, by_segment in template.shapes.items()
     }
+    sockets = {name: _socket(socket, warps[name]) for name, socket in template.sockets.items()}
     return template.model_copy(
         update={
             "segments": segments,
             "shapes": shapes,
+            "sockets": sockets,
             "mesh": None,
             "modes": None,
             "size": template.size.model_copy(update={"value": size, "range": (size, size)}),
@@ -139,6 +142,14 @@ def _shaped(segment: SegmentDescription, warp: Warp, moved: Array) -> SegmentDes
             },
         }
     )
+
+
+def _socket(socket: SocketDescription, warp: Warp) -> SocketDescription:
+    """Returns a socket whose part grows as the segment does that it replaces."""
+    _, matrix = warp.at(warp.points.mean(axis=0))
+    image, _ = warp.at(np.array(socket.offset))
+    growth = float(np.cbrt(np.linalg.det(matrix)))
+    return socket.model_copy(update={"offset": vector(image), "size": growth * socket.size})
 
 
 def _capsule(capsule: CapsuleDescription, warp: Warp) -> CapsuleDescription:

@@ -22,7 +22,7 @@ from regkit.skeleton.joints import (
     PrismaticJoint,
     UniversalJoint,
 )
-from regkit.skeleton.pose import RootDescription
+from regkit.skeleton.pose import JointAngles, RootDescription
 
 _LETTERS = {
     tuple(float(number) for number in sign * axis): text + letter
@@ -35,6 +35,11 @@ _UPRIGHT = "In the first frame y points up and the front faces the camera."
 
 _SHAPES = """\
 Primitives of shape models; sigma is a standard deviation [m], and the surface lies at about two."""
+
+_PARTS = "The parts, by their first segments; each has all that hangs on it but for other parts."
+
+_SOCKETS = """\
+How a part with joints of its own, such as a hand with fingers, takes a segment's place."""
 
 _BESIDE = "The skin: vertices that follow the segments, in a file in the same folder."
 
@@ -76,6 +81,7 @@ def template_text(body: BodyDescription, opening: str, comments: Mapping[str, st
         lines += [f"  {key(name)}", *_stance(pose, body.segments)]
     if body.shapes:
         lines += ["", *comment_lines(_SHAPES), *shape_lines(body.shapes)]
+    lines += _parts(body) + _sockets(body)
     if body.mesh is not None:
         lines += ["", *comment_lines(_BESIDE), f"mesh: {json.dumps(body.mesh.name)}"]
     if body.modes is not None:
@@ -94,6 +100,27 @@ def shape_lines(shapes: Mapping[str, Mapping[str, Sequence[ShapeParameters]]]) -
     return lines
 
 
+def _parts(body: BodyDescription) -> list[str]:
+    lines = ["", *comment_lines(_PARTS), "parts:"] if body.parts else []
+    for name, part in body.parts.items():
+        lines.append(f"  {key(name)} {{root: {word(part.root)}, size: {part.size:.4f}}}")
+    return lines
+
+
+def _sockets(body: BodyDescription) -> list[str]:
+    lines = ["", *comment_lines(_SOCKETS), "sockets:"] if body.sockets else []
+    for name, socket in body.sockets.items():
+        lines.append(f"  {key(name)}")
+        if any(socket.offset):
+            lines.append(f"    offset: {row(socket.offset)}")
+        lines += [
+            f"    rotation_deg: {row(socket.rotation_deg, 1)}",
+            f"    joint: {_joint(socket.joint)}",
+            f"    size: {socket.size:.4f}",
+        ]
+    return lines
+
+
 def comment_lines(text: str, indent: str = "") -> list[str]:
     """Returns a text as the lines of a comment."""
     return [f"{indent}# {line}".rstrip() for line in text.strip().splitlines()]
@@ -107,15 +134,24 @@ def _size(size: SizeDescription) -> str:
 def _stance(pose: PoseDescription, segments: Mapping[str, SegmentDescription]) -> list[str]:
     lines = []
     if pose.root != RootDescription():
-        position, rotation = row(pose.root.position), row(pose.root.rotation_deg, 1)
-        lines.append(f"    root: {{position: {position}, rotation_deg: {rotation}}}")
+        lines.append(f"    root: {_root(pose.root)}")
     lines.append("    joints:" if pose.joints else "    joints: {}")
     width = max((len(key(joint)) for joint in pose.joints), default=0)
     for joint, angles in pose.joints.items():
-        decimals = 4 if isinstance(segments[joint].joint, PrismaticJoint) else 1
-        value = number(angles, decimals) if isinstance(angles, float) else row(angles, decimals)
-        lines.append(f"      {key(joint):<{width}} {value.strip()}")
+        lines.append(f"      {key(joint):<{width}} {_angles(angles, segments[joint].joint)}")
     return lines
+
+
+def _angles(angles: JointAngles, joint: Joint | None) -> str:
+    if isinstance(angles, RootDescription):
+        return _root(angles)
+    decimals = 4 if isinstance(joint, PrismaticJoint) else 1
+    value = number(angles, decimals) if isinstance(angles, float) else row(angles, decimals)
+    return value.strip()
+
+
+def _root(root: RootDescription) -> str:
+    return f"{{position: {row(root.position)}, rotation_deg: {row(root.rotation_deg, 1)}}}"
 
 
 def _segment(segment: SegmentDescription, comment: str) -> list[str]:

@@ -57,7 +57,7 @@ class SubjectProblem(Problem):
         self._charts = [TangentCoordinates(body.skeleton, pose) for pose in poses]
         self._weight = EVIDENCE / len(clouds)
         self._spring = np.full(len(self._charts[0].origin()), STIFFNESS**2)
-        self._spring[: body.skeleton.ball_dofs.start] = 0.0
+        self._spring[body.skeleton.free_dofs] = 0.0
         lower, upper = zip(*(chart.bounds() for chart in self._charts), strict=True)
         free = np.full(len(shape), np.inf)
         self.start = np.concatenate([start, *(chart.origin() for chart in self._charts)])

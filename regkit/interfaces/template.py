@@ -57,6 +57,13 @@ class Template(Plugin, ABC):
             return (smallest,)
         return tuple(float(size) for size in np.geomspace(smallest, largest, count))
 
+    def coarse(self) -> Template | None:
+        """Returns the template that is searched for first, before its parts; by default None.
+
+        A body of this template then has the other's body as its ``base``.
+        """
+        return None
+
     def name(self) -> str:
         """Returns the name of the body in messages."""
         return self.kind

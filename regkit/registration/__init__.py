@@ -4,6 +4,7 @@ from regkit.registration.charts import COORDINATES, CoordinatesName
 from regkit.registration.coordinates import Coordinates
 from regkit.registration.effective_points import effective_points, thinned
 from regkit.registration.energy import FrameEnergy, SummedEnergy
+from regkit.registration.lifted_curvature import lifted_curvature
 from regkit.registration.plan import Plan
 from regkit.registration.planned_energy import CompiledProblem, PlannedEnergy, PlannedJoints
 from regkit.registration.posterior import PoseCurvature, marker_covariances
@@ -35,6 +36,7 @@ __all__ = [
     "ViewEnergy",
     "ViewsEnergy",
     "effective_points",
+    "lifted_curvature",
     "marker_covariances",
     "thinned",
 ]

@@ -97,7 +97,7 @@ class LandmarkFit:
         """Returns the pose after damped Gauss-Newton steps, within the joint limits."""
         skeleton, factor = self.body.skeleton, 1.0
         damping = np.full(skeleton.dofs, DAMPING[1])
-        damping[: skeleton.ball_dofs.start] = DAMPING[0]
+        damping[skeleton.free_dofs] = DAMPING[0]
         response = energy(pose)
         for _ in range(STEPS):
             chart = TangentCoordinates(skeleton, pose)

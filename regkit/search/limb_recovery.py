@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from regkit.interfaces import Evaluation, Registrar, RegistrationResult
 from regkit.observation import Observation
@@ -17,6 +18,9 @@ from regkit.skeleton import Pose
 SAMPLES, STARTS, GAIN = 500, 2, 0.01
 """Usual numbers of configurations per limb that are sampled and registered, and what one must
 gain."""
+
+FEWEST = 20
+"""Fewest points beside a part of a body that tell of the part's limbs."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +67,11 @@ class LimbRecovery:
         contest = Contest(self.registrar, observation, found, self.gain)
         for search in self.searches:
             pose = contest.best.pose
-            contest.try_all(search.starts(observation.points, pose, self.starts, observation.sight))
+            beside = search.beside(observation.points, pose)
+            if isinstance(beside, np.ndarray) and beside.sum() < FEWEST:
+                continue
+            starts = search.starts(observation.points, pose, self.starts, observation.sight)
+            contest.try_all(starts, beside)
         return contest.best
 
     def corrected(self, observation: Observation, found: RegistrationResult) -> RegistrationResult:
@@ -88,7 +96,8 @@ class Contest:
         registrar: The registrar.
         observation: The frame's data.
         found: The registration so far.
-        gain: Minimum increase of the mean inlier probability; a negative one is a loss.
+        gain: Minimum increase of the mean inlier probability of the points that matter; a negative
+            one is a loss.
 
     Attributes:
         best: The best registration so far.
@@ -105,16 +114,26 @@ class Contest:
         self._registrar, self._observation, self._gain = registrar, observation, gain
         self._evaluation: Evaluation | None = None
 
-    def try_all(self, starts: Iterable[Pose]) -> None:
-        """Tries starts, one after the other."""
-        for start in starts:
-            self._try(start)
+    def try_all(
+        self, starts: Iterable[Pose], points: NDArray[np.bool_] | slice = slice(None)
+    ) -> None:
+        """Tries starts, one after the other.
 
-    def _try(self, start: Pose) -> None:
+        Args:
+            starts: The starts.
+            points: Mask of the points that matter, (N,): those beside a small part of the body; by
+                default all.
+        """
+        for start in starts:
+            self._try(start, points)
+
+    def _try(self, start: Pose, points: NDArray[np.bool_] | slice) -> None:
         if self._evaluation is None:
             self._evaluation = self._registrar.evaluate(self._observation, self.best.pose)
         tried = self._registrar.register(self._observation, [start])
         rival, old = self._registrar.evaluate(self._observation, tried.pose), self._evaluation
-        gain = float((rival.inlier_probability - old.inlier_probability).mean())
+        gains = rival.inlier_probability - old.inlier_probability
+        # A method without inlier probabilities has a single NaN.
+        gain = float((gains[points] if len(gains) > 1 else gains).mean())
         if rival.energy < old.energy and gain > self._gain:
             self.best, self._evaluation = tried, rival

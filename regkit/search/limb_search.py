@@ -7,21 +7,28 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from regkit.body import Body
 from regkit.clouds.compiled_nearest import nearest_distances
 from regkit.geometry.capsules import AxisPoints, Capsules
 from regkit.observation.sight import Sight
 from regkit.search.compiled import mean_gaps, unexplained
-from regkit.search.limbs import Limb, limbs_of
+from regkit.search.limbs import Limb, limbs_of, part_limbs_of
 from regkit.skeleton import Placement, Pose
 from regkit.system.arrays import Array, Singles, loop_input
 
 SPACING = 0.05
-"""Distance of the points on a limb's axis, as a fraction of the body's size."""
+"""Distance of the points on a limb's axis, as a fraction of the size of its part of the body."""
 
 MOST_POINTS, FEWEST_POINTS = 24, 3
 """Maximum number of unexplained points to compare, and the minimum that shows where a limb is."""
+
+BESIDE = 1.3
+"""Distance from a part's joint within which points are beside the part, in sizes of the part."""
+
+SHAKE = 0.2
+"""Standard deviation of the joints of a part about its stances [rad or m]."""
 
 LIKELY = 30
 """Number of configurations, best for the unexplained points, that are compared with all points."""
@@ -61,19 +68,54 @@ class LimbSearch:
             random: Source of the configurations.
             samples: Number N of configurations within the joint limits.
         """
-        rest = body.skeleton.rest()
         balls, hinges = body.skeleton.limits.sampled(random, samples)
-        for limb in limbs_of(body.skeleton):
-            own = np.isin(body.capsules.segments, limb.segments)
-            if not own.any():
-                continue
-            poses = limb.rotated(rest, balls, hinges)
-            axes = body.capsules.selected(own).axis_points(SPACING * body.size)
-            transforms = Placement.of(body.skeleton, poses).transforms
-            places = axes.place(transforms) - transforms[:, limb.parent, None, :3, 3]
-            places = places @ transforms[:, limb.parent, :3, :3]
-            singles = np.ascontiguousarray(places.transpose(1, 2, 0), dtype=np.float32)
-            yield cls(body, limb, axes, body.capsules.selected(~own), balls, hinges, singles)
+        for limb in limbs_of(body):
+            yield from cls._of(body, limb, balls, hinges)
+
+    @classmethod
+    def of_parts(
+        cls, body: Body, random: np.random.Generator, samples: int
+    ) -> Iterator[LimbSearch]:
+        """Yields a search for each attached part as a whole.
+
+        It is turned anywhere, in one of its stances, whose joints are shaken.
+
+        Args:
+            body: The body.
+            random: Source of the configurations.
+            samples: Number N of configurations.
+        """
+        skeleton = body.skeleton
+        stances = [stance.pose for stance in body.stances] or [skeleton.rest()]
+        for part, limb in zip(body.attached_parts, part_limbs_of(body), strict=True):
+            balls, hinges = skeleton.limits.sampled(random, samples)
+            joint = skeleton.joint_dofs.get(skeleton.names[part.segments[0]], ())
+            inner = np.setdiff1d(part.dofs, joint)
+            step = np.zeros(skeleton.dofs)
+            for index in range(samples):
+                anywhere = Pose(np.eye(4), balls[index], hinges[index])
+                stance = stances[random.integers(len(stances))]
+                step[inner] = skeleton.difference(anywhere, stance)[inner]
+                step[inner] += SHAKE * random.normal(size=len(inner))
+                pose = skeleton.limits.projected(skeleton.retract(anywhere, step))
+                balls[index], hinges[index] = pose.balls, pose.hinges
+            yield from cls._of(body, limb, balls, hinges)
+
+    @classmethod
+    def _of(cls, body: Body, limb: Limb, balls: Array, hinges: Array) -> Iterator[LimbSearch]:
+        """Yields the search of a limb among configurations; none if it has no surface."""
+        own = np.isin(body.capsules.segments, limb.segments)
+        if not own.any():
+            return
+        poses = limb.rotated(body.skeleton.rest(), balls, hinges)
+        size = body.part_size(int(limb.segments[0]))
+        axes = body.capsules.selected(own).axis_points(SPACING * size)
+        transforms = Placement.of(body.skeleton, poses).transforms
+        places = axes.place(transforms) - transforms[:, limb.parent, None, :3, 3]
+        places = places @ transforms[:, limb.parent, :3, :3]
+        singles = np.ascontiguousarray(places.transpose(1, 2, 0), dtype=np.float32)
+        rest = body.capsules.selected(~own)
+        yield cls(body, limb, axes, rest, balls, hinges, singles)
 
     def starts(
         self, points: Array, pose: Pose, most: int, sight: Sight | None = None
@@ -103,6 +145,19 @@ class LimbSearch:
             if misfits[index] < BETTER * now[0]:
                 chosen = likely[index]
                 yield self.limb.rotated(pose, self.balls[chosen], self.hinges[chosen])
+
+    def beside(self, points: Array, pose: Pose) -> NDArray[np.bool_] | slice:
+        """Returns which points (N, 3) [m] are beside the part of the body with the limb, (N,).
+
+        Those of a body that is no part, or carries others, are all.
+        """
+        first = int(self.limb.segments[0])
+        for part in self.body.attached_parts:
+            if self.limb.parent in part.segments or first == part.segments[0]:
+                origin = self.body.place(pose).transforms[part.segments[0], :3, 3]
+                distances = np.linalg.norm(points - origin, axis=1)
+                return np.asarray(distances < BESIDE * part.size)
+        return slice(None)
 
     def _bare(self, points: Array, transforms: Array, root: Array) -> Array:
         """Returns points within the limb's length that the rest of the body does not explain."""

@@ -78,6 +78,15 @@ class _Links:
         twist = np.array([*joint.axis, 0.0, 0.0, 0.0])
         self.hinges.append(_Hinge(link, twist, (scale * low, scale * high)))
 
+    def add_free(self, link: int) -> int:
+        """Returns the last link of a free joint: three displacements, then a ball."""
+        for axis in np.eye(3):
+            twist = np.array([*axis, 0.0, 0.0, 0.0])
+            self.hinges.append(_Hinge(link, twist, _UNLIMITED))
+            link = self.add(link, np.eye(4))
+        self.balls.append((link, BallJoint(type="ball")))
+        return link
+
     def couple(
         self, coupled: CouplingDescription | PrismaticCouplingDescription | None, scale: float
     ) -> None:
@@ -116,6 +125,8 @@ def compiled(description: SkeletonDescription, scale: float = 1.0) -> Skeleton:
                 links.add_hinge(link, universal.axes[0], first)
                 link = links.add(link, np.eye(4))
                 links.add_hinge(link, universal.axes[1], second)
+            case FreeJoint() if segment.parent is not None:
+                link = links.add_free(link)
         segment_links[name] = link
     free = isinstance(description.segments[names[0]].joint, FreeJoint)
     return _skeleton(names, description, links, segment_links, free=free)
@@ -154,7 +165,11 @@ def _skeleton(
 
 
 def _joint_dofs(links: _Links, segment_links: dict[str, int], *, first: int) -> dict[str, Indices]:
-    """Returns the dof indices of each joint: 3 for a ball, 2 for a universal, 1 for the others."""
+    """Returns the dof indices of each joint, in the order of its links.
+
+    They are 6 of a free joint, translation first, 3 of a ball, 2 of a universal joint, and 1 of the
+    others.
+    """
     dofs: dict[int, list[int]] = {}
     for link, _ in links.balls:
         dofs[link] = [first, first + 1, first + 2]
@@ -165,9 +180,11 @@ def _joint_dofs(links: _Links, segment_links: dict[str, int], *, first: int) -> 
     owned = set(segment_links.values())
     joints: dict[str, Indices] = {}
     for name, link in segment_links.items():
+        own = dofs.get(link, [])
         parent = links.parents[link]
-        virtual = parent >= 0 and parent not in owned
-        own = (dofs.get(parent, []) if virtual else []) + dofs.get(link, [])
+        while parent >= 0 and parent not in owned:
+            own = dofs.get(parent, []) + own
+            parent = links.parents[parent]
         if own:
             joints[name] = np.array(own, dtype=np.intp)
     return joints

@@ -10,7 +10,6 @@ from pydantic import AfterValidator, Field, ValidationError, model_validator
 from regkit.config.model import Model, did_you_mean, misplaced
 from regkit.config.quantities import Length
 from regkit.skeleton.joints import (
-    FreeJoint,
     HingeJoint,
     Joint,
     Position,
@@ -51,7 +50,8 @@ class SegmentDescription(Model):
     rotation_deg: Rotation = (0.0, 0.0, 0.0)
     """Rotation vector of the joint's frame in the parent's frame at rest [deg]."""
     joint: Joint | None = None
-    """Joint to the parent, fixed by default; for the root, which must name it, to the world."""
+    """Joint to the parent, fixed by default; for the root, which must name it, to the world. A free
+    joint of another segment makes it the root of a body of its own."""
     capsules: tuple[CapsuleDescription, ...] = ()
     """Capsules that approximate the segment's surface."""
     markers: dict[Name, Position] = Field(default_factory=dict)
@@ -94,7 +94,7 @@ def parents_first(segments: dict[str, SegmentDescription]) -> list[str]:
 
     Raises:
         ValidationError: If there is not exactly one root, a parent is unknown, the tree has a
-            cycle, the root has no joint, or another segment's joint is free.
+            cycle, or the root has no joint.
     """
     roots = [name for name, segment in segments.items() if segment.parent is None]
     for name, segment in segments.items():
@@ -105,10 +105,6 @@ def parents_first(segments: dict[str, SegmentDescription]) -> list[str]:
                 + did_you_mean(segment.parent, list(segments)),
                 name,
                 "parent",
-            )
-        if segment.parent is not None and isinstance(segment.joint, FreeJoint):
-            raise _wrong(
-                f"segment '{name}' has a free joint; only the root may have one", name, "joint"
             )
     for name in roots:
         if segments[name].joint is None:

@@ -105,7 +105,11 @@ HalfAngle = Annotated[float, Field(ge=0.01, le=180.0)]
 
 
 class FreeJoint(Model):
-    """The root translates and rotates freely in the world: six degrees of freedom."""
+    """The segment translates and rotates freely: six degrees of freedom.
+
+    The root moves in the world, another segment in its parent's frame. Several free segments on a
+    fixed root are several bodies in one scene.
+    """
 
     type: Literal["free"] = "free"
 

@@ -121,6 +121,8 @@ class Limits(Brief):
     def sampled(self, random: np.random.Generator, count: int) -> tuple[Array, Array]:
         """Samples joints uniformly within the limits; unlimited angles within a full turn.
 
+        Unlimited displacements, which are those of a free segment, stay zero.
+
         Args:
             random: Random generator.
             count: Number of samples.
@@ -139,7 +141,8 @@ class Limits(Brief):
         twist = _between(np.clip(self.twist, -np.pi, np.pi), random, count)
         turned = from_vector(twist[..., None] * self.twist_axis)
         turns = np.clip(self.hinge, -np.pi, np.pi)
-        hinges = _between(np.where(self.prismatic[:, None], self.hinge, turns), random, count)
+        travels = np.where(np.isfinite(self.hinge), self.hinge, 0.0)
+        hinges = _between(np.where(self.prismatic[:, None], travels, turns), random, count)
         balls = product(self.centre, product(from_vector(swing), turned))
         return balls, self.couplings.coupled(hinges)
 

@@ -37,12 +37,18 @@ class Pose:
 
 
 class RootDescription(Model):
-    """Position and orientation of the root in the world."""
+    """Position and orientation of a free segment: of the root in the world."""
 
     position: tuple[WorldCoordinate, WorldCoordinate, WorldCoordinate] = (0.0, 0.0, 0.0)
-    """Position of the root's origin in the world [m]."""
+    """Position of the segment's origin in the world [m]; of another segment than the root, its
+    displacement from rest in the parent's frame."""
     rotation_deg: Rotation = (0.0, 0.0, 0.0)
-    """Rotation vector of the root frame in the world [deg]."""
+    """Rotation vector of the segment's frame [deg]."""
+
+
+JointAngles = RootDescription | Angle | tuple[Angle, Angle] | Rotation
+"""One angle of a hinge, two of a universal joint, or a rotation vector [deg]; the displacement of a
+prismatic joint [m]; position and orientation of a free one."""
 
 
 class PoseDescription(Model):
@@ -50,6 +56,6 @@ class PoseDescription(Model):
 
     root: RootDescription = RootDescription()
     """Position and orientation of the root in the world."""
-    joints: dict[str, Angle | tuple[Angle, Angle] | Rotation] = Field(default_factory=dict)
+    joints: dict[str, JointAngles] = Field(default_factory=dict)
     """By segment: one angle of a hinge, two of a universal joint, or a rotation vector [deg]; the
-    displacement of a prismatic joint [m]."""
+    displacement of a prismatic joint [m]; position and orientation of a free one."""

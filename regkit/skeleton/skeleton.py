@@ -18,11 +18,17 @@ from regkit.skeleton.arrays import PoseArrays, SkeletonArrays
 from regkit.skeleton.compiled_difference import pose_difference
 from regkit.skeleton.compiled_steps import retracted_balls, retracted_root
 from regkit.skeleton.limits import Limits
-from regkit.skeleton.pose import Pose, PoseDescription
+from regkit.skeleton.pose import JointAngles, Pose, PoseDescription, RootDescription
 from regkit.skeleton.spread import spread_variances
 from regkit.system.arrays import Array, Indices
 from regkit.system.brief import Brief
 from regkit.system.errors import ConfigError
+
+FREE = 6
+"""Number of degrees of freedom of a free joint."""
+
+_SUFFIXES = {0: (), 1: ("",), 2: (".first", ".second"), 3: (".x", ".y", ".z")}
+"""What the names of a joint's hinges have after its segment's, by their number."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,7 +37,8 @@ class Skeleton(Brief):
 
     A universal joint is two hinges, the first of them on a virtual link. So every link's joint is
     free (the root only), a ball, a hinge or fixed, and a segment is the last link of its joint. A
-    prismatic joint counts as a hinge, with a displacement [m] in place of an angle [rad].
+    prismatic joint counts as a hinge, with a displacement [m] in place of an angle [rad]. A free
+    joint of another segment than the root is three displacements along x, y and z, then a ball.
 
     The degrees of freedom are ordered: translation (3) and rotation (3) of a free root, three per
     ball joint, one per hinge.
@@ -108,17 +115,33 @@ class Skeleton(Brief):
 
     @cached_property
     def hinge_names(self) -> tuple[str, ...]:
-        """Name of each hinge, (n_hinge,): its segment's, ``NAME.first`` and ``NAME.second`` of two.
+        """Name of each hinge, (n_hinge,): its segment's, with a suffix where a joint has several.
 
-        A universal joint has two.
+        A universal joint has ``NAME.first`` and ``NAME.second``; a free one has ``NAME.x``, ``.y``
+        and ``.z``.
         """
         names = [""] * len(self.hinge_links)
         start = self.hinge_dofs.start
         for segment, dofs in self.joint_dofs.items():
             own = [dof - start for dof in dofs.tolist() if dof >= start]
-            for hinge, which in zip(own, ("first", "second"), strict=False):
-                names[hinge] = f"{segment}.{which}" if len(own) > 1 else segment
+            for hinge, suffix in zip(own, _SUFFIXES[len(own)], strict=True):
+                names[hinge] = segment + suffix
         return tuple(names)
+
+    @cached_property
+    def free_segments(self) -> Indices:
+        """Indices of the segments other than the root whose joint is free, (F,)."""
+        found = [index for index, name in enumerate(self.names) if self.is_free(name)]
+        return np.array(found, dtype=np.intp)
+
+    @cached_property
+    def free_dofs(self) -> Indices:
+        """Indices of the degrees of freedom of all free joints, (6 R,); the root's come first.
+
+        Each joint has three translations, then three rotations.
+        """
+        own = [self.joint_dofs[self.names[segment]] for segment in self.free_segments]
+        return np.concatenate([np.arange(self.ball_dofs.start), *own]).astype(np.intp)
 
     @cached_property
     def hinge_columns(self) -> tuple[str, ...]:
@@ -188,7 +211,7 @@ class Skeleton(Brief):
                 groups[segment] = groups[self.parents[segment]]
         joined = np.eye(len(groups), dtype=np.bool_)
         for segment, parent in enumerate(self.parents):
-            if parent >= 0:
+            if parent >= 0 and segment not in self.free_segments:
                 joined[groups[segment], groups[parent]] = True
         joined |= joined.T
         return joined[np.ix_(groups, groups)]
@@ -208,7 +231,7 @@ class Skeleton(Brief):
         return self.joint_dofs[joint]
 
     def rotating(self, joint: str, *, place: str) -> Indices:
-        """Returns the indices of the degrees of freedom of a segment's joint that rotates.
+        """Returns the indices of the rotations among the degrees of freedom of a segment's joint.
 
         Args:
             joint: The segment.
@@ -227,12 +250,17 @@ class Skeleton(Brief):
                 "give [m] for all prismatic joints in the field 'displacement'",
                 place=place,
             )
-        return dofs
+        return dofs[3:] if self.is_free(joint) else dofs
 
     def is_prismatic(self, joint: str) -> bool:
         """Returns whether the moving joint of a segment is prismatic."""
-        hinge = int(self.dofs_of(joint)[0]) - self.hinge_dofs.start
-        return hinge >= 0 and bool(self.limits.prismatic[hinge])
+        dofs = self.dofs_of(joint)
+        hinge = int(dofs[0]) - self.hinge_dofs.start
+        return len(dofs) == 1 and hinge >= 0 and bool(self.limits.prismatic[hinge])
+
+    def is_free(self, segment: str) -> bool:
+        """Returns whether the joint of a segment other than the root is free."""
+        return len(self.joint_dofs.get(segment, ())) == FREE
 
     def pose(self, description: PoseDescription, scale: float = 1.0) -> Pose:
         """Returns the pose of a YAML description, with displacements of joints times a scale.
@@ -248,8 +276,7 @@ class Skeleton(Brief):
         pose = self.rest(root)
         for name, angles in description.joints.items():
             dofs = self.dofs_of(name)
-            values = np.atleast_1d(angles)
-            values = scale * values if self.is_prismatic(name) else np.radians(values)
+            values = self._joint_step(name, angles, scale)
             if len(values) != len(dofs):
                 raise ConfigError(
                     f"the pose gives {len(values)} angles for '{name}'; its joint has {len(dofs)}"
@@ -262,3 +289,12 @@ class Skeleton(Brief):
             step[dofs] = values
             pose = self.retract(pose, step)
         return Pose(pose.root, pose.balls, self.limits.couplings.coupled(pose.hinges))
+
+    def _joint_step(self, name: str, angles: JointAngles, scale: float) -> Array:
+        """Returns the step of a joint's degrees of freedom from rest [m or rad]."""
+        if isinstance(angles, RootDescription):
+            return np.concatenate(
+                [scale * np.array(angles.position), np.radians(angles.rotation_deg)]
+            )
+        values = np.atleast_1d(angles)
+        return np.asarray(scale * values if self.is_prismatic(name) else np.radians(values))

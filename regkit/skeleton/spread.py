@@ -9,7 +9,7 @@ from regkit.skeleton.limits import Limits
 from regkit.system.arrays import Array
 
 FAR = 10.0
-"""Standard deviation of a free root's position [m]: anywhere in a room."""
+"""Standard deviation of a free segment's position [m]: anywhere in a room."""
 
 NARROW = np.radians(0.1)
 """Least standard deviation of a joint [rad or m], for limits that leave no room."""
@@ -40,13 +40,12 @@ def spread_variances(limits: Limits, *, free: bool) -> Array:
         each = np.array([*swings[ball], twists[ball]])
         variances[at, at] = np.einsum("ki,k,kj->ij", axes[ball], each, axes[ball])
     own = np.arange(first + 3 * balls, len(variances))
-    variances[own, own] = np.where(
-        limits.prismatic, _even(limits.hinge, np.inf), _even(limits.hinge)
-    )
+    widest = np.where(limits.prismatic, FAR * np.sqrt(12.0), 2.0 * np.pi)
+    variances[own, own] = _even(limits.hinge, widest)
     return variances
 
 
-def _even(intervals: Array, widest: float = 2.0 * np.pi) -> Array:
+def _even(intervals: Array, widest: Array | float = 2.0 * np.pi) -> Array:
     """Returns the variances (M,) of uniform numbers in intervals (M, 2), by default of angles."""
     width = np.minimum(intervals[:, 1] - intervals[:, 0], widest)
     return np.asarray(np.maximum(width**2 / 12.0, NARROW**2))

@@ -6,13 +6,15 @@
 - ``finalist``: poses that a method has registered, and their costs; trackers that seek a lost body
   compare them too.
 - ``rigid``, ``cloud``: starts of rigid surfaces.
+- ``inside``: the start of a body with parts, whose base is found first.
 - ``verdict``: whether a start was found.
 """
 
 from regkit.start.candidate import Candidate
 from regkit.start.finalist import Finalist
+from regkit.start.inside import with_parts
 from regkit.start.rigid import rigid_start
 from regkit.start.scan import Scan
 from regkit.start.verdict import judged
 
-__all__ = ["Candidate", "Finalist", "Scan", "judged", "rigid_start"]
+__all__ = ["Candidate", "Finalist", "Scan", "judged", "rigid_start", "with_parts"]

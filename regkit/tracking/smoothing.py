@@ -46,8 +46,9 @@ class Smoothing(Model):
     def changes(self, skeleton: Skeleton) -> Array:
         """Returns the variance of the velocity's change in a frame, (n,)."""
         change = np.full(skeleton.dofs, np.radians(self.joint_deg))
-        if skeleton.free:
-            change[:3], change[3:6] = self.root_m, np.radians(self.root_deg)
+        change[skeleton.free_dofs] = np.tile(
+            np.repeat([self.root_m, np.radians(self.root_deg)], 3), len(skeleton.free_dofs) // 6
+        )
         return change**2
 
 

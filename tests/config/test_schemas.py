@@ -41,7 +41,7 @@ MORE = {
     r"does not keep the limits of ball joints": "the solver's class knows what it keeps",
     r"near \(.*\) must be less than far": "two fields are compared",
     r"is an orphan|several segments have no parent|form a cycle": "the segments must be a tree",
-    r"has a free joint; only the root may|the root '.*' has no joint": "whose root moves",
+    r"the root '.*' has no joint": "whose root moves",
     r"marker '.*' is on '.*' and on": "a marker's name is that of one segment",
     r"is itself coupled|is not a hinge|cannot follow itself|no angle of '": "a coupling's leader",
     r"is not a segment \(there are": "Gaussians are on segments",

@@ -49,6 +49,10 @@ TestInstalled = conformance(
             "defaults": {"motion": {"kind": "clip", "name": "walk"}, "frames": 2},
             "takes": {"near": {}, "far": {"view": {"distance": 3.5}}},
         },
+        "templates.composed": {
+            "base": "human",
+            "at": {"left_hand": {"kind": "hand", "side": "left"}},
+        },
         "datasets.eval": {"root": str(PUBLIC / "records"), "record": RECORD.model_dump()},
         "datasets.smmc10": {"root": str(PUBLIC / "records"), "record": RECORD.model_dump()},
         "datasets.itop": {"root": str(PUBLIC / "itop")},

@@ -22,6 +22,7 @@ LONG = (
     "docs/how-to/compiled.md",
     "docs/how-to/install.md",
     "docs/how-to/limits.md",
+    "docs/how-to/compose.md",
     "docs/tutorials/comparison.md",
     "docs/tutorials/first-experiment.md",
     "docs/tutorials/notebook.md",

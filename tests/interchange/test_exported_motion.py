@@ -21,6 +21,7 @@ from regkit.interchange.gltf.capsule_mesh import capsule_mesh
 from regkit.interchange.gltf.gltf import RiggedBody
 from regkit.interchange.motion import TrackedMotion
 from regkit.interchange.motions import write_motion
+from tests.support.two_lamps import PLACES, described, lamps_at
 
 UPRIGHT = np.diag([1.0, -1.0, -1.0])
 """From a camera's axes (y down, z forward) to a scene's (y up, z backward)."""
@@ -62,6 +63,26 @@ def test_bvh_is_read_back_where_the_joints_were(
     (foot,) = again.joints[again.names.index("leg")].ends
     points = motion.body.markers.points[motion.body.markers.names.index("foot")]
     np.testing.assert_allclose(foot, points, atol=1e-9)
+
+
+def test_bvh_has_bodies_that_are_free_in_a_scene_where_they_were(
+    tmp_path: Path, random: np.random.Generator
+) -> None:
+    """Each of two lamps has a translation of its own in the file."""
+    body = described().body("lamps", 1.0)
+    pose, transforms, hinges = lamps_at(body, PLACES), [], []
+    for _ in range(4):
+        pose = body.skeleton.retract(pose, 0.3 * random.normal(size=body.skeleton.dofs))
+        transforms.append(body.place(pose).transforms)
+        hinges.append(pose.hinges)
+    path = tmp_path / "motion.bvh"
+    poses = np.array(transforms)
+    write_motion(TrackedMotion("lamps", body, poses, np.array(hinges), 25.0, None), path)
+    names = body.skeleton.names
+    again = Bvh.read(path, scale=1.0)
+    places = np.array([again.at_frame(frame).positions for frame in range(4)])
+    order = [names.index(name) for name in again.names]
+    np.testing.assert_allclose(places, poses[..., :3, 3][:, order] @ UPRIGHT.T, atol=1e-7)
 
 
 def test_bvh_angles_do_not_jump_by_full_turns(random: np.random.Generator) -> None:

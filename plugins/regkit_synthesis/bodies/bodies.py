@@ -18,12 +18,13 @@ from regkit_synthesis import assets
 from regkit_synthesis.bodies.body_files import read_npz_body, turned_mesh
 from regkit_synthesis.bodies.body_map import BodyMap, body_map, bone_of, fitting_body_map
 from regkit_synthesis.bodies.hand import ShippedHand
+from regkit_synthesis.bodies.handed import HandedBody
 from regkit_synthesis.bodies.landmarks import Landmark
 from regkit_synthesis.bodies.movable import BodyConfig, MovableBody
 from regkit_synthesis.bodies.retarget import retargeted
 from regkit_synthesis.figure.figure import figure_axes
 from regkit_synthesis.figure.map_files import MapName
-from regkit_synthesis.hands.config import GesturesConfig
+from regkit_synthesis.hands.config import GesturesConfig, HandsConfig
 from regkit_synthesis.motion.config import MotionConfig
 from regkit_synthesis.motion.motion import Motion
 
@@ -94,6 +95,14 @@ _SHIPPED: Mapping[BodyName, Callable[[], SkinnedMesh]] = {
 }
 
 
+_HANDS: Mapping[BodyName, Callable[[], SkinnedMesh]] = {
+    "average": assets.average_hand,
+    "small": assets.small_hand,
+    "tall": assets.tall_hand,
+}
+"""The right hand of each body, whose vertices are some of the body's."""
+
+
 class ShippedBody(BodyConfig):
     """A shipped body."""
 
@@ -102,9 +111,15 @@ class ShippedBody(BodyConfig):
     name: BodyName = "average"
     """The body of average proportions, a small or a tall one; all are anny's with the CMU rig."""
 
-    def body(self) -> HumanBody:
+    hands: HandsConfig | None = None
+    """What the fingers do; by default they do not move, and have no joints with ground truth."""
+
+    def body(self) -> MovableBody:
         """Returns the body."""
-        return HumanBody(_SHIPPED[self.name](), body_map("anny_cmu"))
+        human = HumanBody(_SHIPPED[self.name](), body_map("anny_cmu"))
+        if self.hands is None:
+            return human
+        return HandedBody.of(human, _HANDS[self.name](), self.hands)
 
 
 class BodyFile(BodyConfig):

@@ -1,6 +1,6 @@
 """Hand motion: recorded WebXR poses, their file formats, and gestures through poses."""
 
-from regkit_synthesis.hands.config import GESTURES, GesturesConfig
+from regkit_synthesis.hands.config import GESTURES, GesturesConfig, HandsConfig
 from regkit_synthesis.hands.gestures import Gestures
 from regkit_synthesis.hands.motion import HandMotion
 from regkit_synthesis.hands.pose import CHAINS, PARENTS, WRIST, HandPose
@@ -17,6 +17,7 @@ __all__ = [
     "HandMotion",
     "HandPose",
     "HandRetarget",
+    "HandsConfig",
     "pose_names",
     "shipped_pose",
 ]

@@ -119,3 +119,13 @@ class GesturesConfig(Model):
             return self.poses
         path = self.path or GESTURES.path(self.name or "")
         return Document.read(path).validated(GesturesFile).poses
+
+
+class HandsConfig(Model):
+    """What the fingers of both hands of a person do, while the person's motion moves the hands."""
+
+    right: GesturesConfig
+    """Gestures of the right hand; their sway has no effect."""
+
+    left: GesturesConfig
+    """Gestures of the left hand, mirrored."""

@@ -29,12 +29,17 @@ from regkit_synthesis.templates.human_layout import (
     human_layout,
 )
 from regkit_synthesis.templates.human_limits import JOINTS, SOURCES, STANCES
+from regkit_synthesis.templates.sockets import hand_sockets
 
 SPACING = 0.008
 """Distance of the points inside the mesh [m]: some 100,000 points."""
 
 SHORTEST, TALLEST = 1.45, 2.0
 """Heights of adults that are tried where none is given [m]."""
+
+
+HAND = 0.1858
+"""Length of the template of a hand, which is that of the neutral body [m]."""
 
 
 def human(
@@ -75,6 +80,7 @@ def human(
         segments=_both_segments(left),
         stances={name: PoseDescription(joints=joints) for name, joints in STANCES.items()},
         shapes={"gsog": _both_gaussians(gsog), "sog": _both_gaussians(sog)},
+        sockets=hand_sockets(mesh, layout, HAND),
     )
 
 

@@ -72,6 +72,15 @@ JOINTS: dict[str, Joint] = {
 }
 """By segment; the hand has none and is fixed to the forearm."""
 
+WRIST = BallJoint(
+    type="ball",
+    centre_deg=(5.0, 0.0, 5.0),
+    swing_deg=(75.0, 25.0),
+    twist_deg=(-80.0, 80.0),
+)
+"""The joint of a right hand with fingers, in the hand's frame: flexion 80 and extension 70, radial
+deviation 20 and ulnar deviation 30, pronation and supination of the forearm 80 (AAOS)."""
+
 STANCES: dict[str, dict[str, float | tuple[float, float] | Vector]] = {
     "relaxed": {
         "left_upper_arm": (0.0, 0.0, 10.0),

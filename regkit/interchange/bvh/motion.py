@@ -26,7 +26,8 @@ def bvh_of(motion: TrackedMotion) -> Bvh:
     """
     skeleton = motion.body.skeleton
     slides = [
-        name in skeleton.joint_dofs and skeleton.is_prismatic(name) for name in skeleton.names
+        skeleton.is_free(name) or (name in skeleton.joint_dofs and skeleton.is_prismatic(name))
+        for name in skeleton.names
     ]
     rest = motion.body.place(skeleton.rest()).transforms
     parents = [int(parent) for parent in skeleton.parents]

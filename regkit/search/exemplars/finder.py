@@ -99,8 +99,9 @@ class Finder:
             of_size = [one.pose for one in candidates if one.body.size == body.size]
             poses += of_size[: -(-self.variation.poses // len(self.bodies))]
             sizes += [index] * (len(poses) - len(sizes))
-        skeleton = self.bodies[0].skeleton
-        return varied(skeleton, self.atlas, poses, np.array(sizes), self.variation.each, random)
+        return varied(
+            self.bodies[0], self.atlas, poses, np.array(sizes), self.variation.each, random
+        )
 
     def _pose(self, found: Matches, index: int) -> Pose:
         return Pose(found.roots[index], found.balls[index], found.hinges[index])

@@ -35,7 +35,7 @@ def sampled_poses(body: Body, random: np.random.Generator, count: int) -> tuple[
     hinges = np.array([pose.hinges for pose in stances])[chosen]
     any_balls, any_hinges = bones.limits.sampled(random, count)
     shakes = np.full(balls.shape[1], TRUNK_SHAKE)
-    limbs = limbs_of(bones)
+    limbs = limbs_of(body)
     for limb in limbs:
         shakes[limb.balls] = LIMB_SHAKE
     steps = random.normal(size=(*balls.shape[:2], 3)) * shakes[:, None]
@@ -55,7 +55,8 @@ def _shakes_of_hinges(limits: Limits) -> Array:
     """Returns the standard deviation of each hinge about a stance, (n_hinge,) [rad or m]."""
     # A prismatic joint is shaken by the part of its travel that a limb's joint is of half a turn.
     travel = np.diff(limits.hinge, axis=1)[:, 0]
-    return np.where(limits.prismatic, LIMB_SHAKE / np.pi * travel, LIMB_SHAKE)
+    slides = np.where(np.isfinite(travel), LIMB_SHAKE / np.pi * travel, 0.0)
+    return np.where(limits.prismatic, slides, LIMB_SHAKE)
 
 
 def sampled_views(random: np.random.Generator, count: int, elevation: tuple[float, float]) -> Array:

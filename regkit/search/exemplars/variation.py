@@ -7,11 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from regkit.body import Body
 from regkit.geometry.rotation import from_vector, product
 from regkit.search.exemplars.atlas import Atlas
 from regkit.search.exemplars.lookup import Matches
 from regkit.search.limbs import limbs_of
-from regkit.skeleton import Pose, Skeleton
+from regkit.skeleton import Pose
 from regkit.system.arrays import Indices
 
 SECOND = 0.3
@@ -50,7 +51,7 @@ without the second one (development set of ``benchmarks/starts.py``).
 
 
 def varied(
-    skeleton: Skeleton,
+    body: Body,
     atlas: Atlas,
     poses: Sequence[Pose],
     sizes: Indices,
@@ -62,7 +63,7 @@ def varied(
     Joints of the trunk may exceed their limits a little.
 
     Args:
-        skeleton: The skeleton.
+        body: The body.
         atlas: The exemplars.
         poses: The poses, N of them.
         sizes: Index of the size of each, (N,).
@@ -79,7 +80,7 @@ def varied(
     exchanged = np.flatnonzero(random.uniform(size=count) < OWN)
     givers = random.integers(len(poses), size=len(exchanged))
     other_balls[exchanged], other_hinges[exchanged] = own_balls[givers], own_hinges[givers]
-    limbs = limbs_of(skeleton)
+    limbs = limbs_of(body)
     chosen = random.integers(max(len(limbs), 1), size=(count, 2))
     chosen[random.uniform(size=count) >= SECOND, 1] = -1
     steps = BENT * random.normal(size=(*balls.shape[:2], 3))

@@ -163,7 +163,7 @@ class Movement:
 
     @cached_property
     def _limbs(self) -> list[tuple[Indices, Indices]]:
-        return [(limb.balls, limb.hinges) for limb in limbs_of(self.body.skeleton)]
+        return [(limb.balls, limb.hinges) for limb in limbs_of(self.body)]
 
     @property
     def _parts(self) -> int:

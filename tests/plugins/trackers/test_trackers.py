@@ -141,13 +141,13 @@ def test_recovery_looks_when_less_is_explained_than_usual(
 
 
 def test_limbs_are_what_hangs_on_the_trunk():
-    human = {limb.name for limb in limbs_of(Human().body(1.7).skeleton)}
+    human = {limb.name for limb in limbs_of(Human().body(1.7))}
     sides = {f"{side}_{part}" for side in ("left", "right") for part in ("upper_arm", "thigh")}
     assert human == {"head"} | sides
-    hand = Hand().body(0.18).skeleton
+    hand = Hand().body(0.18)
     fingers = limbs_of(hand)
     assert len(fingers) == 5
-    assert sum(len(finger.segments) for finger in fingers) == len(hand.names) - 1
+    assert sum(len(finger.segments) for finger in fingers) == len(hand.skeleton.names) - 1
 
 
 def test_sampled_joints_keep_the_limits_and_fill_them(random):

@@ -28,12 +28,10 @@ def atlas(person):
 
 def test_variants_exchange_one_or_two_limbs(person, poses, atlas):
     each = 40
-    found = varied(
-        person.skeleton, atlas, poses, np.array([0, 0, 1]), each, np.random.default_rng(0)
-    )
+    found = varied(person, atlas, poses, np.array([0, 0, 1]), each, np.random.default_rng(0))
     assert len(found) == each * len(poses)
     assert found.sizes.tolist() == [0] * 2 * each + [1] * each
-    limbs = limbs_of(person.skeleton)
+    limbs = limbs_of(person)
     for index in range(len(found)):
         parent = poses[index // each]
         assert np.array_equal(found.roots[index], parent.root)
@@ -46,7 +44,7 @@ def test_variants_exchange_one_or_two_limbs(person, poses, atlas):
 
 
 def test_variants_have_unit_quaternions(person, poses, atlas):
-    found = varied(person.skeleton, atlas, poses, np.zeros(3, int), 20, np.random.default_rng(1))
+    found = varied(person, atlas, poses, np.zeros(3, int), 20, np.random.default_rng(1))
     assert np.allclose(np.linalg.norm(found.balls, axis=2), 1.0, atol=1e-5)
 
 

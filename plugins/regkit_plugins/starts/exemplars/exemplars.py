@@ -15,7 +15,7 @@ from regkit.interfaces import Method, Start, StartSearch, Template
 from regkit.observation import Observation
 from regkit.search.exemplars import AtlasSettings, atlas_of, even_rolls
 from regkit.skeleton.joints import in_order
-from regkit.start import judged, rigid_start
+from regkit.start import judged, rigid_start, with_parts
 from regkit.system.optional import one_blas_thread
 from regkit_plugins.starts.exemplars.finalists import Comparison, margin
 from regkit_plugins.starts.exemplars.search import Search
@@ -58,7 +58,10 @@ class Exemplars(StartSearch):
         Raises:
             ConfigError: If the template has no capsules, or no free root.
         """
-        rigid = rigid_start(template, observations[0])
+        inside = with_parts(
+            lambda base: self.find(base, observations), template, observations[0], self.method
+        )
+        rigid = inside or rigid_start(template, observations[0])
         if rigid is not None:
             return rigid
         with one_blas_thread():

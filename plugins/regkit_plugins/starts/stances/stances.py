@@ -9,9 +9,10 @@ from typing import Literal
 import numpy as np
 
 from regkit.body import Body
-from regkit.interfaces import Start, StartSearch, Template
+from regkit.config.plugin import slot_default
+from regkit.interfaces import Method, Start, StartSearch, Template
 from regkit.observation import Observation
-from regkit.start import Candidate, Scan, judged, rigid_start
+from regkit.start import Candidate, Scan, judged, rigid_start, with_parts
 from regkit.start.fit import STIFFNESS
 from regkit.start.sizes import CUTOFF, FAR, fit, resized
 from regkit.system.optional import one_blas_thread
@@ -38,13 +39,19 @@ class Stances(StartSearch):
 
     kind: Literal["stances"] = "stances"
 
+    method: Method = slot_default(Method)
+    """Method that registers the parts of a composed body."""
+
     def find(self, template: Template, observations: Sequence[Observation]) -> Start:
         """Returns the start that fits the first frame best.
 
         Raises:
             ConfigError: If the template has no capsules, or no free root.
         """
-        rigid = rigid_start(template, observations[0])
+        inside = with_parts(
+            lambda base: self.find(base, observations), template, observations[0], self.method
+        )
+        rigid = inside or rigid_start(template, observations[0])
         if rigid is not None:
             return rigid
         with one_blas_thread():

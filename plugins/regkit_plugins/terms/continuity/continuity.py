@@ -21,7 +21,8 @@ from regkit_plugins.terms.continuity.compiled import respond_joints
 class Continuity(Term):
     """Half the squared distance to the prior pose, as rotation vectors in units of ``joint_deg``.
 
-    The root, which is always observed, is free. Unobserved joints stay at the prior.
+    The root, which is always observed, is free, and so is that of each of several bodies. Joints
+    that are not observed stay at the prior.
     """
 
     kind: Literal["continuity"] = "continuity"
@@ -54,13 +55,13 @@ class Continuity(Term):
         return CompiledJoints(respond_joints, table=self._weights(body.skeleton)[:, None])
 
     def _weights(self, skeleton: Skeleton) -> Array:
-        """Returns the weights (n,) of the squared steps; those of the root are zero."""
+        """Returns the weights (n,) of the squared steps; those of free joints are zero."""
         usual = np.full(skeleton.dofs, np.radians(self.joint_deg))
         for name, degrees in self.joints_deg.items():
             usual[skeleton.dofs_of(name)] = np.radians(degrees)
         usual[skeleton.hinge_dofs][skeleton.limits.prismatic] = self.displacement
         weights = self.weight / usual**2
-        weights[: skeleton.ball_dofs.start] = 0.0
+        weights[skeleton.free_dofs] = 0.0
         return np.asarray(weights)
 
 
@@ -71,7 +72,7 @@ class BoundContinuity(JointEnergy):
     Attributes:
         skeleton: The skeleton.
         expected: The prior pose, with zero energy.
-        weights: w, (n,), equal for the three components of a ball joint, and zero for the root.
+        weights: w, (n,), equal for the three components of a ball joint, and zero for free joints.
         stiffness: The diagonal matrix of the weights, (n, n).
     """
 

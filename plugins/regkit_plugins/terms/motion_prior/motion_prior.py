@@ -47,11 +47,11 @@ class MotionPrior(Term):
         return CompiledJoints(respond_joints, table=self._usual(body.skeleton))
 
     def _usual(self, skeleton: Skeleton) -> Array:
-        """Returns the stiffness (n, n) of a prior that is a pose alone; the root is free."""
+        """Returns the stiffness (n, n) of a prior that is a pose alone; free joints are."""
         usual = np.full(skeleton.dofs, np.radians(self.joint_deg))
         usual[skeleton.hinge_dofs][skeleton.limits.prismatic] = self.displacement
         stiffness = self.weight / usual**2
-        stiffness[: skeleton.ball_dofs.start] = 0.0
+        stiffness[skeleton.free_dofs] = 0.0
         return np.diag(stiffness)
 
 

@@ -64,9 +64,10 @@ class Filter(Tracker):
     def noise(self, skeleton: Skeleton) -> Array:
         """Returns the variance of the process noise of each degree of freedom, (n,)."""
         noise = np.full(skeleton.dofs, np.radians(self.joint_deg))
-        if skeleton.free:
-            noise[:3], noise[3:6] = self.root_m, np.radians(self.root_deg)
         noise[skeleton.hinge_dofs][skeleton.limits.prismatic] = self.displacement
+        noise[skeleton.free_dofs] = np.tile(
+            np.repeat([self.root_m, np.radians(self.root_deg)], 3), len(skeleton.free_dofs) // 6
+        )
         for name, degrees in self.joints_deg.items():
             noise[skeleton.rotating(name, place=f"tracker.joints_deg.{name}")] = np.radians(degrees)
         return noise**2
