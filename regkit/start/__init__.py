@@ -6,13 +6,25 @@
 - ``finalist``: poses that a method has registered, and their costs; trackers that seek a lost body
   compare them too.
 - ``rigid``, ``cloud``: starts of rigid surfaces.
+- ``free_root``: starts of bodies whose root is fixed in the world.
 - ``verdict``: whether a start was found.
 """
 
 from regkit.start.candidate import Candidate
 from regkit.start.finalist import Finalist
+from regkit.start.free_root import FreeRoot, at_root, is_fixed, standing
 from regkit.start.rigid import rigid_start
 from regkit.start.scan import Scan
 from regkit.start.verdict import judged
 
-__all__ = ["Candidate", "Finalist", "Scan", "judged", "rigid_start"]
+__all__ = [
+    "Candidate",
+    "Finalist",
+    "FreeRoot",
+    "Scan",
+    "at_root",
+    "is_fixed",
+    "judged",
+    "rigid_start",
+    "standing",
+]
