@@ -95,6 +95,37 @@ def test_figures_of_two_processes_are_those_of_one(regkit, files, serial):
     assert not list(files.out.rglob(".*"))
 
 
+NOTING = '''\
+from typing import Literal
+
+from regkit.config.plugin import register
+from regkit.interfaces import BoundTracker, Registrar, Tracker
+from regkit.system.notes import note
+from regkit_plugins.trackers.constant_pose import ConstantPose
+
+
+@register
+class Noting(Tracker):
+    """Holds the last pose, and tells it."""
+
+    kind: Literal["noting"] = "noting"
+
+    def bind(self, registrar: Registrar) -> BoundTracker:
+        note("the tracker is that of a test")
+        return ConstantPose().bind(registrar)
+'''
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_what_every_worker_notes_is_told_once(regkit, files, tmp_path, jobs):
+    file = tmp_path / "noting.py"
+    file.write_text(NOTING)
+    options = ("--plugin", file, "--set", "tracker=noting", "--jobs", jobs, *QUICK)
+    ended = regkit("run", files.experiment, "--out", files.out, "--no-figures", *options)
+    assert ended.code == 0, ended.err
+    assert ended.err.count("the tracker is that of a test") == 1
+
+
 @pytest.mark.long
 def test_killed_process_loses_nothing(regkit, files, serial, deadly):
     ended = regkit(
