@@ -9,7 +9,7 @@ from sys import intern
 import numpy as np
 
 from regkit.body import Body, BodyFit
-from regkit.body.support import segment_supports
+from regkit.body.marker_fit import fit_to_data
 from regkit.body.verdict import Verdict, frame_verdict
 from regkit.interfaces import Expected, Registrar
 from regkit.observation import Observation
@@ -133,9 +133,8 @@ class TrackRecorder:
         supports = np.zeros(len(transforms))
         if frame.observation is not None:
             points = frame.observation.points
-            supports = segment_supports(body, transforms, points)
             self.sample.add(len(self), frame.observation)
-            fit = BodyFit.of(body, found.pose, points, frame.observation.sight)
+            fit, supports = fit_to_data(body, found.pose, frame.observation)
         markers = body.markers.place(transforms)
         count = 0 if points is None else len(points)
         self._rows.append(
