@@ -142,10 +142,7 @@ def _table(measures: dict[str, dict[str, Measure]]) -> Table:
     # All metrics must fit a terminal of 80 characters: titles may break there, names where a
     # sweep joined them, and a longer one anywhere.
     table = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
-    widest = max((len(line) for name in measures for line in wrapped(name, NAME).split("\n")),
-                 default=1)  # fmt: skip
-    width = min(widest, NAME)
-    table.add_column("method", overflow="fold", min_width=width, max_width=width)
+    table.add_column("method", no_wrap=True)
     table.add_column("rec.")
     for title in TERMINAL.values():
         table.add_column(escape(title), justify="right")
