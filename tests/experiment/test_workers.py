@@ -88,7 +88,9 @@ def deadly(files, tmp_path):
 @pytest.mark.long
 def test_figures_of_two_processes_are_those_of_one(regkit, files, serial):
     ended = regkit("run", files.experiment, "--out", files.out, "--no-figures", "--jobs", 2)
-    assert (ended.code, ended.err) == (0, "")
+    assert ended.code == 0, ended.err
+    # So few steps of a solver do not find the body surely.
+    assert all("doubtful" in line for line in ended.err.splitlines()), ended.err
     assert figures_but_times(files.out) == serial
     environment = json.loads((files.out / "environment.json").read_text())
     assert environment["workers"] == ["2 processes"]
