@@ -135,11 +135,20 @@ class ResidualSimilarity(Similarity):
         self, placed: Placed[Any], segments: int, *, curvature: bool = False
     ) -> Response:
         """Returns the response on the segments, without sums for each primitive."""
+        if self._is_overridden:
+            return super().on_segments(placed, segments, curvature=curvature)
         return self.residuals(placed).on_segments(self.loss, placed, segments)
 
     def energy(self, placed: Placed[Any]) -> float:
         """Returns the energy alone."""
+        if self._is_overridden:
+            return super().energy(placed)
         return self.residuals(placed).energy(self.loss)
+
+    @property
+    def _is_overridden(self) -> bool:
+        """Whether a subclass has a response of its own, from which all others follow then."""
+        return type(self).__call__ is not ResidualSimilarity.__call__
 
     def whitened(self, placed: Placed[Any]) -> tuple[Array, Array] | None:
         """Returns the residuals, which the loss bounds, in units of its scale (N, D), and ones."""
