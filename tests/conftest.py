@@ -95,6 +95,8 @@ def regkit(monkeypatch, capsys):
     monkeypatch.setenv("COLUMNS", "200")
     # However slow the machine is, no line of progress is among what a test compares.
     monkeypatch.setattr("regkit.cli.progress.EVERY", 1e6)
+    # Nor is it told that loops are compiled, which depends on what ran before.
+    monkeypatch.setattr("regkit.cli.app.when_compiling", lambda _: None)
 
     def run(*arguments: object) -> Ended:
         monkeypatch.setattr(sys, "argv", ["regkit", *map(str, arguments)])

@@ -30,6 +30,8 @@ class LivePose(Brief):
         observation: The data of the frame; None if it has none.
         latency: Time from the frame's arrival to its pose [s].
         seconds: Time to preprocess and register [s].
+        deviations: Standard deviations of the markers along the camera's axes, (M, 3) [m]; None if
+            the method does not know them, or without data.
     """
 
     number: int
@@ -43,6 +45,7 @@ class LivePose(Brief):
     observation: Observation | None
     latency: float
     seconds: float
+    deviations: Array | None = None
 
     @classmethod
     def of(cls, frame: LiveFrame) -> Self:
@@ -60,4 +63,5 @@ class LivePose(Brief):
             observation=tracked.observation,
             latency=frame.latency,
             seconds=tracked.seconds,
+            deviations=recorded.deviations(),
         )

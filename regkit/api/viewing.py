@@ -48,6 +48,7 @@ def scene_of(tracking: Tracking, truth: Reference | None = None) -> TrackScene:
         _points(tracking, [*marked]),
         fps=tracking.fps,
         camera=tracking.recorder.sample.camera,
+        cameras=tracking.recorder.sample.cameras.values(),
         truth=known,
         errors=errors,
         marked=marked,

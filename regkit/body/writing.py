@@ -158,10 +158,12 @@ def _segment(segment: SegmentDescription, comment: str) -> list[str]:
     lines = comment_lines(comment, "    ")
     if segment.parent is not None:
         lines.append(f"    parent: {word(segment.parent)}")
+    # What stands still is known better than a joint of a body: a root keeps more decimals.
+    decimals, degrees = (4, 1) if segment.parent is not None else (6, 4)
     if segment.parent is not None or any(segment.offset):
-        lines.append(f"    offset: {row(segment.offset)}")
+        lines.append(f"    offset: {row(segment.offset, decimals)}")
     if any(segment.rotation_deg):
-        lines.append(f"    rotation_deg: {row(segment.rotation_deg, 1)}")
+        lines.append(f"    rotation_deg: {row(segment.rotation_deg, degrees)}")
     if segment.optional:
         lines.append("    optional: true")
     lines.append(f"    joint: {_joint(segment.joint or FixedJoint())}")

@@ -3,6 +3,7 @@
 from regkit.calibration.calibration import Calibration
 from regkit.calibration.marker_set import MarkerSet
 from regkit.calibration.marker_subject import MarkerSubject
+from regkit.calibration.shape import Shape
 from regkit.calibration.subject import Subject
 
-__all__ = ["Calibration", "MarkerSet", "MarkerSubject", "Subject"]
+__all__ = ["Calibration", "MarkerSet", "MarkerSubject", "Shape", "Subject"]

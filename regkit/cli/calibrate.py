@@ -18,7 +18,14 @@ from regkit.cli.calibration_source import Source
 from regkit.cli.choices import segmentation_named
 from regkit.cli.completion import plugin_names
 from regkit.cli.console import errors, output
-from regkit.cli.options import PluginFiles, Segmentation, Strict, default_of, run_plugin_files
+from regkit.cli.options import (
+    PluginFiles,
+    Segmentation,
+    Strict,
+    default_of,
+    options,
+    run_plugin_files,
+)
 from regkit.cli.verdicts import conclude
 from regkit.config.document import Document
 from regkit.interfaces import Recording, Template
@@ -67,12 +74,37 @@ def calibrate(
             help="Find the poses of the recording's cameras instead, and write its cameras.json.",
         ),
     ] = False,
+    base: Annotated[
+        bool,
+        typer.Option(
+            "--base",
+            help="Find the base of a robot that stands still instead, and write its template with "
+            "the base fixed there, and the cameras' poses in its frame.",
+        ),
+    ] = False,
+    up: Annotated[
+        str | None,
+        typer.Option(
+            metavar="AXIS",
+            help="With --base: upward axis of the robot's own frame, in which the cameras are "
+            "told: z for the frame of a URDF file. (default: y, as in the template)",
+            show_default=False,
+        ),
+    ] = None,
+    front: Annotated[
+        str | None,
+        typer.Option(
+            metavar="AXIS",
+            help="With --base: forward axis of this frame: x for that of a URDF file. (default: z)",
+            show_default=False,
+        ),
+    ] = None,
     out: Annotated[
         Path | None,
         typer.Option(
             metavar="FILE",
-            help="File to write; an existing one is replaced. (default: subject.yaml, or the "
-            "recording's cameras.json)",
+            help="File to write; an existing one is replaced. (default: subject.yaml, "
+            "fixed_base.yaml, or the recording's cameras.json)",
             show_default=False,
         ),
     ] = None,
@@ -85,7 +117,8 @@ def calibrate(
         typer.Option(
             min=1,
             metavar="N",
-            help="Number of frames, spread over the recording. (default: 12, of cameras 40)",
+            help="Number of frames, spread over the recording. (default: 12, of cameras 40, of a "
+            "base 30)",
             show_default=False,
         ),
     ] = None,
@@ -113,8 +146,15 @@ def calibrate(
     """Create a template with the body proportions of the person or hand in a recording.
 
     With ``--extrinsics``: find where several cameras are, from the body that moves before them.
+    With ``--base``: find where a robot stands, from all frames together, and where the cameras are.
     """
     run_plugin_files(plugin)
+    if base and (extrinsics or markers is not None):
+        other = "--extrinsics" if extrinsics else "--markers"
+        raise ConfigError("a calibration is of one kind; --base is another", place=other)
+    for option, value in (("--up", up), ("--front", front)):
+        if value is not None and not base:
+            raise ConfigError("the axes are those of a robot's base; add --base", place=option)
     if extrinsics:
         from regkit.cli.calibrate_cameras import calibrate_cameras
 
@@ -123,13 +163,20 @@ def calibrate(
             raise ConfigError("--extrinsics takes the folder of one recording", place=option)
         calibrate_cameras(source, template, out, segmentation, frames, strict=strict)
         return
-    out = out or Path("subject.yaml")
-    frames = frames or 12
+    out = out or Path("fixed_base.yaml" if base else "subject.yaml")
     check_replaceable(out)
     found = Source.read(source, template, settings or ())
     if segmentation is not None:
         found = found.model_copy(update={"segmentation": segmentation_named(segmentation)})
     seen = found.recording(recording)
+    if base:
+        from regkit.cli.calibrate_base import calibrate_base
+
+        with options(up="--up", front="--front"):
+            axes = (up or "y", front or "z")
+            calibrate_base(found, seen, out, frames, axes, strict=strict)
+        return
+    frames = frames or 12
     if markers is not None:
         _by_markers(found.template, markers, seen, frames, out)
         return

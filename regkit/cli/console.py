@@ -44,9 +44,8 @@ def print_error(error: RegkitError) -> None:
 
 
 def tell_compiling() -> None:
-    """Explains on a terminal why the first run on a machine starts late."""
-    if errors.is_terminal:
-        errors.print("compiling numerical loops (once on this machine) ...")
+    """Explains why the first run on a machine starts late, in a log as on a terminal."""
+    errors.print("compiling numerical loops (once on this machine, a minute or so) ...")
 
 
 def print_warning(text: str) -> None:

@@ -29,7 +29,8 @@ def print_fields(kind: str) -> None:
         output.print(text)
     if not named and not presets:
         kinds = [name for slot in SLOTS for name in (*slot.available(), *presets_of(slot.group))]
-        raise PluginError(f"no plug-in '{kind}' in any group" + did_you_mean(kind, kinds))
+        hint = did_you_mean(kind, kinds) or "; `regkit plugins` lists all of them"
+        raise PluginError(f"no plug-in '{kind}' in any group" + hint)
     for slot in named:
         found = slot.load(kind)
         table = Table("field", "default", "description", title=f"{slot.group}: {kind}")

@@ -12,6 +12,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, TextIO
 
+import numpy as np
+
 from regkit.api.live_pose import LivePose
 from regkit.body import Body
 from regkit.geometry.rotation import from_matrix
@@ -85,7 +87,10 @@ class PoseStream(ABC):
 
 
 class CsvPoses(PoseStream):
-    """A row for each frame: root, unit quaternions x y z w, hinges [rad or m], and markers [m]."""
+    """A row for each frame: root, unit quaternions x y z w, hinges [rad or m], and markers [m].
+
+    The markers' standard deviations [m] follow, which are empty where they are unknown.
+    """
 
     def __init__(self, path: Path | None, body: Body) -> None:
         super().__init__(path)
@@ -102,6 +107,8 @@ class CsvPoses(PoseStream):
             *pose.markers.ravel(),
         ]
         known = math.isfinite(pose.inlier_share)
+        known_sides = pose.deviations
+        deviations = np.full(pose.markers.size, np.nan) if known_sides is None else known_sides
         self._writer.writerow(
             [
                 pose.number,
@@ -110,6 +117,7 @@ class CsvPoses(PoseStream):
                 f"{pose.inlier_share:.4f}" if known else "",
                 f"{pose.latency:.6f}",
                 *(f"{number:.6f}" for number in numbers),
+                *("" if math.isnan(number) else f"{number:.6f}" for number in deviations.ravel()),
             ]
         )
 
@@ -134,6 +142,9 @@ class JsonPoses(PoseStream):
             "balls": dict(zip(skeleton.ball_names, _rounded(pose.pose.balls), strict=True)),
             "hinges": dict(zip(skeleton.hinge_names, _rounded(pose.pose.hinges), strict=True)),
             "markers": dict(zip(markers.names, _rounded(pose.markers), strict=True)),
+            "deviations": None
+            if pose.deviations is None
+            else dict(zip(markers.names, _rounded(pose.deviations), strict=True)),
         }
         stream.write(json.dumps(content, separators=(",", ":")) + "\n")
 
@@ -185,8 +196,9 @@ def _columns(body: Body) -> Iterator[str]:
     for name in body.skeleton.ball_names:
         yield from (f"{name}_q{axis}" for axis in "xyzw")
     yield from body.skeleton.hinge_columns
-    for name in body.markers.names:
-        yield from (f"{name}_{axis}" for axis in "xyz")
+    for part in ("", "sigma_"):
+        for name in body.markers.names:
+            yield from (f"{name}_{part}{axis}" for axis in "xyz")
 
 
 def _rounded(array: Any) -> Any:

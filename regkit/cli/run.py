@@ -27,6 +27,9 @@ from regkit.report.tables import TERMINAL, rows
 from regkit.scaffold import examples
 from regkit.system.errors import DataError
 
+NAME = 22
+"""Width of a method's name in the table."""
+
 SHOWN = 8
 """Maximum number of doubtful tracks that are printed."""
 
@@ -136,13 +139,13 @@ def _tell_doubts(measures: Mapping[str, Mapping[str, Measure]]) -> None:
 
 
 def _table(measures: dict[str, dict[str, Measure]]) -> Table:
-    # All metrics must fit a terminal of 80 characters: titles may break there, names only
-    # where a sweep joined them.
+    # All metrics must fit a terminal of 80 characters: titles may break there, names where a
+    # sweep joined them, and a longer one anywhere.
     table = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
     table.add_column("method", no_wrap=True)
     table.add_column("rec.")
     for title in TERMINAL.values():
         table.add_column(escape(title), justify="right")
     for name, *figures in rows(measures):
-        table.add_row(wrapped(name, 22), *figures)
+        table.add_row(wrapped(name, NAME), *figures)
     return table

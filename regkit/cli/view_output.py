@@ -8,6 +8,7 @@ from regkit.api.live_pose import LivePose
 from regkit.api.live_track import LiveTrack
 from regkit.cli.console import errors
 from regkit.cli.view import open_browser
+from regkit.observation import PlacedCamera
 from regkit.viewer.live import LiveViewer
 
 NO_POINTS = np.zeros((0, 3))
@@ -36,7 +37,8 @@ class ViewOutput:
 
     def add(self, pose: LivePose, status: str) -> None:
         """Shows a pose."""
-        points = NO_POINTS if pose.observation is None else pose.observation.points
+        seen = pose.observation
+        points = NO_POINTS if seen is None else seen.points
         self._viewer.add(
             pose.number,
             pose.time,
@@ -47,6 +49,7 @@ class ViewOutput:
             supports=pose.supports,
             curves={"inlier share": 100.0 * pose.inlier_share},
             status=status,
+            cameras=() if seen is None else PlacedCamera.of_views(seen.views),
         )
 
     def close(self) -> None:

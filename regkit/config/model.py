@@ -77,7 +77,7 @@ class Model(BaseModel):
         return value
 
 
-def misplaced(model: type[Model], message: str, *location: str) -> ValidationError:
+def misplaced(model: type[Model], message: str, *location: str | int) -> ValidationError:
     """Returns an error of the whole model, placed at one of its fields."""
     problem = PydanticCustomError("value_error", "{message}", {"message": message})
     details = InitErrorDetails(type=problem, loc=location, input=None)

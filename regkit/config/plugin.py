@@ -78,6 +78,10 @@ class Plugin(Model):
         if found is None:
             check_former(cls, kind)
             presets = list(presets_of(cls.group))
+            if kind in presets:
+                raise PluginError(
+                    f"'{kind}' is a preset of {cls.group} and no plug-in; write {{preset: {kind}}}"
+                )
             hint = f"; presets: {', '.join(presets)}" if presets else ""
             raise PluginError(
                 f"no plug-in '{kind}' in {cls.group} (installed: {', '.join(available)}{hint})"

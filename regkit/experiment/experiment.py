@@ -5,19 +5,18 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import (
     AfterValidator,
     BeforeValidator,
     Field,
-    ValidationInfo,
     WithJsonSchema,
-    field_validator,
+    model_validator,
 )
 
 from regkit.config.document import Document
-from regkit.config.model import Model
+from regkit.config.model import Model, misplaced
 from regkit.config.plugin import slot_default, slot_defaults
 from regkit.interfaces import (
     Dataset,
@@ -28,8 +27,9 @@ from regkit.interfaces import (
     StartSearch,
     Template,
     Tracker,
+    check_field,
 )
-from regkit.system.errors import ConfigError
+from regkit.system.errors import ConfigError, FieldError, RegkitError
 from regkit.system.names import LONGEST, file_name
 from regkit.tracking import Session, Smoothing
 
@@ -112,17 +112,26 @@ class Experiment(Model):
     methods: dict[Annotated[Name, AfterValidator(_not_reserved)], Method] = Field(min_length=1)
     """Methods to compare, by names of your choice."""
 
-    @field_validator("start")
-    @classmethod
-    def _start_fits_template(cls, start: StartSearch, others: ValidationInfo) -> StartSearch:
-        templates = [others.data.get("template"), *others.data.get("subjects", {}).values()]
-        for template in templates:
-            if isinstance(template, Template):
-                try:
-                    start.check(template)
-                except ConfigError as error:
-                    raise ValueError(error.message) from None
-        return start
+    @model_validator(mode="after")
+    def _parts_fit_templates(self) -> Self:
+        for template in (self.template, *self.subjects.values()):
+            try:
+                self.start.check(template)
+            except FieldError as error:
+                raise misplaced(type(self), error.message, "start", *error.location) from None
+            except ConfigError as error:
+                raise misplaced(type(self), error.message, "start") from None
+            try:
+                body = template.body(template.candidate_sizes()[0])
+            except RegkitError:
+                continue  # What is wrong with a template is told when it is used.
+            try:
+                check_field(self.tracker.check, body, "tracker")
+                for name, method in self.methods.items():
+                    check_field(method.check, body, "methods", name)
+            except FieldError as error:
+                raise misplaced(type(self), error.message, *error.location) from None
+        return self
 
     @classmethod
     def read(

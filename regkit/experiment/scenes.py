@@ -44,6 +44,7 @@ def recorded_scene(
         {**recorder.sample.points, **{drawing.frame: drawing.points for drawing in drawn}},
         fps=record.fps,
         camera=recorder.sample.camera,
+        cameras=recorder.sample.cameras.values(),
         truth=truth,
         errors=None if errors is None else errors.of_frames(),
         marked={drawing.frame: "worst" for drawing in drawn if "worst" in drawing.why},

@@ -13,7 +13,7 @@ from regkit.interfaces.deformation import Deformation
 from regkit.interfaces.expected import Expected
 from regkit.interfaces.kernel import Kernel, Response, RigidComparison, RigidSimilarity, Similarity
 from regkit.interfaces.keypoints import KeypointRecording, KeypointStream
-from regkit.interfaces.method import Method
+from regkit.interfaces.method import Method, check_field
 from regkit.interfaces.preprocessor import Preprocessor
 from regkit.interfaces.prior import Prior
 from regkit.interfaces.registrar import Registrar
@@ -114,5 +114,6 @@ __all__ = [
     "Tracker",
     "VisibilityWeights",
     "Window",
+    "check_field",
     "each_body",
 ]

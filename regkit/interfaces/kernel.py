@@ -45,6 +45,20 @@ class Similarity(ABC):
     def __call__(self, placed: Placed[Any], *, curvature: bool = False) -> Response:
         """Returns the energy of placed primitives, its wrenches and, on request, its stiffness."""
 
+    def on_segments(
+        self, placed: Placed[Any], segments: int, *, curvature: bool = False
+    ) -> Response:
+        """Returns the response with wrenches (S, 6) and stiffness (S, 6, 6) of the S segments.
+
+        They are about the segments' origins. A similarity that need not know the primitives' own
+        sums may be faster.
+        """
+        response = self(placed, curvature=curvature)
+        stiffness = response.stiffness
+        if stiffness is not None:
+            stiffness = placed.accumulate_stiffness(stiffness, segments)
+        return Response(response.energy, placed.accumulate(response.wrenches, segments), stiffness)
+
     def energy(self, placed: Placed[Any]) -> float:
         """Returns the energy alone, for kernels that evaluate it faster than the full response."""
         return self(placed).energy

@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass, field, replace
 from math import exp, isnan, log
 
+from regkit.body import Body
 from regkit.config.plugin import Plugin
 from regkit.interfaces.registrar import Registrar
 from regkit.interfaces.result import RegistrationResult
@@ -125,6 +126,13 @@ class Tracker(Plugin, ABC):
     """A strategy for tracking from frame to frame."""
 
     group = "regkit.trackers"
+
+    def check(self, body: Body) -> None:
+        """Checks that the tracker's fields fit a body, before any frame is read.
+
+        Raises:
+            RegkitError: If one does not, with its field if it is a ``FieldError``.
+        """
 
     @abstractmethod
     def bind(self, registrar: Registrar) -> BoundTracker:

@@ -5,6 +5,7 @@ from regkit.observation.frame import Frame
 from regkit.observation.keypoints import Keypoints
 from regkit.observation.landmarks import Landmarks
 from regkit.observation.observation import Observation
+from regkit.observation.placed_camera import PlacedCamera
 from regkit.observation.sight import Sight
 from regkit.observation.silhouette import Silhouette
 from regkit.observation.timed_frame import TimedFrame
@@ -17,6 +18,7 @@ __all__ = [
     "Keypoints",
     "Landmarks",
     "Observation",
+    "PlacedCamera",
     "Sight",
     "Silhouette",
     "TimedFrame",

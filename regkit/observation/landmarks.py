@@ -26,6 +26,8 @@ class Landmarks(Brief):
         positions: Positions in the camera frame, (L, 3) [m]; NaN where unknown.
         pixels: Columns and rows in the rectified depth image, (L, 2) [pixels]; NaN where unknown.
         confidences: Confidences from 0 (ignored) to 1, (L,).
+        alone: Whether nothing else is measured, as by a motion-capture system: the points of the
+            frame are these landmarks, and no surface.
 
     Raises:
         DataError: If the arrays differ in length, a name is repeated, or a confidence is not from
@@ -36,6 +38,7 @@ class Landmarks(Brief):
     positions: Array
     pixels: Array
     confidences: Array
+    alone: bool = False
 
     def __post_init__(self) -> None:
         """Validates names and arrays."""

@@ -11,7 +11,11 @@ from typing import Generic, Self, TypeVar
 
 import numpy as np
 
-from regkit.primitives.accumulation import accumulated_stiffness, accumulated_wrenches
+from regkit.primitives.accumulation import (
+    accumulated_residuals,
+    accumulated_stiffness,
+    accumulated_wrenches,
+)
 from regkit.system.arrays import Array, Indices
 from regkit.system.brief import Brief
 
@@ -90,3 +94,21 @@ class Placed(Brief, Generic[P_co]):
         """Returns blocks (K, 6, 6) of the primitives about the segments' origins, (S, 6, 6)."""
         arms = self.centres - self.carriers
         return accumulated_stiffness(stiffness, arms, self.primitives.segments, segments)
+
+    def accumulate_residuals(
+        self, owners: Indices, values: Array, rows: Array, weights: Array, segments: int
+    ) -> tuple[Array, Array]:
+        """Returns wrenches (S, 6) and blocks (S, 6, 6) of residuals about the segments' origins.
+
+        Args:
+            owners: Primitive of each residual, (R,).
+            values: Residuals with D components, (R, D).
+            rows: Derivatives to the owners' motions about their centres, (R, D, 6).
+            weights: Weights of the residuals, (R,).
+            segments: Number S of segments.
+        """
+        wrenches, blocks = accumulated_residuals(owners, values, rows, weights, len(self))
+        return (
+            self.accumulate(wrenches, segments),
+            self.accumulate_stiffness(blocks, segments),
+        )

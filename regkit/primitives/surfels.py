@@ -9,8 +9,9 @@ import numpy as np
 
 from regkit.geometry.surface import SkinnedSurface
 from regkit.primitives import Placed, Primitives
+from regkit.primitives.skinned_residuals import residuals_on_segments
 from regkit.primitives.skinning import accumulated_stiffness, accumulated_wrenches, place_blended
-from regkit.system.arrays import Array
+from regkit.system.arrays import Array, Indices
 
 
 @dataclass(frozen=True)
@@ -112,6 +113,25 @@ class PlacedSurfels(Placed[S_co]):
         skin = self.primitives.surface
         return accumulated_stiffness(
             stiffness,
+            skin.segments,
+            skin.blend,
+            self.arms,
+            self.turned,
+            self.axes,
+            self.lengths,
+            segments,
+        )
+
+    def accumulate_residuals(
+        self, owners: Indices, values: Array, rows: Array, weights: Array, segments: int
+    ) -> tuple[Array, Array]:
+        """Returns wrenches (S, 6) and blocks (S, 6, 6) of residuals about the segments' origins."""
+        skin = self.primitives.surface
+        return residuals_on_segments(
+            owners,
+            values,
+            rows,
+            weights,
             skin.segments,
             skin.blend,
             self.arms,

@@ -55,7 +55,7 @@ class RegistrationProblem(PoseProblem):
         """Returns the energy of a pose and its derivative to the degrees of freedom (n,)."""
         placement, placed = self._placed(pose)
         response = self._response(placed, curvature=False)
-        return self._value_and_force(placement, placed, response, self._joint_responses(placement))
+        return self._value_and_force(placement, response, self._joint_responses(placement))
 
     def value_force_and_matrix(self, pose: Pose) -> tuple[float, Array, Array] | None:
         """Returns energy, force (n,) and Gauss-Newton matrix (n, n); None without blocks."""
@@ -64,19 +64,20 @@ class RegistrationProblem(PoseProblem):
         if response.stiffness is None:
             return None
         joints = self._joint_responses(placement)
-        stiffness = placed.accumulate_stiffness(response.stiffness, len(placement.skeleton.names))
-        matrix = placement.normal_matrix(stiffness)
+        matrix = placement.normal_matrix(response.stiffness)
         for joint in joints:
             matrix += joint.stiffness
-        return *self._value_and_force(placement, placed, response, joints), matrix
+        return *self._value_and_force(placement, response, joints), matrix
 
     def _placed(self, pose: Pose) -> tuple[Placement, Placed[Primitives]]:
         placement = Placement.of(self._coordinates.skeleton, pose)
         return placement, self._primitives.place(placement.transforms)
 
     def _response(self, placed: Placed[Primitives], *, curvature: bool) -> Response:
+        segments = len(self._coordinates.skeleton.names)
         parts = [
-            similarity(placed, curvature=curvature) for similarity in self._similarities.values()
+            similarity.on_segments(placed, segments, curvature=curvature)
+            for similarity in self._similarities.values()
         ]
         return reduce(Response.__add__, parts)
 
@@ -84,14 +85,9 @@ class RegistrationProblem(PoseProblem):
         return [energy(placement.pose) for energy in self._joints]
 
     def _value_and_force(
-        self,
-        placement: Placement,
-        placed: Placed[Primitives],
-        response: Response,
-        joints: list[JointResponse],
+        self, placement: Placement, response: Response, joints: list[JointResponse]
     ) -> tuple[float, Array]:
-        wrenches = placed.accumulate(response.wrenches, segments=len(placement.skeleton.names))
-        force = placement.jacobian_transpose(wrenches)
+        force = placement.jacobian_transpose(response.wrenches)
         value = response.energy
         for joint in joints:
             force = force + joint.force

@@ -56,16 +56,35 @@ class Residuals:
         if not len(self.owners):
             blocks = np.zeros((count, 6, 6)) if curvature else None
             return Response(self.constant, np.zeros((count, 6)), blocks)
-        sizes, parts = self.sizes, 1 if self.values.ndim == 1 else self.values.shape[1]
-        wrenches, blocks = accumulated_residuals(
+        wrenches, blocks = accumulated_residuals(*self._weighted(loss), count)
+        return Response(self.energy(loss), wrenches, blocks if curvature else None)
+
+    def on_segments(self, loss: Loss, placed: Placed[Any], segments: int) -> Response:
+        """Returns the energy, wrenches (S, 6) and blocks (S, 6, 6) about the segments' origins.
+
+        Args:
+            loss: The robust loss rho.
+            placed: The primitives.
+            segments: Number S of segments.
+        """
+        if not len(self.owners):
+            return Response(self.constant, np.zeros((segments, 6)), np.zeros((segments, 6, 6)))
+        found = placed.accumulate_residuals(*self._weighted(loss), segments)
+        return Response(self.energy(loss), *found)
+
+    def energy(self, loss: Loss) -> float:
+        """Returns ``sum w rho(|r|)`` with the constant."""
+        return float(self.weights @ loss.values(self.sizes)) + self.constant
+
+    def _weighted(self, loss: Loss) -> tuple[Indices, Array, Array, Array]:
+        """Returns owners, values (R, D), rows (R, D, 6) and weights times those of a loss."""
+        parts = 1 if self.values.ndim == 1 else self.values.shape[1]
+        return (
             self.owners,
             self.values.reshape(-1, parts),
             self.rows.reshape(-1, parts, 6),
-            self.weights * loss.weights(sizes),
-            count,
+            self.weights * loss.weights(self.sizes),
         )
-        energy = float(self.weights @ loss.values(sizes)) + self.constant
-        return Response(energy, wrenches, blocks if curvature else None)
 
 
 class ResidualSimilarity(Similarity):
@@ -111,6 +130,25 @@ class ResidualSimilarity(Similarity):
     def __call__(self, placed: Placed[Any], *, curvature: bool = False) -> Response:
         """Returns the energy, its exact wrenches and, on request, the Gauss-Newton blocks."""
         return self.residuals(placed).response(self.loss, len(placed), curvature=curvature)
+
+    def on_segments(
+        self, placed: Placed[Any], segments: int, *, curvature: bool = False
+    ) -> Response:
+        """Returns the response on the segments, without sums for each primitive."""
+        if self._is_overridden:
+            return super().on_segments(placed, segments, curvature=curvature)
+        return self.residuals(placed).on_segments(self.loss, placed, segments)
+
+    def energy(self, placed: Placed[Any]) -> float:
+        """Returns the energy alone."""
+        if self._is_overridden:
+            return super().energy(placed)
+        return self.residuals(placed).energy(self.loss)
+
+    @property
+    def _is_overridden(self) -> bool:
+        """Whether a subclass has a response of its own, from which all others follow then."""
+        return type(self).__call__ is not ResidualSimilarity.__call__
 
     def whitened(self, placed: Placed[Any]) -> tuple[Array, Array] | None:
         """Returns the residuals, which the loss bounds, in units of its scale (N, D), and ones."""

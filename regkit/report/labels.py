@@ -90,13 +90,22 @@ def counted(count: int, noun: str) -> str:
 
 
 def wrapped(name: str, width: int) -> str:
-    """Returns a name wrapped to lines of at most ``width`` characters, if possible.
+    """Returns a name wrapped to lines of at most ``width`` characters.
 
-    Lines break after commas and slashes, the separators in the names of a sweep's variants.
+    Lines break after commas and slashes, the separators in the names of a sweep's variants; a line
+    that is still too long breaks after underscores and hyphens, or anywhere.
     """
+    whole = _broken(name, ",/", width)
+    parts = [part for line in whole for part in _broken(line, "_-", width)]
+    lines = [part[at : at + width] for part in parts for at in range(0, len(part), width)]
+    return "\n".join(lines)
+
+
+def _broken(line: str, after: str, width: int) -> list[str]:
+    """Returns a line broken after some characters where it is too long."""
     lines = [""]
-    for part in re.findall(r"[^,/]*[,/]|[^,/]+$", name):
+    for part in re.findall(rf"[^{after}]*[{after}]|[^{after}]+$", line):
         if lines[-1] and len(lines[-1]) + len(part) > width:
             lines.append("")
         lines[-1] += part
-    return "\n".join(lines)
+    return lines

@@ -22,7 +22,7 @@ from regkit.skeleton.pose import JointAngles, Pose, PoseDescription, RootDescrip
 from regkit.skeleton.spread import spread_variances
 from regkit.system.arrays import Array, Indices
 from regkit.system.brief import Brief
-from regkit.system.errors import ConfigError
+from regkit.system.errors import ConfigError, FieldError
 
 FREE = 6
 """Number of degrees of freedom of a free joint."""
@@ -230,25 +230,26 @@ class Skeleton(Brief):
             )
         return self.joint_dofs[joint]
 
-    def rotating(self, joint: str, *, place: str) -> Indices:
+    def rotating(self, joint: str, *location: str) -> Indices:
         """Returns the indices of the rotations among the degrees of freedom of a segment's joint.
 
         Args:
             joint: The segment.
-            place: Field whose degrees are the joint's, for the place of a mistake.
+            location: Field whose degrees are the joint's, for the place of a mistake.
 
         Raises:
-            ConfigError: If there is no such segment, or its joint is fixed or prismatic.
+            FieldError: If there is no such segment, or its joint is fixed or prismatic.
         """
         try:
             dofs = self.dofs_of(joint)
         except ConfigError as error:
-            raise error.at(place) from None
+            raise FieldError(error.message, *location, joint) from None
         if self.is_prismatic(joint):
-            raise ConfigError(
+            raise FieldError(
                 f"the joint of '{joint}' is prismatic, and degrees are for joints that rotate; "
                 "give [m] for all prismatic joints in the field 'displacement'",
-                place=place,
+                *location,
+                joint,
             )
         return dofs[3:] if self.is_free(joint) else dofs
 
@@ -266,7 +267,7 @@ class Skeleton(Brief):
         """Returns the pose of a YAML description, with displacements of joints times a scale.
 
         Raises:
-            ConfigError: If a joint is unknown, the number of its angles is wrong, or it is coupled
+            FieldError: If a joint is unknown, the number of its angles is wrong, or it is coupled
                 to another.
         """
         root = rigid(
@@ -275,15 +276,22 @@ class Skeleton(Brief):
         )
         pose = self.rest(root)
         for name, angles in description.joints.items():
-            dofs = self.dofs_of(name)
+            try:
+                dofs = self.dofs_of(name)
+            except ConfigError as error:
+                raise FieldError(error.message, "joints", name) from None
             values = self._joint_step(name, angles, scale)
             if len(values) != len(dofs):
-                raise ConfigError(
-                    f"the pose gives {len(values)} angles for '{name}'; its joint has {len(dofs)}"
+                raise FieldError(
+                    f"the pose gives {len(values)} angles for '{name}'; its joint has {len(dofs)}",
+                    "joints",
+                    name,
                 )
             if dofs[0] - self.hinge_dofs.start in self.limits.couplings.followers:
-                raise ConfigError(
-                    f"the joint of '{name}' is coupled to another joint; leave its angle out"
+                raise FieldError(
+                    f"the joint of '{name}' is coupled to another joint; leave its angle out",
+                    "joints",
+                    name,
                 )
             step = np.zeros(self.dofs)
             step[dofs] = values

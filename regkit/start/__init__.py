@@ -6,15 +6,28 @@
 - ``finalist``: poses that a method has registered, and their costs; trackers that seek a lost body
   compare them too.
 - ``rigid``, ``cloud``: starts of rigid surfaces.
+- ``free_root``: starts of bodies whose root is fixed in the world.
 - ``inside``: the start of a body with parts, whose base is found first.
 - ``verdict``: whether a start was found.
 """
 
 from regkit.start.candidate import Candidate
 from regkit.start.finalist import Finalist
+from regkit.start.free_root import FreeRoot, at_root, is_fixed, standing
 from regkit.start.inside import with_parts
 from regkit.start.rigid import rigid_start
 from regkit.start.scan import Scan
 from regkit.start.verdict import judged
 
-__all__ = ["Candidate", "Finalist", "Scan", "judged", "rigid_start", "with_parts"]
+__all__ = [
+    "Candidate",
+    "Finalist",
+    "FreeRoot",
+    "Scan",
+    "at_root",
+    "is_fixed",
+    "judged",
+    "rigid_start",
+    "standing",
+    "with_parts",
+]

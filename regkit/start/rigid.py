@@ -12,16 +12,15 @@ def rigid_start(template: Template, observation: Observation) -> Start | None:
     """Returns the start of a rigid surface without capsules; None for other templates.
 
     Raises:
-        ConfigError: If the template has no capsules, or no free root.
+        ConfigError: If the template has no capsules.
     """
     body = template.body(template.candidate_sizes()[0])
     alone = body.skeleton.free and len(body.skeleton.names) == 1
     if alone and body.surface is not None and not len(body.capsules):
         return Start(body, cloud_pose(body, body.surface, observation))
-    if not body.skeleton.free or not len(body.capsules):
-        lack = "free root" if not body.skeleton.free else "capsules"
+    if not len(body.capsules):
         raise ConfigError(
-            f"the template '{body.name}' has no {lack}, which the search for a start needs; "
+            f"the template '{body.name}' has no capsules, which the search for a start needs; "
             "give one (start:), and the template's size"
         )
     return None

@@ -32,6 +32,25 @@ class ConfigError(RegkitError):
     """A YAML document, an argument or a command-line override is invalid."""
 
 
+class FieldError(ConfigError):
+    """A field does not fit what it is combined with, such as a joint's name the template.
+
+    Args:
+        message: As in ``RegkitError``.
+        location: The field: its name, and those of the mappings or the places in the lists that it
+            is in, from the outside.
+    """
+
+    def __init__(self, message: str, *location: str | int) -> None:
+        parts = (f"[{one}]" if isinstance(one, int) else f".{one}" for one in location)
+        super().__init__(message, place="".join(parts).lstrip("."))
+        self.location = location
+
+    def within(self, *outer: str | int) -> FieldError:
+        """Returns the error of the same field as a part of another one."""
+        return FieldError(self.message, *outer, *self.location)
+
+
 class DataError(RegkitError):
     """Measured data (an image, a cloud, a truth file) is missing, damaged or unusable."""
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -39,15 +40,38 @@ def show_notes(show: Callable[[str], None] | None = None) -> None:
         show: Shows a note; by default it is printed on standard error.
     """
     usual = warnings.showwarning
+    # Python forgets what it has shown whenever anyone changes the filters of warnings.
+    told: set[str] = set()
 
     def shown(message: Warning | str, category: type[Warning], *place: Any, **more: Any) -> None:
         if issubclass(category, RegkitWarning):
-            (show or _printed)(str(message))
+            text = str(message)
+            if text not in told:
+                told.add(text)
+                (show or _printed)(text)
         else:
             usual(message, category, *place, **more)
 
     warnings.showwarning = shown
     warnings.simplefilter("default", RegkitWarning)
+
+
+@contextmanager
+def collected_notes() -> Iterator[list[str]]:
+    """Context manager: the notes of this process go into a list, for another process to show."""
+    found: list[str] = []
+    usual = warnings.showwarning
+    show_notes(found.append)
+    try:
+        yield found
+    finally:
+        warnings.showwarning = usual
+
+
+def tell_again(notes: Iterable[str]) -> None:
+    """Tells the notes of another process, those that this one has told already not again."""
+    for text in notes:
+        warnings.warn(RegkitWarning(text), stacklevel=2)
 
 
 def _printed(text: str) -> None:

@@ -10,6 +10,7 @@ import pytest
 from regkit.body import Body
 from regkit.geometry.rigid import rigid
 from regkit.observation import Observation
+from regkit.system.arrays import Array
 from regkit.testing.block_laws import BlockLaws
 from regkit.testing.bound import Bound
 from regkit.testing.cases import Pair
@@ -68,6 +69,24 @@ class KernelLaws(BlockLaws, CompiledKernelLaws, RigidLaws):
             curved.energy == plain.energy and np.array_equal(curved.wrenches, plain.wrenches),
             bound.kernel, "returns another energy or other wrenches if curvature is requested",
             look_at=at,
+        )  # fmt: skip
+
+    def test_segments_feel_the_sum_of_what_their_primitives_feel(self, bound: Bound) -> None:
+        """``on_segments`` is the response, accumulated; it may only be faster."""
+        placed, similarity = bound.placed(), bound.similarity()
+        segments = len(bound.body.skeleton.names)
+        own = similarity(placed, curvature=True)
+        summed = similarity.on_segments(placed, segments, curvature=True)
+        wrenches = placed.accumulate(own.wrenches, segments)
+        agree = np.isclose(summed.energy, own.energy, rtol=1e-9)
+        agree &= _alike(summed.wrenches, wrenches)
+        if own.stiffness is not None:
+            blocks = placed.accumulate_stiffness(own.stiffness, segments)
+            agree &= summed.stiffness is not None and _alike(summed.stiffness, blocks)
+        require(
+            bool(agree), bound.kernel,
+            "has other energy, wrenches or blocks in on_segments than in its response",
+            look_at=type(similarity).on_segments,
         )  # fmt: skip
 
     def test_kernel_answers_for_the_point_after_a_step_in_place(
@@ -216,3 +235,8 @@ class KernelLaws(BlockLaws, CompiledKernelLaws, RigidLaws):
             same(before, after), bound.kernel, "modifies the data or the primitives; copy arrays "
             "before writing to them", look_at=bound.answer,
         )  # fmt: skip
+
+
+def _alike(one: Array, other: Array) -> bool:
+    """Returns whether two arrays are equal up to rounding."""
+    return bool(np.allclose(one, other, rtol=1e-7, atol=1e-9 * np.abs(other).max(initial=0.0)))

@@ -8,8 +8,8 @@ from sys import intern
 
 import numpy as np
 
-from regkit.body import BodyFit
-from regkit.body.support import segment_supports
+from regkit.body import Body, BodyFit
+from regkit.body.marker_fit import fit_to_data
 from regkit.body.verdict import Verdict, frame_verdict
 from regkit.interfaces import Expected, Registrar
 from regkit.observation import Observation
@@ -45,7 +45,9 @@ class RecordedFrame(Brief):
     Attributes:
         number: Number of the frame in the recording.
         time: Its time [s].
+        body: The body.
         placement: T_camera_segment of all segments.
+        covariance: Covariance of the pose, (n, n); None if it is unknown.
         markers: The markers in the camera's frame, (M, 3) [m].
         supports: How well data support each segment, (S,), from 0 to 1.
         fit: Agreement of the body with the data.
@@ -54,11 +56,24 @@ class RecordedFrame(Brief):
 
     number: int
     time: float
+    body: Body
     placement: Placement
+    covariance: Array | None
     markers: Array
     supports: Array
     fit: BodyFit
     verdict: Verdict
+
+    def deviations(self) -> Array | None:
+        """Returns the standard deviations of the markers along the camera's axes, (M, 3) [m].
+
+        None if they are unknown.
+        """
+        if self.covariance is None:
+            return None
+        jacobian = self.body.markers.jacobian(self.placement)
+        variances = np.einsum("mij,mij->mi", jacobian @ self.covariance, jacobian)
+        return np.asarray(np.sqrt(np.maximum(variances, 0.0)))
 
 
 class TrackRecorder:
@@ -118,9 +133,8 @@ class TrackRecorder:
         supports = np.zeros(len(transforms))
         if frame.observation is not None:
             points = frame.observation.points
-            supports = segment_supports(body, transforms, points)
             self.sample.add(len(self), frame.observation)
-            fit = BodyFit.of(body, found.pose, points, frame.observation.sight)
+            fit, supports = fit_to_data(body, found.pose, frame.observation)
         markers = body.markers.place(transforms)
         count = 0 if points is None else len(points)
         self._rows.append(
@@ -153,7 +167,9 @@ class TrackRecorder:
             self._keep(Snapshot(len(self), points, found.pose), fit.distance)
         self._messages.append(intern(found.message))
         verdict = frame_verdict(count, fit.inlier_share, fit.coverage, fit.misfit, fit.relief)
-        return RecordedFrame(number, time, placement, markers, supports, fit, verdict)
+        return RecordedFrame(
+            number, time, body, placement, found.covariance, markers, supports, fit, verdict
+        )
 
     def _keep(self, snapshot: Snapshot, distance: float) -> None:
         self._snapshots.setdefault("first", snapshot)

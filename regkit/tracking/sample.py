@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from regkit.geometry.camera import Camera
-from regkit.observation import Observation
+from regkit.observation import Observation, PlacedCamera
 from regkit.system.arrays import Array, Singles
 
 MOST_FRAMES = 60
@@ -24,16 +24,20 @@ class FrameSample:
     Attributes:
         points: Points of each kept frame by its number, (N, 3) [m].
         camera: The camera of the first frame that has one.
+        cameras: Each of several cameras by its name, as it was first seen.
     """
 
     def __init__(self) -> None:
         self.points: dict[int, Singles] = {}
         self.camera: Camera | None = None
+        self.cameras: dict[str, PlacedCamera] = {}
         self._stride = 1
 
     def add(self, number: int, observation: Observation) -> None:
         """Takes the data of a frame, if its turn has come; frames come in ascending order."""
         self.camera = self.camera or observation.camera
+        for placed in PlacedCamera.of_views(observation.views):
+            self.cameras.setdefault(placed.name, placed)
         while len(self.points) >= MOST_FRAMES and number % self._stride == 0:
             self._stride *= 2
             self.points = {at: one for at, one in self.points.items() if at % self._stride == 0}

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from threading import Condition, Thread
 
 import numpy as np
 
 from regkit.geometry.camera import Camera
 from regkit.interfaces import Registrar
+from regkit.observation import PlacedCamera
 from regkit.system.arrays import Array
 from regkit.viewer.live_frame import LiveFrame
 from regkit.viewer.page import page
@@ -108,6 +109,7 @@ class LiveViewer:
         supports: Array | None = None,
         curves: Mapping[str, float] | None = None,
         status: str = "",
+        cameras: Iterable[PlacedCamera] = (),
     ) -> None:
         """Shows a frame; none of the arrays may be changed afterwards.
 
@@ -121,10 +123,11 @@ class LiveViewer:
             supports: How well data support each segment, (S,), from 0 to 1.
             curves: Numbers of the frame by the names of their curves; NaN where unknown.
             status: A few words on the state, such as the speed.
+            cameras: Several cameras in the world.
         """
         frame = LiveFrame(
             number, time, points, self._method, transforms, markers, supports, str(verdict),
-            dict(curves or {}), status,
+            dict(curves or {}), status, tuple(cameras),
         )  # fmt: skip
         with self._news:
             self._frames.append(frame)

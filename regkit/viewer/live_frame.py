@@ -10,10 +10,12 @@ from typing import Any
 
 import numpy as np
 
+from regkit.observation import PlacedCamera
 from regkit.system.arrays import Array
 from regkit.viewer.model_shapes import transforms_of
 from regkit.viewer.packed import packed
 from regkit.viewer.points import packed_frame
+from regkit.viewer.scene import cameras_json
 
 MOST_POINTS = 1500
 """Maximum number of points of a frame."""
@@ -34,6 +36,7 @@ class LiveFrame:
         verdict: Whether the body was found.
         curves: Numbers of the frame by the names of their curves.
         status: A few words on the state, such as the speed.
+        cameras: Several cameras in the world; none if there is one at the origin.
     """
 
     number: int
@@ -46,6 +49,7 @@ class LiveFrame:
     verdict: str
     curves: Mapping[str, float]
     status: str
+    cameras: tuple[PlacedCamera, ...] = ()
 
     @cached_property
     def event(self) -> bytes:
@@ -60,11 +64,13 @@ class LiveFrame:
         if self.supports is not None:
             known = np.where(np.isfinite(self.supports), self.supports, 1.0)
             tracked["confidence"] = packed(known, "f4")
-        content = {
+        content: dict[str, Any] = {
             "frame": self.number,
             "time": self.time,
             "points": packed_frame(self.points, MOST_POINTS),
             "status": self.status,
             "methods": [tracked],
         }
+        if self.cameras:
+            content["cameras"] = cameras_json(self.cameras)
         return b"data: " + json.dumps(content, separators=(",", ":")).encode() + b"\n\n"

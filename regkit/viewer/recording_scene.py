@@ -56,4 +56,5 @@ def recording_scene(
         joints=first.joints,
         reference=reference,
         camera=first.camera,
+        cameras=first.cameras,
     )

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from regkit.geometry.camera import Camera
+from regkit.observation import PlacedCamera
 from regkit.system.arrays import Array, Indices
 from regkit.viewer.packed import packed
 from regkit.viewer.points import FramePoints
@@ -117,6 +118,7 @@ class RecordingScene:
         joints: Names of reference joints.
         reference: Their positions, (F, J, 3) [m]; NaN where unknown.
         camera: The camera, if it is known.
+        cameras: Several cameras in the world; none if there is one at the origin.
         up: The direction that is up.
         values: Maximum number of values of a curve.
     """
@@ -132,6 +134,7 @@ class RecordingScene:
     joints: tuple[str, ...] = ()
     reference: Array = field(default_factory=lambda: np.zeros((0, 0, 3)))
     camera: Camera | None = None
+    cameras: tuple[PlacedCamera, ...] = ()
     up: Sequence[float] = UP
     values: int = MOST_VALUES
 
@@ -152,8 +155,21 @@ class RecordingScene:
             "joints": joints,
             "up": list(self.up),
             "camera": None if self.camera is None else vars(self.camera),
+            "cameras": cameras_json(self.cameras),
             "methods": [method.json(self.frames, self.values) for method in self.methods],
         }
+
+
+def cameras_json(cameras: Sequence[PlacedCamera]) -> list[dict[str, Any]]:
+    """Returns cameras as JSON: names, places, and where their pictures' corners are at a metre."""
+    return [
+        {
+            "name": one.name,
+            "place": one.T_world_camera[:3, 3].tolist(),
+            "corners": one.corners().tolist(),
+        }
+        for one in cameras
+    ]
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from threading import Lock
 import numpy as np
 
 from regkit.interfaces import Recording
+from regkit.observation import PlacedCamera
 from regkit.viewer.frame_cursor import FrameCursor
 from regkit.viewer.page import page
 from regkit.viewer.points import frame_bytes
@@ -81,7 +82,7 @@ class RecordingSite:
     @cached_property
     def _site(self) -> SceneSite:
         recording = self.recording
-        camera = next((frame.camera for _, frame in recording.some([0])), None)
+        first = next((frame for _, frame in recording.some([0])), None)
         frames = np.arange(recording.length)
         joints, reference = reference_of(recording.truth(), frames)
         shown = RecordingScene(
@@ -92,6 +93,7 @@ class RecordingSite:
             joints=joints,
             reference=reference,
             points="points/0/{index}",
-            camera=camera,
+            camera=None if first is None else first.camera,
+            cameras=() if first is None else PlacedCamera.of_views(first.views),
         )
         return SceneSite(Scene(recording.name, (shown,)))

@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from regkit.body import Markers
-from regkit.geometry.camera import Camera
 from regkit.system.archives import read_arrays
 from regkit.system.arrays import real_numbers, whole_numbers
 from regkit.system.files import write_arrays
 from regkit.system.guard import reading
 from regkit.tracking import check_verdicts
+from regkit.viewer.camera_arrays import camera_arrays, cameras_of, lens_of
 from regkit.viewer.points import FramePoints
 from regkit.viewer.shapes import Shape, shape_of
 from regkit.viewer.track_scene import Curve, TrackScene
@@ -69,6 +69,8 @@ def scene_arrays(scene: TrackScene) -> dict[str, NDArray[Any]]:
     }
     if scene.camera is not None:
         named["camera"] = np.array([float(value) for value in vars(scene.camera).values()])
+    if scene.cameras:
+        named |= camera_arrays(scene.cameras)
     if scene.ellipsoids is not None:
         named["ellipsoids"] = scene.ellipsoids
     named |= {f"points_{name}": one for name, one in scene.points.arrays().items()}
@@ -123,8 +125,7 @@ def scene_of(named: Mapping[str, NDArray[Any]]) -> TrackScene:
     units = _texts(named["curve_units"])
     camera = None
     if "camera" in named:
-        width, height, *lens = real_numbers(named["camera"], "camera").tolist()
-        camera = Camera(int(width), int(height), *lens)
+        camera = lens_of(real_numbers(named["camera"], "camera"))
     shapes: list[Shape] = []
     while own := _part(named, f"shape{len(shapes)}_"):
         shapes.append(shape_of(own, count))
@@ -147,6 +148,7 @@ def scene_of(named: Mapping[str, NDArray[Any]]) -> TrackScene:
         marked=dict(zip(marked.tolist(), _texts(named["marked_why"]), strict=True)),
         camera=camera,
         ellipsoids=values["ellipsoids"].astype(np.float32) if "ellipsoids" in values else None,
+        cameras=cameras_of(named) if "camera_names" in named else (),
     )
 
 

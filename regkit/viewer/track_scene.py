@@ -13,7 +13,7 @@ from regkit.body import Body, Markers
 from regkit.body.bones import bones_of
 from regkit.geometry.camera import Camera
 from regkit.interfaces import Registrar
-from regkit.observation import Truth
+from regkit.observation import PlacedCamera, Truth
 from regkit.system.arrays import Array, Indices, Singles
 from regkit.tracking import Track
 from regkit.viewer.model_shapes import shapes_of, transforms_of
@@ -60,6 +60,7 @@ class TrackScene:
         reference: Their positions in these frames, (F, J, 3) [m]; NaN where unknown.
         marked: Why frames are marked, by their numbers.
         camera: The camera, if it is known.
+        cameras: Several cameras in the world; none if there is one at the origin.
         ellipsoids: Where the markers are with a probability of 90 %, (T, M, 7), as
             ``ellipsoids_of``; None if it is unknown.
     """
@@ -79,6 +80,7 @@ class TrackScene:
     marked: Mapping[int, str]
     camera: Camera | None
     ellipsoids: Singles | None = None
+    cameras: tuple[PlacedCamera, ...] = ()
 
     @classmethod
     def of(
@@ -89,6 +91,7 @@ class TrackScene:
         *,
         fps: float,
         camera: Camera | None = None,
+        cameras: Iterable[PlacedCamera] = (),
         truth: Truth | None = None,
         errors: Array | None = None,
         marked: Mapping[int, str] | None = None,
@@ -101,6 +104,7 @@ class TrackScene:
             points: Points (N, 3) [m] of some frames by their numbers.
             fps: Frames per second.
             camera: The camera, if it is known.
+            cameras: Several cameras in the world.
             truth: Reference joints, if there are any.
             errors: Mean joint error of each frame, (T,) [m], if known.
             marked: Why frames are marked, by their numbers.
@@ -130,6 +134,7 @@ class TrackScene:
             marked=dict(marked or {}),
             camera=camera,
             ellipsoids=ellipsoids_of(track, body),
+            cameras=tuple(cameras),
         )
 
     @classmethod

@@ -5,6 +5,7 @@ import pytest
 from marker_files import write_trc
 
 import regkit
+from regkit.body.verdict import Verdict
 from regkit.calibration import MarkerSet, MarkerSubject
 from regkit.calibration.shape import Shape
 from regkit.config.document import Document
@@ -115,6 +116,8 @@ def test_method_of_landmarks_solves_a_recording_of_markers(human, subject, tmp_p
     errors = np.linalg.norm(tracked.markers - turned, axis=2)
     # The template's thighs are shorter than this person's.
     assert np.median(errors) < 0.02
+    # Judged as a surface, some dozens of points are always doubtful.
+    assert set(tracked.track.verdicts) == {Verdict.FOUND}
 
 
 def test_method_of_landmarks_needs_some(human):

@@ -173,7 +173,7 @@ def test_rigid_and_jointed_methods_stand_in_one_experiment(regkit, tmp_path):
         "best: {preset: best}}",
     )  # fmt: skip
     assert ended.code == 1
-    assert "best on mannequin failed: the template 'model' has neither shapes.gsog" in ended.err
+    assert "best on mannequin failed: the template 'model' has no capsules" in ended.err
     metrics = json.loads((tmp_path / "out" / "metrics.json").read_text())["methods"]
     errors = {name: one["mean"]["joint_error_raw_cm"] for name, one in metrics.items()}
     assert errors["rigid"] < 0.5

@@ -60,6 +60,43 @@ def test_poses_are_printed_as_json_lines(regkit, tmp_path):
     assert "1.63 m" in ended.err
 
 
+def told_deviations(folder):
+    """The markers' standard deviations of a track's file, by frame and marker."""
+    with (folder / "deviations.csv").open() as stream:
+        return {
+            (int(row["frame"]), row["joint"]): [float(row[axis]) for axis in "xyz"]
+            for row in csv.DictReader(stream)
+        }
+
+
+def test_streams_of_poses_have_the_deviations_of_the_tracks_own_file(regkit, tmp_path):
+    ended = regkit("track", WALK, *HUMAN, *START, *FEW, "--out", "-")
+    assert ended.code == 0, ended.err
+    known = told_deviations(tmp_path / "tracks" / "human_walk")
+    for pose in map(json.loads, ended.out.splitlines()):
+        for marker, deviations in pose["deviations"].items():
+            np.testing.assert_allclose(deviations, known[pose["frame"], marker], atol=2e-6)
+    ended = regkit("track", WALK, *HUMAN, *START, *FEW, "--out", "poses.csv")
+    assert ended.code == 0, ended.err
+    with (tmp_path / "poses.csv").open() as stream:
+        row = list(csv.DictReader(stream))[2]
+    found = [float(row[f"left_wrist_sigma_{axis}"]) for axis in "xyz"]
+    np.testing.assert_allclose(found, known[2, "left_wrist"], atol=2e-6)
+
+
+def test_streams_of_a_method_without_a_covariance_have_no_deviations(regkit, tmp_path):
+    method = "{preset: spheres, solver: lbfgs}"
+    few = ("--frames", 1, "--method", method)
+    ended = regkit("track", WALK, *HUMAN, *START, *few, "--out", "-")
+    assert ended.code == 0, ended.err
+    assert json.loads(ended.out)["deviations"] is None
+    ended = regkit("track", WALK, *HUMAN, *START, *few, "--out", "poses.csv")
+    assert ended.code == 0, ended.err
+    with (tmp_path / "poses.csv").open() as stream:
+        (row,) = csv.DictReader(stream)
+    assert row["left_wrist_sigma_x"] == ""
+
+
 def test_smoothed_track_has_less_jitter_and_its_uncertainty(regkit, tmp_path):
     frames = ("--frames", 12)
     for smooth in (["--out", "plain"], ["--smooth", "--out", "smooth"]):

@@ -249,3 +249,14 @@ def test_triangles_of_a_polygon_cover_it_once(random):
         x, y, _ = flat.T
         outline = 0.5 * abs(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))
         assert areas.sum() == pytest.approx(outline)
+
+
+def test_polygons_are_cut_alike_whatever_their_size(tmp_path):
+    corners = np.array([[0, 0, 0], [4, 0, 0], [4, 4, 0], [2, 1, 0], [0, 4, 0]], dtype=float)
+    found = []
+    for size in (1.0, 1e-200, 1e200):
+        polygons = Polygons(tmp_path / "mesh.ply")
+        polygons.add(np.arange(5)[None])
+        found.append(polygons.triangles(size * corners))
+    np.testing.assert_array_equal(found[1], found[0])
+    np.testing.assert_array_equal(found[2], found[0])

@@ -141,7 +141,7 @@ def test_start_that_does_not_fit_the_template_is_told_before_the_run(regkit, fil
     )
     files.experiment.write_text(text)
     ended = regkit("run", files.experiment, "--out", files.out, "--no-figures")
-    assert ended.err.startswith(f"error: {files.experiment}:5: start: ")
+    assert ended.err.startswith(f"error: {files.experiment}:5: start.joints.left_shinn: ")
     assert "'left_shinn'" in ended.err
     assert "did you mean 'left_shin'?" in ended.err
     assert not files.out.exists()

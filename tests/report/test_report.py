@@ -362,7 +362,11 @@ def test_figures_have_room_for_a_sweep_beside_its_names(name):
 
 
 def test_long_name_is_broken_where_a_sweep_joined_it():
-    assert wrapped("icp_of_the_textbook_and_no_other", 10) == "icp_of_the_textbook_and_no_other"
+    long = "icp_of_the_textbook_and_no_other_whatsoeverinallthesedays"
+    lines = wrapped(long, 10).split("\n")
+    assert "".join(lines) == long
+    assert max(map(len, lines)) <= 10
+    assert lines[0] == "icp_of_"
     name = "voxel=0.03/best,outliers=0.05,steps=3"
     assert wrapped(name, 16).split("\n") == ["voxel=0.03/best,", "outliers=0.05,", "steps=3"]
     assert wrapped(name, 80) == name

@@ -140,7 +140,7 @@ def scene(*recordings: dict[str, Any], title: str = "demo", **more: Any) -> byte
 def walk(**more: Any) -> bytes:
     """Two methods on a walk: one loses the figure in the middle, where a mark is.
 
-    A second recording is a cloud without methods.
+    A second recording is a cloud without methods, which two cameras see.
     """
     made, numbers, length = recording(marked=[{"frame": 30, "why": "worst of icp"}])
     confidence = entry("f4", np.tile([1.0, 0.6, 0.1], (len(numbers), 1)))
@@ -154,5 +154,10 @@ def walk(**more: Any) -> bytes:
             verdicts=[["found", 25], ["doubtful", 5], ["lost", 10], ["no data", 10], ["found", 10]],
         ),
     ]
-    single = {"name": "cloud", "joints": None, "camera": None}
+    corners = [[-0.5, -0.4, 1.0], [0.5, -0.4, 1.0], [0.5, 0.4, 1.0], [-0.5, 0.4, 1.0]]
+    cameras = [
+        {"name": name, "place": [x, 0.0, 0.0], "corners": [[x + a, b, c] for a, b, c in corners]}
+        for name, x in (("left", -1.0), ("right", 1.0))
+    ]
+    single = {"name": "cloud", "joints": None, "camera": None, "cameras": cameras}
     return scene(made, recording(frames=1, every=1)[0] | single, **more)

@@ -77,6 +77,18 @@ def test_switches_change_what_is_drawn(shown):
     shown.wait(f"Number(data.triangles) === {one}")
 
 
+def test_cameras_of_a_recording_are_drawn_with_their_names_until_they_are_switched_off(shown):
+    assert not shown.page.is_visible("#show-cameras")
+    shown.go("#recording=cloud")
+    shown.wait("data.ready === '0'")
+    assert shown.page.is_visible("#show-cameras")
+    assert "depth cameras" in shown.page.inner_text("#legend")
+    with_names = int(shown.data("triangles"))
+    shown.page.uncheck("#show-cameras")
+    shown.wait(f"Number(data.triangles) === {with_names} - 4")  # A name is two triangles.
+    shown.page.check("#show-cameras")
+
+
 @pytest.mark.parametrize(
     ("frame", "methods", "said"),
     [

@@ -7,7 +7,10 @@ import numpy as np
 import pytest
 from made_tracks import MadeRegistrar, made_scene, made_track
 
+from regkit.geometry.camera import Camera
+from regkit.geometry.rigid import exp, inverse, transformed
 from regkit.geometry.rotation import to_matrix
+from regkit.observation import Observation, PlacedCamera, View
 from regkit.primitives import SPHERE, Volumes
 from regkit.system.errors import DataError
 from regkit.tracking.sample import MOST_FRAMES, MOST_POINTS, FrameSample
@@ -191,6 +194,37 @@ def test_ellipsoids_hold_the_markers_with_their_covariance(tmp_path, random):
     assert unpacked(method["ellipsoids"]).shape == (4, len(HUMAN.markers.names), 7)
 
 
+def test_cameras_are_stored_and_their_pictures_corners_are_where_they_see_them(tmp_path, random):
+    lens = Camera(width=80, height=60, fx=70.0, fy=90.0, cx=41.0, cy=27.0)
+    poses = exp(random.normal(size=(2, 6)))
+    placed = (PlacedCamera("left", poses[0], lens), PlacedCamera("right", poses[1]))
+    registrar = MadeRegistrar(HUMAN, GeneralizedSumOfGaussians().bind(HUMAN))
+    points = {frame: np.ones((4, 3)) for frame in range(4)}
+    scene = TrackScene.of(made_track(HUMAN, 4), registrar, points, fps=30.0, cameras=placed)
+    write_scene(scene, tmp_path)
+    found = read_scene(tmp_path).cameras
+    assert [(one.name, one.camera) for one in found] == [("left", lens), ("right", None)]
+    shown = recording_scene("walk", {"m": replace(scene, cameras=found)}, {"m": "#111111"}, 4)
+    cameras = document(Scene("t", (shown,)))["recordings"][0]["cameras"]
+    assert [one["name"] for one in cameras] == ["left", "right"]
+    for one, pose in zip(cameras, poses, strict=True):
+        np.testing.assert_allclose(one["place"], pose[:3, 3])
+        seen = transformed(inverse(pose), np.array(one["corners"]))
+        np.testing.assert_allclose(seen[:, 2], 1.0)
+    pixels = lens.projected(transformed(inverse(poses[0]), np.array(cameras[0]["corners"])))
+    borders = [[-0.5, -0.5], [79.5, -0.5], [79.5, 59.5], [-0.5, 59.5]]
+    np.testing.assert_allclose(pixels, borders, atol=1e-9)
+
+
+def test_sample_keeps_each_camera_once():
+    sample = FrameSample()
+    data = Observation(np.ones((3, 3)), np.ones(3), np.ones(3))
+    for number, names in enumerate([("a",), ("a", "b"), ("b", "c")]):
+        views = [View(name, exp(np.full(6, 0.1 * (ord(name) - 96))), data) for name in names]
+        sample.add(number, Observation.of_views(views))
+    assert list(sample.cameras) == ["a", "b", "c"]
+
+
 def test_long_and_many_recordings_are_thinned_and_it_is_told():
     track = made_scene(HUMAN, GeneralizedSumOfGaussians().bind(HUMAN), 300)
     stored = {f"r{at}": {"m": lambda: track, "old": lambda: None} for at in range(80)}
@@ -205,6 +239,7 @@ def test_long_and_many_recordings_are_thinned_and_it_is_told():
 def test_sample_is_bounded_and_evenly_spread():
     class Seen:
         camera = None
+        views = ()
 
         def __init__(self, number: int) -> None:
             self.points = np.full((2000, 3), float(number))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
@@ -71,7 +71,8 @@ class MarkerRecording(Recording):
             turned = places @ AXES[self.up].T
             seen = np.isfinite(turned).all(axis=1)
             place = f"{self.file}: frame {number}"
-            yield Frame(turned[seen], place=place, landmarks=Landmarks.in_space(names, turned))
+            landmarks = replace(Landmarks.in_space(names, turned), alone=True)
+            yield Frame(turned[seen], place=place, landmarks=landmarks)
 
     def truth(self) -> None:
         """Returns None: the markers are the data."""

@@ -43,6 +43,9 @@ _HINGES = frozenset({"right_knee", "right_elbow", "left_knee", "left_elbow"})
 _ROW = 44
 """Number of values in a row: duration, root position, rotations."""
 
+LONGEST = 1000.0
+"""Longest duration of a row [s]; a longer one is no pose of a motion."""
+
 
 _PARTS = {
     "pelvis": "root",
@@ -76,6 +79,13 @@ def read_clip(path: Path) -> SampledMotion:
     if rows.ndim != 2 or rows.shape[1] != _ROW or len(rows) < 2:
         raise DataError(
             f"Frames has the shape {rows.shape}; it must have 2 or more rows of {_ROW} numbers",
+            place=str(path),
+        )
+    wrong = np.flatnonzero((rows[:-1, 0] <= 0.0) | (rows[:-1, 0] > LONGEST))
+    if len(wrong):
+        raise DataError(
+            f"row {wrong[0]} of Frames lasts {rows[wrong[0], 0]:g} s; it must be above 0 and at "
+            f"most {LONGEST:g} s",
             place=str(path),
         )
     times = np.concatenate([[0.0], np.cumsum(rows[:-1, 0])])

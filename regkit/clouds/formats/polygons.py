@@ -56,6 +56,8 @@ class Polygons:
         if self.thin:
             note(f"{self.thin} faces of fewer than three corners are passed over", place=self.path)
         found = [np.empty((0, 3), dtype=np.intp)]
+        # How a polygon is cut depends on no length, and damaged ones may overflow.
+        vertices = vertices / max(float(np.abs(vertices).max(initial=0.0)), 1e-300)
         for corners in self.groups:
             bad = np.argwhere((corners < 0) | (corners >= len(vertices)))
             if len(bad):

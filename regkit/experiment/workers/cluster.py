@@ -14,7 +14,7 @@ from regkit import __version__
 from regkit.experiment.lock import FolderLock
 from regkit.experiment.progress import Progress
 from regkit.experiment.task import Result, Task
-from regkit.experiment.workers.packed import Packed, check_worker, performed
+from regkit.experiment.workers.packed import Packed, Performed, check_worker, performed
 from regkit.experiment.workers.processes import PATIENCE
 from regkit.experiment.workers.team import TRIES, Team, Workers
 from regkit.system.errors import ConfigError, DataError, RegkitError
@@ -159,8 +159,8 @@ class _DaskTeam(Team):
 
     def _result(self, future: Any) -> Result:
         if future.status == "finished":
-            result: Result = future.result()
-            return result
+            done: Performed = future.result()
+            return done.told()
         if future.status != "error":
             raise DataError("the scheduler is lost", place=self._place)
         error = future.exception()

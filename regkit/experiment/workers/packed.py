@@ -19,6 +19,7 @@ from regkit.experiment.resolved import resolved
 from regkit.experiment.task import Result, Task
 from regkit.system.digests import file_digest
 from regkit.system.errors import ConfigError, DataError, DependencyError, RegkitError
+from regkit.system.notes import collected_notes, tell_again
 from regkit.system.plugin_code import plugin_code
 
 CHECKED_EVERY = 1.0
@@ -79,18 +80,41 @@ class Packed:
         return Task(experiment, self.folder, self.recording, self.method, self.setting)
 
 
-def performed(packed: Packed) -> Result:
+@dataclass(frozen=True)
+class Performed:
+    """A task that a worker has run.
+
+    Attributes:
+        result: Its result.
+        notes: What the worker would have told: several workers find the same.
+    """
+
+    result: Result
+    notes: tuple[str, ...]
+
+    def told(self) -> Result:
+        """Returns the result, and tells the notes that the run has not told before."""
+        tell_again(self.notes)
+        return self.result
+
+
+def performed(packed: Packed) -> Performed:
     """Runs a task on a worker; errors of any kind become its result."""
-    with _ALONE:
-        try:
-            with plugin_code("a plug-in"):
-                task = packed.task()
-        except RegkitError as error:
-            return error
-        try:
-            return task.result(_Wanted(packed.lock).check)
-        except _NotWanted:
-            return DataError("the run of this task is over")
+    with _ALONE, collected_notes() as notes:
+        result = _result(packed)
+        return Performed(result, tuple(notes))
+
+
+def _result(packed: Packed) -> Result:
+    try:
+        with plugin_code("a plug-in"):
+            task = packed.task()
+    except RegkitError as error:
+        return error
+    try:
+        return task.result(_Wanted(packed.lock).check)
+    except _NotWanted:
+        return DataError("the run of this task is over")
 
 
 def check_worker(lock: FolderLock, version: str) -> None:

@@ -89,7 +89,7 @@ class _ProcessTeam(Team):
             pool, error = self._busy.pop(task), future.exception()
             if error is None:
                 self._idle.append(pool)
-                return task, future.result()
+                return task, future.result().told()
             pool.shutdown(wait=False, kill_workers=True)
             self._idle.append(pool_of_one())
             if not isinstance(error, broken_pool()):

@@ -93,7 +93,8 @@ def _drawn(run: Run, metrics: list[str], ink: Ink) -> Figure:
             _mark(axes, summary(values), place, style.colour, style.marker)
         largest = max(value for method in places for value in _values(run, method, name))
         axes.set_xlim(0.0, 1.06 * largest or 1.0)
-        axes.set_xlabel(axis_label(name).replace("mean joint", "joint"))
+        # Two panels have half of the width each.
+        axes.set_xlabel(axis_label(name).replace("mean joint", "joint").replace(", ", ",\n"))
         axes.tick_params(axis="y", length=0)
     grid[0].set_yticks(list(places.values()), [wrapped(label(name), NAME) for name in places])
     grid[0].set_ylim(max(places.values()) + 0.5, -0.5)

@@ -51,8 +51,8 @@ def errors_over_time(run: Run) -> Plot | None:
             else "; bars below the axis mark frames in which the data say that the body is lost."
         )
         + (
-            " Bands reach to the distance within which a method expects a joint in 9 of 10 cases."
-            if joints and _bands(run)
+            " A dotted line is the distance within which a method expects a joint in 9 of 10 cases."
+            if joints and _sure(run)
             else ""
         )
         + run.not_drawn
@@ -93,7 +93,7 @@ def errors_over_time(run: Run) -> Plot | None:
     )
 
 
-def _bands(run: Run) -> bool:
+def _sure(run: Run) -> bool:
     """Returns whether some method knows how sure it is."""
     records = [one for by_recording in run.records.values() for one in by_recording.values()]
     return any(one.errors is not None and one.errors.deviations is not None for one in records)
@@ -121,7 +121,7 @@ def _drawn(run: Run, curves: dict[str, dict[str, Array]], what: str, ink: Ink) -
         axes.set_title(label(recording), loc="left", color=ink.text, fontsize=9)
         for method, curve in by_method.items():
             style = run.style(method)
-            _band(axes, run.records[method][recording], style.colour, what)
+            _expected(axes, run.records[method][recording], style.colour, what)
             seconds = np.arange(len(curve)) / run.records[method][recording].fps
             axes.plot(
                 seconds, curve, color=style.colour, linestyle=style.dash, linewidth=1.2,
@@ -139,13 +139,16 @@ def _drawn(run: Run, curves: dict[str, dict[str, Array]], what: str, ink: Ink) -
     return figure
 
 
-def _band(axes: Axes, record: Record, colour: str, what: str) -> None:
-    """Fills what the method itself expects of the joint errors, if it knows."""
+def _expected(axes: Axes, record: Record, colour: str, what: str) -> None:
+    """Draws what the method itself expects of the joint errors, if it knows.
+
+    It is a line: areas of several methods would hide each other.
+    """
     expected = None if record.errors is None else record.errors.expected()
     if expected is None or "cm" not in what:
         return
     seconds = np.arange(len(expected)) / record.fps
-    axes.fill_between(seconds, 100.0 * expected, color=colour, alpha=0.12, linewidth=0)
+    axes.plot(seconds, 100.0 * expected, color=colour, linestyle=":", linewidth=1.0, alpha=0.7)
 
 
 def _shade(axes: Axes, run: Run, recording: str, methods: list[str]) -> None:

@@ -8,6 +8,7 @@ const BOXES = {
   depth: "show-depth",
   bones: "show-bones",
   joints: "show-joints",
+  cameras: "show-cameras",
   confidence: "show-confidence",
   uncertainty: "show-uncertainty",
   solid: "show-solid",
@@ -15,7 +16,7 @@ const BOXES = {
 
 /**
  * @typedef {{model: string, points: boolean, depth: boolean, bones: boolean, joints: boolean,
- *   confidence: boolean, uncertainty: boolean, solid: boolean, methods: Set<string>}} Display
+ *   cameras: boolean, confidence: boolean, uncertainty: boolean, solid: boolean, methods: Set<string>}} Display
  */
 
 /** Returns the display of a page that was just opened. @returns {Display} */
@@ -25,6 +26,7 @@ export const everything = () => ({
   depth: true,
   bones: true,
   joints: true,
+  cameras: true,
   confidence: true,
   uncertainty: false,
   solid: false,
@@ -56,7 +58,7 @@ export function displayChoices(display, changed) {
  * @param {Display} display
  */
 export function offer(recording, display) {
-  const { methods, clouds, jointNames, frames } = recording;
+  const { methods, clouds, jointNames, cameras, frames } = recording;
   const kinds = Object.keys(KINDS).filter((kind) =>
     methods.some((method) => method.shapes.some((shape) => shape.kind === kind)),
   );
@@ -77,6 +79,7 @@ export function offer(recording, display) {
     methods.some((method) => method.bones.length || method.markerNames.length),
   );
   shown("show-joints", jointNames.length > 0);
+  shown("show-cameras", cameras.length > 0);
   shown(
     "show-confidence",
     recording.live || frames.some((frame) => frame.poses.some((pose) => pose.confidence)),

@@ -19,9 +19,10 @@ const SAMPLES = 4000;
  * @param {import("./recording.js").Recording} recording
  * @param {import("./recording.js").Frame[]} frames
  * @param {import("three").Object3D} world
+ * @param {{place: number[]}[]} cameras Depth cameras that belong to it.
  * @returns {Extent | null}
  */
-export function extentOf(recording, frames, world) {
+export function extentOf(recording, frames, world, cameras = []) {
   const ahead = new Vector3(0, 0, 1).applyQuaternion(world.quaternion);
   const cloud = samples(frames.flatMap((frame) => (frame.points ? [pointsOf(frame.points)] : [])));
   const fixed = samples(recording.clouds.map((one) => one.positions));
@@ -30,6 +31,7 @@ export function extentOf(recording, frames, world) {
     Number.isFinite(point.x + point.y + point.z),
   );
   if (all.length === 0) return null;
+  all.push(...cameras.map(({ place }) => new Vector3(...place)));
   const depths = all.map((point) => point.z);
   const drawn = all.map((point) => point.clone().applyQuaternion(world.quaternion));
   const low = drawn.reduce((least, point) => least.min(point), drawn[0].clone());

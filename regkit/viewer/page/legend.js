@@ -10,7 +10,7 @@ import { readable } from "./theme.js";
  * @param {number | undefined} cell Side of a cell of the ground's grid [m].
  */
 function* meanings(recording, display, cell) {
-  const { frames, clouds, methods, jointNames } = recording;
+  const { frames, clouds, methods, jointNames, cameras } = recording;
   if (
     recording.live ||
     frames.some((frame) => frame.href !== null || frame.points?.positions.length)
@@ -24,6 +24,7 @@ function* meanings(recording, display, cell) {
   if (first?.bones.length)
     yield ["line knot", readable(first.colour), "bones and markers of a method"];
   if (jointNames.length > 0) yield ["cross", "", "reference joints"];
+  if (display.cameras && cameras.length > 0) yield ["line", "", "depth cameras, and what they see"];
   if (frames.some((frame) => frame.poses.some((pose) => pose.confidence))) {
     yield ["sure", readable(first.colour), "model, from little to good support by data"];
   }

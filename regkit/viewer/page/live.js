@@ -29,6 +29,8 @@ export function listen(recording, status, arrived) {
   stream.addEventListener("message", (event) => {
     const data = JSON.parse(event.data);
     dropped += append(recording, data);
+    // The cameras are known with the first frame, before anything is drawn.
+    if (data.cameras && recording.cameras.length === 0) recording.cameras = data.cameras;
     // Frames that come faster than the screen shows pictures are shown together.
     refresh ??= requestAnimationFrame(show);
     told(data.status ?? "");

@@ -158,7 +158,9 @@ export class Page {
   }
 
   look(name) {
-    const extent = this.picture?.extent(this.player.frame) ?? this.picture?.whole;
+    // A side shows the body; all of the scene has its cameras too.
+    const around = this.display.cameras && (name === "free" || name === "top");
+    const extent = this.picture?.extent(this.player.frame, around) ?? this.picture?.whole;
     if (!extent) return;
     this.fitted = true;
     const { camera } = this.recording;

@@ -5,6 +5,7 @@ import { Ground } from "./ground.js";
 import { look } from "./material.js";
 import { Model } from "./model.js";
 import { Cloud } from "./points.js";
+import { Sensors } from "./sensors.js";
 import { colour, dark } from "./theme.js";
 
 /** The ground is laid below about so many frames. */
@@ -33,7 +34,8 @@ export class Picture {
     this.models = recording.methods.map(
       (method, order) => new Model(method, order, this.look, size),
     );
-    const parts = [this.points, this.joints, ...this.clouds, ...this.models];
+    this.sensors = new Sensors(recording.cameras, size);
+    const parts = [this.points, this.joints, ...this.clouds, ...this.models, this.sensors];
     stage.world.add(...parts.map((part) => part.object));
     stage.scene.add(this.ground.object);
     this.parts = [...parts];
@@ -54,9 +56,14 @@ export class Picture {
     this.points.uniforms.depths.value.set(...this.whole.depths);
   }
 
-  /** Returns where a frame is, or null if nothing is in it. */
-  extent(frame) {
-    return extentOf(this.recording, frame ? [frame] : [], this.stage.world);
+  /**
+   * Returns where a frame is, or null if nothing is in it.
+   * @param {import("./recording.js").Frame | null} frame
+   * @param {boolean} withCameras Whether the depth cameras belong to it.
+   */
+  extent(frame, withCameras = false) {
+    const cameras = withCameras ? this.recording.cameras : [];
+    return extentOf(this.recording, frame ? [frame] : [], this.stage.world, cameras);
   }
 
   /**
@@ -74,6 +81,7 @@ export class Picture {
     }
     this.points.uniforms.shaded.value = Number(display.depth);
     for (const cloud of this.clouds) cloud.object.visible = display.points;
+    this.sensors.object.visible = display.cameras;
     this.joints.object.visible = display.joints && frame.joints !== null;
     if (this.joints.object.visible) this.joints.set(frame.joints);
     this.look.weighed.value = Number(display.confidence);
@@ -92,6 +100,7 @@ export class Picture {
     this.points.uniforms.near.value.set(colour("near"));
     this.points.uniforms.far.value.set(colour("far"));
     this.joints.uniforms.near.value.set(colour("ink"));
+    this.sensors.paint();
     for (const model of this.models) model.paint();
   }
 

@@ -38,6 +38,8 @@ export class Recording {
     this.up = source.up;
     /** Intrinsics of the depth camera, or null. */
     this.camera = source.camera;
+    /** Where several depth cameras are, and the corners of their pictures at one metre. */
+    this.cameras = source.cameras ?? [];
     /** Frames that deserve a look, and why. @type {{frame: number, why: string}[]} */
     this.marks = [...source.marked].sort((a, b) => a.frame - b.frame);
     this.clouds = source.clouds.map((cloud) => ({ ...cloud, positions: numbers(cloud.positions) }));

@@ -8,6 +8,8 @@ from lamp import LAMP, facing, seen
 from messages import tells
 from places import EXAMPLES
 
+from regkit.body.template_file import write_template
+from regkit.calibration.base import at_base
 from regkit.experiment import Experiment
 from regkit.interfaces import Start, StartSearch
 from regkit.metrics import matched
@@ -121,8 +123,25 @@ def test_start_of_the_samples_is_near_the_truth(search, name, worst_cm):
     assert 100.0 * errors.mean() < worst_cm
 
 
-def test_template_without_capsules_or_free_root_has_no_start(search, lamp, tmp_path):
-    fixed = tmp_path / "fixed.yaml"
-    fixed.write_text(lamp.read_text().replace("type: free", "type: fixed"))
-    with pytest.raises(ConfigError, match="has no free root"):
-        search.find(FileTemplate(path=fixed), [Observation(np.eye(3), np.ones(3), np.ones(3))])
+def test_template_without_capsules_has_no_start(search, lamp, tmp_path):
+    bare = tmp_path / "bare.yaml"
+    lines = [line for line in lamp.read_text().splitlines() if "start:" not in line]
+    bare.write_text("\n".join(line for line in lines if line.strip() != "capsules:"))
+    with pytest.raises(ConfigError, match="has no capsules"):
+        search.find(FileTemplate(path=bare), [Observation(np.eye(3), np.ones(3), np.ones(3))])
+
+
+def test_joints_are_found_of_a_body_whose_root_stands_still(search, lamp, tmp_path):
+    joints = {"arm": 20.0, "head": -75.0}
+    free = FileTemplate(path=lamp, size=1.0)
+    body = free.body(1.0)
+    pose = facing(body, 0.25, joints)
+    standing = tmp_path / "standing.yaml"
+    fixed = at_base(free.description(), pose.root, "test")
+    write_template(standing, fixed, None, "A lamp that stands.")
+    found = search.find(FileTemplate(path=standing, size=1.0), [seen(body, pose)])
+    assert not found.body.skeleton.free
+    expected = body.markers.place(body.place(pose).transforms)
+    apart = np.linalg.norm(markers(found) - expected, axis=1)
+    assert apart.max() < 0.05
+    assert apart[:2].max() < 1e-4  # Those of the root, up to the decimals of a template.

@@ -74,5 +74,5 @@ def test_motion_makes_the_next_step_uncertain_about_every_axis_of_the_joint(rand
 
 
 def test_noise_of_an_unknown_joint_is_refused(linkage):
-    with pytest.raises(ConfigError, match=r"tracker\.joints_deg\.forarm: .*did you mean 'forearm'"):
+    with pytest.raises(ConfigError, match=r"joints_deg\.forarm: .*did you mean 'forearm'"):
         Filter(joints_deg={"forarm": 5.0}).noise(linkage.skeleton)

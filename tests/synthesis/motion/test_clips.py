@@ -168,6 +168,16 @@ def test_clip_refuses_a_wrong_file(tmp_path, text, message):
         read_clip(path)
 
 
+@pytest.mark.parametrize("duration", [0.0, -0.1, 1.7e10])
+def test_clip_refuses_a_row_of_no_time_or_of_years(tmp_path, duration):
+    row = [0.1, 0.0, 0.0, 1.0, *np.zeros(40)]
+    text = json.dumps({"Loop": "none", "Frames": [row, [duration, *row[1:]], row]})
+    path = tmp_path / "clip.txt"
+    path.write_text(text)
+    with pytest.raises(DataError, match="row 1 of Frames lasts"):
+        read_clip(path)
+
+
 def test_clip_names_a_missing_file(tmp_path):
     with pytest.raises(DataError, match=r"none\.txt: there is no such file"):
         read_clip(tmp_path / "none.txt")

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from regkit.clouds.tree import Tree
-from regkit.geometry.rotation import cross
 from regkit.observation import Observation
 from regkit.primitives import Placed
 from regkit.primitives.surfels import Surfels
 from regkit.registration import Loss, Residuals, ResidualSimilarity
 from regkit.registration.robust import Squares
 from regkit.system.arrays import Array, Indices
+from regkit_plugins.kernels.point_to_plane.compiled_pairs import pair_residuals
 from regkit_plugins.kernels.point_to_plane.matching import MatchingKernel, given_normals
 from regkit_plugins.kernels.point_to_plane.visible import visible
 
@@ -80,8 +80,15 @@ class BoundMatching(ResidualSimilarity):
     def residuals(self, placed: Placed[Surfels]) -> Residuals:
         """Returns ``(sqrt(1 - t) n.q, sqrt(t) q)`` of each pair, and unmatched points' cost."""
         matches = self._matched(placed) if self._fixed is None else self._fixed
-        offsets, normals = self._offsets(placed, matches.points, matches.surfels)
-        values, rows = self._parts(offsets, normals)
+        values, rows = pair_residuals(
+            self.points,
+            np.zeros((0, 3)) if self._normals is None else self._normals,
+            placed.centres,
+            placed.axes,
+            matches.points,
+            matches.surfels,
+            self._point_share,
+        )
         limit = self.loss.values(np.array([self._max_distance]))[0]
         return Residuals(
             matches.surfels, values, rows, matches.weights, float(matches.lost * limit)
@@ -177,25 +184,6 @@ class BoundMatching(ResidualSimilarity):
         return np.asarray(
             np.sqrt((1.0 - self._point_share) * along**2 + self._point_share * squares)
         )
-
-    def _parts(self, offsets: Array, normals: Array) -> tuple[Array, Array]:
-        """Returns residuals (M, D) and their derivatives to the surfels' motions, (M, D, 6).
-
-        The derivative of n.q is (-n, n x q), or (-n, 0) for normals of the data.
-        """
-        plane, point = np.sqrt(1.0 - self._point_share), np.sqrt(self._point_share)
-        first = 1 if plane > 0.0 else 0
-        count = first + (3 if point > 0.0 else 0)
-        values, rows = np.empty((len(offsets), count)), np.zeros((len(offsets), count, 6))
-        if plane > 0.0:
-            values[:, 0] = plane * np.einsum("mi,mi->m", offsets, normals)
-            rows[:, 0, :3] = -plane * normals
-            if self._normals is None:
-                rows[:, 0, 3:] = plane * cross(normals, offsets)
-        if point > 0.0:
-            values[:, first:] = point * offsets
-            rows[:, [first, first + 1, first + 2], [0, 1, 2]] = -point
-        return values, rows
 
 
 def _nearest(tree: Tree, queries: Array, reach: float) -> tuple[Array, Indices]:

@@ -14,6 +14,7 @@ from regkit.interfaces import (
     ShapeModel,
     Solver,
     Term,
+    check_field,
 )
 from regkit.registration import CoordinatesName, Plan
 from regkit_plugins.methods.direct.bound import BoundDirect
@@ -80,14 +81,23 @@ class Direct(Method):
         """Returns the shape model."""
         return self.shape
 
+    def check(self, body: Body) -> None:
+        """Checks that the tracker and the terms fit a body.
+
+        Raises:
+            FieldError: If one of their fields does not.
+        """
+        super().check(body)
+        for index, term in enumerate(self.terms):
+            check_field(term.check, body, "terms", index)
+
     def bind(self, body: Body) -> BoundDirect:
         """Binds the method to a body: makes the primitives and checks the terms.
 
         Raises:
             RegkitError: If the shape model or a term does not support the body.
         """
-        for term in self.terms:
-            term.check(body)
+        self.check(body)
         primitives = self.shape.bind(body)
         plan = Plan.of(body, primitives, self.kernel, self.terms) if self.compiled else None
         solvable = self.solver.minimizes_plans and self.coordinates == "tangent"

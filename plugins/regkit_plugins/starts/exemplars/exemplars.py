@@ -15,7 +15,15 @@ from regkit.interfaces import Method, Start, StartSearch, Template
 from regkit.observation import Observation
 from regkit.search.exemplars import AtlasSettings, atlas_of, even_rolls
 from regkit.skeleton.joints import in_order
-from regkit.start import judged, rigid_start, with_parts
+from regkit.start import (
+    FreeRoot,
+    at_root,
+    is_fixed,
+    judged,
+    rigid_start,
+    standing,
+    with_parts,
+)
 from regkit.system.optional import one_blas_thread
 from regkit_plugins.starts.exemplars.finalists import Comparison, margin
 from regkit_plugins.starts.exemplars.search import Search
@@ -55,8 +63,11 @@ class Exemplars(StartSearch):
     def find(self, template: Template, observations: Sequence[Observation]) -> Start:
         """Returns the start of least energy and misfit.
 
+        A body whose root is fixed is sought with a free one; of the finalists, those count whose
+        root is near where it stands, and their joints are registered there.
+
         Raises:
-            ConfigError: If the template has no capsules, or no free root.
+            ConfigError: If the template has no capsules.
         """
         inside = with_parts(
             lambda base: self.find(base, observations), template, observations[0], self.method
@@ -64,16 +75,23 @@ class Exemplars(StartSearch):
         rigid = inside or rigid_start(template, observations[0])
         if rigid is not None:
             return rigid
+        fixed = is_fixed(template)
+        sought = FreeRoot(template=template) if fixed else template
         with one_blas_thread():
-            search = self._search(template)
-            sizes = template.candidate_sizes()
+            search = self._search(sought)
+            sizes = sought.candidate_sizes()
             if len(sizes) > 1:
                 finalists = search.unsized(observations)
             else:
-                finalists = search.sized(template.body(sizes[0]), observations[0])
-            best = finalists[0]
-            doubts = search.doubts(best.body, observations[0])
-            return judged(best.body, best.pose, observations[0], margin(finalists), doubts)
+                finalists = search.sized(sought.body(sizes[0]), observations[0])
+            doubts = search.doubts(finalists[0].body, observations[0])
+            body, pose = finalists[0].body, finalists[0].pose
+            if fixed:
+                body = template.body(body.size)
+                finalists = standing(finalists, body)
+                pose = at_root(body, finalists[0].pose)
+                pose = self.method.bind(body).register(observations[0], [pose]).pose
+            return judged(body, pose, observations[0], margin(finalists), doubts)
 
     def _search(self, template: Template) -> Search:
         sizes = template.candidate_sizes()

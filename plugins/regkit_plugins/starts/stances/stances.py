@@ -12,7 +12,16 @@ from regkit.body import Body
 from regkit.config.plugin import slot_default
 from regkit.interfaces import Method, Start, StartSearch, Template
 from regkit.observation import Observation
-from regkit.start import Candidate, Scan, judged, rigid_start, with_parts
+from regkit.start import (
+    Candidate,
+    FreeRoot,
+    Scan,
+    at_root,
+    is_fixed,
+    judged,
+    rigid_start,
+    with_parts,
+)
 from regkit.start.fit import STIFFNESS
 from regkit.start.sizes import CUTOFF, FAR, fit, resized
 from regkit.system.optional import one_blas_thread
@@ -45,8 +54,10 @@ class Stances(StartSearch):
     def find(self, template: Template, observations: Sequence[Observation]) -> Start:
         """Returns the start that fits the first frame best.
 
+        A body whose root is fixed is sought with a free one.
+
         Raises:
-            ConfigError: If the template has no capsules, or no free root.
+            ConfigError: If the template has no capsules.
         """
         inside = with_parts(
             lambda base: self.find(base, observations), template, observations[0], self.method
@@ -54,9 +65,15 @@ class Stances(StartSearch):
         rigid = inside or rigid_start(template, observations[0])
         if rigid is not None:
             return rigid
+        fixed = is_fixed(template)
+        sought = FreeRoot(template=template) if fixed else template
         with one_blas_thread():
-            best = min(_in_views(template, observations), key=_misfit)
-        return judged(best.body, best.pose, observations[0])
+            best = min(_in_views(sought, observations), key=_misfit)
+        body, pose = best.body, best.pose
+        if fixed:
+            body = template.body(body.size)
+            pose = at_root(body, pose)
+        return judged(body, pose, observations[0])
 
 
 def _in_views(template: Template, observations: Sequence[Observation]) -> Iterator[Candidate]:

@@ -40,10 +40,10 @@ class Continuity(Term):
         """Validates the names of joints.
 
         Raises:
-            ConfigError: If ``joints_deg`` names an unknown joint, or one that does not rotate.
+            FieldError: If ``joints_deg`` names an unknown joint, or one that does not rotate.
         """
         for name in self.joints_deg:
-            body.skeleton.rotating(name, place=f"terms.continuity.joints_deg.{name}")
+            body.skeleton.rotating(name, "joints_deg")
 
     def bind(self, scene: Scene) -> BoundContinuity:
         """Binds the term to the prior pose."""

@@ -101,11 +101,18 @@ class BoundFreeSpace(ResidualSimilarity):
         arms = (placed.axes @ self._offsets).transpose(0, 2, 1)
         points = (placed.centres[:, None, :] + arms).reshape(-1, 3)
         distances, gradients = self._silhouette.distances(points, self._margins)
-        if not distances.any():
+        # The others have no energy and no derivative.
+        inside = np.flatnonzero(distances)
+        if not len(inside):
             return _NONE
-        rows = np.concatenate([gradients, cross(arms.reshape(-1, 3), gradients)], axis=1)
-        scales = self._widths
-        return Residuals(self._owners, distances / scales, rows / scales[:, None], self._weights)
+        gradients, scales = gradients[inside], self._widths[inside]
+        rows = np.concatenate([gradients, cross(arms.reshape(-1, 3)[inside], gradients)], axis=1)
+        return Residuals(
+            self._owners[inside],
+            distances[inside] / scales,
+            rows / scales[:, None],
+            self._weights[inside],
+        )
 
 
 _NONE = Residuals(np.zeros(0, dtype=np.intp), np.zeros(0), np.zeros((0, 6)), np.zeros(0))

@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
+from regkit.body import Body
 from regkit.config.quantities import Length, Spread
 from regkit.interfaces import BoundTracker, Past, Prior, Registrar, RegistrationResult, Tracker
 from regkit.observation import Observation
@@ -49,11 +50,19 @@ class Filter(Tracker):
     recovery: Recovery | None = Recovery()
     """Recovery of lost limbs and of a lost body; null disables it."""
 
+    def check(self, body: Body) -> None:
+        """Validates the names of joints.
+
+        Raises:
+            FieldError: If ``joints_deg`` names an unknown joint, or one that does not rotate.
+        """
+        self.noise(body.skeleton)
+
     def bind(self, registrar: Registrar) -> BoundFilter:
         """Binds the tracker and its recovery to a registrar.
 
         Raises:
-            ConfigError: If ``joints_deg`` names an unknown joint, or one that does not rotate.
+            FieldError: If ``joints_deg`` names an unknown joint, or one that does not rotate.
         """
         recovery = None if self.recovery is None else self.recovery.bind(registrar)
         skeleton = registrar.body.skeleton
@@ -69,7 +78,7 @@ class Filter(Tracker):
             np.repeat([self.root_m, np.radians(self.root_deg)], 3), len(skeleton.free_dofs) // 6
         )
         for name, degrees in self.joints_deg.items():
-            noise[skeleton.rotating(name, place=f"tracker.joints_deg.{name}")] = np.radians(degrees)
+            noise[skeleton.rotating(name, "joints_deg")] = np.radians(degrees)
         return noise**2
 
 
