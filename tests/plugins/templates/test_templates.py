@@ -240,6 +240,8 @@ NATURAL: dict[str, dict[str, float | tuple[float, float] | tuple[float, float, f
         "left_shin": 150.0,
         "left_foot": (20.0, 0.0),
     },
+    "tucked up": {"left_thigh": (-130.0, 0.0, 0.0), "left_shin": 140.0},
+    "a leg to the side": {"left_thigh": (0.0, 0.0, 50.0)},
     "walking": {
         "left_thigh": (-30.0, 0.0, 0.0),
         "left_shin": 20.0,
