@@ -31,16 +31,29 @@ RAREST = 1e-6
 ADVICE = "the body was not found; give its size or a start, or use another recording"
 
 
-COLUMNS = ["segments", "length", "girth"]
-"""Columns of a table of proportions."""
+@dataclass(frozen=True)
+class Changes:
+    """A table of what a shape changes.
+
+    Attributes:
+        title: What the numbers are.
+        columns: Names of the columns.
+        rows: The cells.
+    """
+
+    title: str
+    columns: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
 
 
-def proportion_rows(proportions: Proportions, scale: float) -> list[list[str]]:
-    """Returns the rows of a table of proportions, relative to the template times a scale."""
+def changed_proportions(proportions: Proportions, scale: float) -> Changes:
+    """Returns the table of proportions, relative to the template times a scale."""
     factors = zip(proportions.groups.names, proportions.lengths, proportions.girths, strict=True)
-    return [
-        [name, f"{length / scale:.2f}", f"{girth / scale:.2f}"] for name, length, girth in factors
-    ]
+    rows = (
+        (name, f"{length / scale:.2f}", f"{girth / scale:.2f}") for name, length, girth in factors
+    )
+    title = "relative to the template at this size"
+    return Changes(title, ("segments", "length", "girth"), tuple(rows))
 
 
 class SubjectShape(ABC):
@@ -90,8 +103,8 @@ class SubjectShape(ABC):
         """
 
     @abstractmethod
-    def changes(self, x: Array) -> tuple[list[str], list[list[str]]]:
-        """Returns the columns and the rows of a table of what a shape (P,) changes."""
+    def changes(self, x: Array) -> Changes:
+        """Returns a table of what a shape (P,) changes."""
 
     def body(self, x: Array) -> Body:
         """Returns the body with a shape (P,)."""
@@ -138,10 +151,10 @@ class ProportionShape(SubjectShape):
                 f"scaled template: {ADVICE}"
             )
 
-    def changes(self, x: Array) -> tuple[list[str], list[list[str]]]:
+    def changes(self, x: Array) -> Changes:
         """Returns the factors of lengths and girths, relative to the template at this size."""
         scale = self.description(x).size.value / self.template.size.value
-        return COLUMNS, proportion_rows(self._shape.proportions(x), scale)
+        return changed_proportions(self._shape.proportions(x), scale)
 
     @property
     def _shape(self) -> Shape:
@@ -190,16 +203,17 @@ class ModeShape(SubjectShape):
                 f"of the template's modes, where {np.sqrt(2.0 * largest):.1f} is rare: {ADVICE}"
             )
 
-    def changes(self, x: Array) -> tuple[list[str], list[list[str]]]:
+    def changes(self, x: Array) -> Changes:
         """Returns the coefficients of the modes, from the mean and in standard deviations."""
         spread = np.sqrt(np.diag(np.linalg.inv(self.shape.information)))
         away = (x - self.shape.mean) / spread
         modes = self.shape.modes
-        rows = [
-            [name, f"{one:+.2f}", f"{far:+.2f}"]
+        rows = (
+            (name, f"{one:+.2f}", f"{far:+.2f}")
             for name, one, far in zip(self.shape.names[:modes], x, away, strict=False)
-        ]
-        return ["mode", "coefficient", "deviations from the mean"], rows
+        )
+        title = "coefficients of the shape modes, and how far they are from the mean"
+        return Changes(title, ("mode", "coefficient", "deviations"), tuple(rows))
 
 
 def _measured(looks: Looks) -> list[Measured]:

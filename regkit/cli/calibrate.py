@@ -13,7 +13,7 @@ from rich.table import Table
 from regkit.body.description import SizeDescription
 from regkit.body.template_file import check_replaceable, write_template
 from regkit.calibration import MarkerSet, MarkerSubject, Subject
-from regkit.calibration.subject_shape import COLUMNS, proportion_rows
+from regkit.calibration.subject_shape import Changes, changed_proportions
 from regkit.cli.calibration_source import Source
 from regkit.cli.choices import segmentation_named
 from regkit.cli.completion import plugin_names
@@ -203,7 +203,7 @@ def _by_markers(template: Template, markers: Path, seen: Recording, frames: int,
     write_template(out, subject.description, skin, opening)
     size = subject.description.size
     scale = size.value / template.description().size.value
-    _print_changes(size, COLUMNS, proportion_rows(subject.proportions, scale))
+    _print_changes(size, changed_proportions(subject.proportions, scale))
     unseen = [name for name, error in zip(subject.names, subject.errors, strict=True)
               if not error >= 0.0]  # fmt: skip
     if unseen:
@@ -221,7 +221,7 @@ def _by_markers(template: Template, markers: Path, seen: Recording, frames: int,
 
 def _print_summary(subject: Subject) -> None:
     """Prints the size, shape and fit of the calibrated template."""
-    _print_changes(subject.description.size, *subject.shape.changes(subject.x))
+    _print_changes(subject.description.size, subject.shape.changes(subject.x))
     output.print(
         f"half of the data lies within {1000.0 * subject.distance:.1f} mm of the surface",
     )
@@ -234,12 +234,12 @@ def _print_summary(subject: Subject) -> None:
         )
 
 
-def _print_changes(size: SizeDescription, columns: list[str], rows: list[list[str]]) -> None:
+def _print_changes(size: SizeDescription, changes: Changes) -> None:
     """Prints the size, and a table of what a shape changes."""
-    output.print(f"{size.name} {size.value:.4g} m; relative to the template at this {size.name}:")
-    table = Table(columns[0])
-    for column in columns[1:]:
+    output.print(f"{size.name} {size.value:.4g} m; {changes.title}:")
+    table = Table(changes.columns[0])
+    for column in changes.columns[1:]:
         table.add_column(column, justify="right")
-    for row in rows:
+    for row in changes.rows:
         table.add_row(*map(escape, row))
     output.print(table)

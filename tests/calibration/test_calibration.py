@@ -16,6 +16,7 @@ from regkit.calibration.jacobian import ProportionJacobian
 from regkit.calibration.problem import SubjectProblem
 from regkit.calibration.shape import Shape
 from regkit.calibration.subject import check
+from regkit.calibration.subject_shape import ModeShape, ProportionShape
 from regkit.config.document import Document
 from regkit.geometry.camera import Camera
 from regkit.geometry.rigid import rigid
@@ -324,16 +325,25 @@ def test_of_each_part_of_a_track_the_best_explained_frame_is_taken():
 
 
 def test_a_body_that_was_not_found_is_refused():
-    shape = Shape(HUMAN)
+    shape = ProportionShape(HUMAN)
     x = shape.origin(1.7)
     check(shape, x, 0.01)
     with pytest.raises(NotFoundError, match=r"lies 5.0 cm from the data: the body was not found"):
         check(shape, x, 0.05)
-    x[1 + shape.groups.names.index("shin")] = 0.4
+    x[1 + Groups.of(HUMAN).names.index("shin")] = 0.4
     with pytest.raises(NotFoundError, match=r"'shin' came out 1.49 times as long"):
         check(shape, x, 0.01)
     with pytest.raises(NotFoundError, match=r"6\.49 m, and the template's range"):
         check(shape, shape.origin(6.49), 0.01)
+
+
+def test_a_shape_that_hardly_anyone_has_is_refused():
+    shape = ModeShape(HUMAN)
+    x = shape.origin(1.7)
+    check(shape, x, 0.01)
+    x[:20] = shape.shape.bounds[:20, 1]
+    with pytest.raises(NotFoundError, match="standard deviations from the mean"):
+        shape.check(x)
 
 
 def test_points_are_averaged_to_suit_the_body():

@@ -19,7 +19,7 @@ from regkit_plugins.templates.hand import Hand
 from regkit_plugins.templates.human import Human
 
 CAMERA = Camera(width=160, height=120, fx=180.0, fy=180.0, cx=79.5, cy=59.5)
-SOLVER = GaussNewton(max_iterations=25, value_tolerance=1e-4)
+SOLVER = GaussNewton(max_iterations=12, value_tolerance=1e-3)
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +30,7 @@ def hand() -> LinearShape:
 def drawn(shape: LinearShape, seed: int) -> np.ndarray:
     factor = np.linalg.cholesky(np.linalg.inv(shape.information))
     random = np.random.default_rng(seed).normal(size=len(shape))
-    return np.clip(shape.mean + 0.7 * factor @ random, *shape.bounds.T)
+    return np.clip(shape.mean + 2.0 * factor @ random, *shape.bounds.T)
 
 
 def posed(shape: LinearShape, x: np.ndarray, seed: int, away: float = 0.5) -> Pose:
@@ -102,8 +102,8 @@ def test_shape_of_a_whole_scan_is_found_again(hand):
     start = hand.at_size(hand.size(truth))
     found = fitted(hand, start, [scan], [near(hand, truth, pose)], SOLVER)
     gaps = skin_distances(hand, found.coefficients, [scan], found.poses)
-    assert np.median(np.abs(gaps)) < 0.3e-3
-    assert error(hand, found.coefficients, truth) < 0.4 * error(hand, start, truth)
+    assert np.median(np.abs(gaps)) < 0.6e-3
+    assert error(hand, found.coefficients, truth) < 0.6 * error(hand, start, truth)
 
 
 def test_one_shape_is_found_in_several_depth_images(hand):
@@ -120,7 +120,7 @@ def test_one_shape_is_found_in_several_depth_images(hand):
     starts = [near(hand, truth, pose) for pose in poses]
     found = fitted(hand, start, frames, starts, SOLVER)
     assert np.median(np.abs(skin_distances(hand, found.coefficients, frames, found.poses))) < 1e-3
-    assert error(hand, found.coefficients, truth) < 0.6 * error(hand, start, truth)
+    assert error(hand, found.coefficients, truth) < 0.85 * error(hand, start, truth)
 
 
 def test_missing_parts_of_a_scan_do_not_shrink_the_body(hand):

@@ -15,10 +15,10 @@ from regkit.geometry.camera import Camera
 from regkit.observation import Observation
 from regkit.system.arrays import Array, Indices
 
-MOST_POINTS = 3000
+MOST_POINTS = 2000
 """This many points of all frames together, spread evenly, determine the shape as well as all."""
 
-MOST_SKIN_POINTS = 2000
+MOST_SKIN_POINTS = 1500
 """Number of points of the skin whose distance to the data is asked, in all frames together."""
 
 NEIGHBOURS = 8

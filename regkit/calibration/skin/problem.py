@@ -62,14 +62,18 @@ class SkinProblem(Problem):
         self._spring = np.full(len(self._charts[0].origin()), STIFFNESS**2)
         self._spring[: bones.ball_dofs.start] = 0.0
         lower, upper = zip(*(chart.bounds() for chart in self._charts), strict=True)
-        low, high = shape.bounds.T
-        self.start = np.concatenate([start, *(chart.origin() for chart in self._charts)])
+        # A solver damps all variables alike; so a coefficient counts in proportion to the
+        # displacement that it makes.
+        self._unit = 1.0 / np.sqrt((shape.vertices**2).sum(axis=2).mean(axis=1))
+        low, high = shape.bounds.T / self._unit
+        begin = start / self._unit
+        self.start = np.concatenate([begin, *(chart.origin() for chart in self._charts)])
         self.lower = np.concatenate([low, *lower])
         self.upper = np.concatenate([high, *upper])
 
     def coefficients(self, x: Array) -> Array:
         """Returns the shape's coefficients (P,) in coordinates x (m,)."""
-        return x[: len(self._shape)]
+        return np.asarray(x[: len(self._shape)] * self._unit)
 
     def poses(self, x: Array) -> tuple[Pose, ...]:
         """Returns the poses of the frames at coordinates x (m,)."""
@@ -86,8 +90,8 @@ class SkinProblem(Problem):
         away = self._shape.information @ (shape - self._shape.mean)
         value = self._shape.energy(shape)
         gradient, matrix = np.zeros(len(x)), np.zeros((len(x), len(x)))
-        gradient[:count] = away
-        matrix[:count, :count] = self._shape.information
+        gradient[:count] = self._unit * away
+        matrix[:count, :count] = self._unit[:, None] * self._shape.information * self._unit
         for chart, frame, own in zip(self._charts, self._frames, self._steps(), strict=True):
             part = self._frame(shape, chart, frame, x[own])
             both = np.concatenate([np.arange(count), own])
@@ -123,7 +127,8 @@ class SkinProblem(Problem):
         )
         both = SkinDistances.joined(to_skin, to_data)
         to_shape, to_pose = skin.rows(both)
-        rows = np.column_stack([to_shape, to_pose @ chart.jacobian(step)]) / self._cutoff
+        to_step = to_pose @ chart.jacobian(step)
+        rows = np.column_stack([to_shape * self._unit, to_step]) / self._cutoff
         spring = np.concatenate([np.zeros(len(shape)), self._spring])
         rest = np.concatenate([np.zeros(len(shape)), step])
         energy += 0.5 * float(spring @ rest**2)
