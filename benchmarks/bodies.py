@@ -9,6 +9,9 @@ degrees or 30 mm (standard deviation); each other frame starts at the last pose.
 
 People with hands gesture a metre before an upright camera with noise of 3 mm, as tracked from the
 start that is found (`_bodies_hands.py`); beside them is the error of the body alone.
+
+Two hands of the preset `two_hands` are tracked as one composed body, and each of them alone in the
+same motion; real hands are tracked with a forearm (`_bodies_several.py`).
 """
 
 from __future__ import annotations
@@ -20,6 +23,7 @@ from pathlib import Path
 
 import numpy as np
 from _bodies_hands import hands_with_body
+from _bodies_several import forearm_sr305, two_hands
 from threadpoolctl import threadpool_limits
 
 from regkit.body import Body
@@ -63,7 +67,8 @@ def main(robot: Path) -> None:
         cells = [f"{part.mean():.2f} ({np.median(part):.2f})" for part in parts.values()]
         print(f"{name:<10}" + "".join(f"{cell:>16}" for cell in cells))
     arm = {"arm_deg": figures["robots"]["hinges_deg"], "methods": figures}
-    print(json.dumps({**arm, **hands_with_body()}))
+    several = {"two_hands": two_hands(), "forearm_sr305_mm": forearm_sr305()}
+    print(json.dumps({**arm, **hands_with_body(), **several}))
 
 
 def imported(robot: Path) -> Body:
