@@ -122,11 +122,17 @@ def started(kind: str, files: tuple[Path, ...]) -> Hand:
     return Hand.of(files[0], observations[0], start.body, result.pose, str(start.verdict))
 
 
-def tracked(kind: str, files: list[Path]) -> list[Hand]:
+def tracked_hand(sequence: str, template: Template) -> list[Hand]:
+    """Returns the hands of a sequence, tracked with another template."""
+    files = sorted((DATA / sequence).glob("*.png"), key=lambda file: int(file.stem))
+    return tracked("exemplars", files, template)
+
+
+def tracked(kind: str, files: list[Path], template: Template | None = None) -> list[Hand]:
     """Returns the hands of a track from the first image on."""
     observations, hands = [_observation(file) for file in files], []
     with one_thread():
-        start = found(kind, _template(), _three(observations, 0))
+        start = found(kind, template or _template(), _three(observations, 0))
         follower, past = bound(start.body), Past.start(start.pose)
         for file, observation in zip(files, observations, strict=True):
             result = follower.step(observation, past)

@@ -12,6 +12,9 @@ One thread.
 
 People with hands gesture a metre before an upright camera with noise of 3 mm, as tracked from the
 start that is found (`_bodies_hands.py`); beside them is the error of the body alone.
+
+Two hands of the preset `two_hands` are tracked as one composed body, and each of them alone in the
+same motion; real hands are tracked with a forearm (`_bodies_several.py`).
 """
 
 from __future__ import annotations
@@ -25,6 +28,7 @@ from pathlib import Path
 
 import numpy as np
 from _bodies_hands import hands_with_body
+from _bodies_several import forearm_sr305, two_hands
 from threadpoolctl import threadpool_limits
 
 from regkit.body import Body
@@ -66,7 +70,8 @@ def main(robot: Path) -> None:
     print(f"median of the bases: {middles[:, 0].mean():.2f} mm, {middles[:, 1].mean():.2f} deg")
     print(f"squared error of the one base in standard deviations: {squares:.2f}")
     arm = {"arm_deg": figures["robots"]["hinges_deg"], "methods": figures}
-    print(json.dumps({**arm, **hands_with_body()}))
+    several = {"two_hands": two_hands(), "forearm_sr305_mm": forearm_sr305()}
+    print(json.dumps({**arm, **hands_with_body(), **several}))
 
 
 def told(name: str, body: Body, errors: Array) -> dict[str, float]:

@@ -31,7 +31,9 @@ from regkit.skeleton import SkeletonDescription
 EXPERIMENTS = sorted((ROOT / "docs" / "examples").glob("*.yaml"))
 PLUGINS = ROOT / "plugins" / "regkit_plugins"
 TEMPLATES = sorted((PLUGINS / "templates").glob("*.yaml"))
-DATASETS = [PLUGINS / "presets" / f"{name}.yaml" for name in ("hands", "people", "smmc_like")]
+DATASETS = [
+    PLUGINS / "presets" / f"{name}.yaml" for name in ("hands", "people", "smmc_like", "two_hands")
+]
 METHODS = sorted(set((PLUGINS / "presets").glob("*.yaml")) - set(DATASETS))
 
 Location = tuple[str | int, ...]

@@ -22,8 +22,6 @@ from regkit.sensors.noise import NoiseChoice, noise_of
 from regkit.system.arrays import Array
 from regkit.system.errors import DataError, RegkitError
 from regkit_plugins.datasets.depth import DepthFolders
-from regkit_synthesis.bodies.hand import ShippedHand
-from regkit_synthesis.hands.config import GesturesConfig
 from regkit_synthesis.recordings.cache import RecordingCache
 from regkit_synthesis.recordings.defaults import completed
 from regkit_synthesis.recordings.digest import digest
@@ -80,12 +78,9 @@ class Synthetic(Dataset):
     @model_validator(mode="after")
     def _all_move(self) -> Self:
         for name, take in self.takes.items():
-            if take.motion is None:
-                message = "it has no motion, and the defaults have none either"
-                raise misplaced(type(self), message, "takes", name)
-            if isinstance(take.body, ShippedHand) != isinstance(take.motion, GesturesConfig):
-                message = "gestures are motions of a hand only"
-                raise misplaced(type(self), message, "takes", name)
+            for location, moving in take.movings().items():
+                if (reason := moving.mismatch()) is not None:
+                    raise misplaced(type(self), reason, "takes", name, *location)
             if take.empty and not take.parts(self.room):
                 message = "it is empty and has no room either; give it a room"
                 raise misplaced(type(self), message, "takes", name)

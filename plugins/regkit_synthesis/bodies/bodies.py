@@ -21,6 +21,7 @@ from regkit_synthesis.bodies.hand import ShippedHand
 from regkit_synthesis.bodies.handed import HandedBody
 from regkit_synthesis.bodies.landmarks import Landmark
 from regkit_synthesis.bodies.movable import BodyConfig, MovableBody
+from regkit_synthesis.bodies.objects import BoxObject, CylinderObject
 from regkit_synthesis.bodies.retarget import retargeted
 from regkit_synthesis.figure.figure import figure_axes
 from regkit_synthesis.figure.map_files import MapName
@@ -161,5 +162,7 @@ class BodyFile(BodyConfig):
         return RiggedBody.read(self.path).mesh
 
 
-AnyBody = Annotated[ShippedBody | BodyFile | ShippedHand, Field(discriminator="kind")]
+AnyBody = Annotated[
+    ShippedBody | BodyFile | ShippedHand | BoxObject | CylinderObject, Field(discriminator="kind")
+]
 """A body, by its ``kind``."""

