@@ -25,7 +25,9 @@ def scan() -> np.ndarray:
     random = np.random.default_rng(0)
     x = SHAPE.at_size(1.07 * SHAPE.template.size.value)
     bones = SHAPE.skeleton(x)
-    rest = bones.rest(rigid(vector_to_matrix(np.array([2.0, 0.5, 1.0])), np.array([0.1, -0.2, 0.6])))
+    rest = bones.rest(
+        rigid(vector_to_matrix(np.array([2.0, 0.5, 1.0])), np.array([0.1, -0.2, 0.6]))
+    )
     vertices = PosedSkin.of(SHAPE, x, Pose(rest.root, rest.balls, rest.hinges)).vertices
     corners = vertices[SHAPE.mesh.faces[random.integers(len(SHAPE.mesh.faces), size=3000)]]
     return np.einsum("nc,nci->ni", random.dirichlet(np.ones(3), 3000), corners)

@@ -23,6 +23,10 @@ from regkit_plugins.segmenters.unmeasured import Surroundings
 AMPLE = 1.5
 """A scene that shows more area than this, in units of the body's largest area, is a room."""
 
+ALL_SIDES = 3.0
+"""A scan from all sides occupies so many times the area of one view: two surfaces, and more of them
+oblique to the cells."""
+
 CELLS = 50
 """Number of cells along a body's size by which the area of a cloud is measured."""
 
@@ -72,9 +76,11 @@ def _is_larger(frame: Frame, template: Template, figure: Figure) -> bool:
     """Returns whether a frame extends over more than the body, or shows a larger area."""
     largest = template.candidate_sizes()[-1]
     whole = Piece(frame, np.arange(len(frame.points)), largest / CELLS)
+    # A cloud that no camera saw may be a scan.
+    sides = 1.0 if frame.camera is not None or frame.views else ALL_SIDES
     return (
         extent_of(frame.points) > LARGE * largest
-        or whole.area > AMPLE * figure.largest * (largest / figure.size) ** 2
+        or whole.area > sides * AMPLE * figure.largest * (largest / figure.size) ** 2
     )
 
 

@@ -8,10 +8,15 @@ from scenes import recording, write_recording
 import regkit
 from regkit.config.document import Document
 from regkit.experiment import Experiment
+from regkit.geometry.rotation import vector_to_matrix
 from regkit.interfaces import Chain, Segmenter, each_body
+from regkit.observation import Frame
+from regkit.skeleton import Placement
 from regkit.system.errors import NoDataError
 from regkit.testing.scenes import WALL, SceneTemplate, WallScene
+from regkit.tracking.given_frames import GivenFrames
 from regkit_plugins.segmenters.room import Room
+from regkit_plugins.templates.human import Human
 
 TEMPLATE = SceneTemplate()
 WALLED = WallScene("scene", 30.0, 4)
@@ -114,3 +119,18 @@ def test_each_body_has_its_own_segmentation():
         assert seen[shown].mean() > 0.99
     gate = Segmenter.parse("gate", place="a test", field="segmentation")
     assert each_body((gate,), frames, TEMPLATE) == ((gate,),)
+
+
+def test_room_leaves_a_scan_from_all_sides_alone():
+    human = Human()
+    surface = human.body(1.9).surface
+    bones = human.body(1.9).skeleton
+    corners = surface.place(Placement.of(bones, bones.rest()).transforms)[surface.faces]
+    random = np.random.default_rng(0)
+    chosen = corners[random.integers(len(corners), size=20000)]
+    points = np.einsum("nc,nci->ni", random.dirichlet(np.ones(3), len(chosen)), chosen)
+    turn = vector_to_matrix(np.array([1.0, 0.6, -0.4]))
+    frame = Frame(points @ turn.T + [0.3, -0.2, 2.5])
+    recording = GivenFrames(name="scan", fps=1.0, length=1, given=(frame,))
+    bound = Room().bind(recording, human)
+    assert len(bound.segmented(frame, None).points) == len(points)
