@@ -84,7 +84,7 @@ nitpick_ignore_regex = [
         r"(Integer|Single)?(Vector|Matrix)|float32|float64|int64|regkit\.system\.compiled\.R",
     ),
     # What starts and trackers share inside regkit is no part of its API.
-    (r"py:class", r"regkit\.(body\.distance|search)\..*"),
+    (r"py:class", r"regkit\.(body\.(distance|groups)|calibration\.base\.found|search)\..*"),
     # So is what tracks a stream, and keeps what was tracked.
     (r"py:class", r"regkit\.tracking\.(live|recorder|rows|clocks)\..*"),
     # Tables of fields describe the content of YAML files.

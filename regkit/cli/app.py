@@ -32,7 +32,7 @@ COMMANDS = {
     "report": "Write the report of a results folder again, also after an interrupted run.",
     "view": "Show tracks, clouds or a recording in a browser, until Ctrl-C.",
     "export": "Export a tracked motion: BVH, CSV or glTF, or an animated picture.",
-    "register": "Register a template to one frame: body size, pose, and quality of the fit.",
+    "register": "Register a template to one frame: size or shape, pose, and quality of the fit.",
     "track": "Track a template through a camera's stream or a recording, from the first frames on.",
     "record": "Record the depth images of a camera, or of a file, as a folder that regkit reads.",
     "preview": "Show what the segmentation removes from a recording, and what it leaves of it.",

@@ -76,7 +76,7 @@ def register(
     strict: Strict = False,
     plugin: PluginFiles = None,
 ) -> None:
-    """Register a template to one frame: body size or shape, pose, and quality of the fit."""
+    """Register a template to one frame: size or shape, pose, and quality of the fit."""
     if target is not None:
         raise ConfigError(
             "'register SOURCE TARGET' is now called 'align SOURCE TARGET'; 'register FILE' "

@@ -218,7 +218,9 @@ def test_validate_tells_every_file_and_fails_if_one_is_wrong(regkit, tmp_path, l
     template = tmp_path / "template.yaml"
     template.write_text(linkage_text)
     wrong = tmp_path / "wrong.yaml"
-    wrong.write_text(EXAMPLES[0].read_text().replace("kind: lbfgs", "kind: lbfg", 1).replace(
+    texts = (example.read_text() for example in EXAMPLES)
+    text = next(text for text in texts if "solver: lbfgs" in text or "kind: lbfgs" in text)
+    wrong.write_text(text.replace("kind: lbfgs", "kind: lbfg", 1).replace(
         "solver: lbfgs", "solver: lbfg", 1
     ))  # fmt: skip
     ended = regkit("validate", skeleton, wrong, template)

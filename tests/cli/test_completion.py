@@ -54,7 +54,7 @@ def test_completion_sees_the_options_of_every_command_without_its_libraries():
     [
         (("re",), {"record", "register", "report"}),
         (("run", "--j"), {"--jobs"}),
-        (("register", "--me"), {"--method"}),
+        (("register", "--met"), {"--method"}),
         (("example", "dem"), {"demo"}),
         (("new", "ker"), {"kernel"}),
     ],

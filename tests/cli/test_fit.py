@@ -161,10 +161,12 @@ def test_a_shape_model_that_cannot_be_fitted_is_refused(regkit, out, kind, compl
 def test_a_template_whose_shape_model_is_not_installed_is_not_fitted(regkit, tmp_path, out):
     file = tmp_path / "strange.yaml"
     text = (FOLDER / "human.yaml").read_text().partition("\n# The skin")[0].rstrip()
-    file.write_text(text + "\n  unheard: {chest: [{width: 1}]}\n")
+    text = text.replace("\nshapes:\n", "\nshapes:\n  unheard: {chest: [{width: 1}]}\n")
+    file.write_text(text + "\n")
+    line = text.splitlines().index("shapes:") + 2
     ended = regkit("validate", file)
     assert (ended.code, ended.out) == (0, f"{file}: a valid template\n")
-    assert f"{file}:{len(text.splitlines()) + 1}: shapes.unheard" in ended.err
+    assert f"{file}:{line}: shapes.unheard" in ended.err
     ended = regkit("fit", FOLDER / "human_mesh.npz", "--template", file, "--out", out)
     assert ended.code == 1
     assert "shapes.unheard: " in ended.err

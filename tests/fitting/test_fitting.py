@@ -100,7 +100,8 @@ def test_human_text_reads_back_as_the_same_template(tmp_path: Path) -> None:
     assert path.read_text() == shipped.partition("\n")[2]  # Without the line for editors.
     again = Document.read(path).validated(BodyDescription)
     assert again.mesh == tmp_path / "human_mesh.npz"
-    assert again.model_copy(update={"mesh": body.mesh}) == body
+    assert again.modes == tmp_path / "human_modes.npz"
+    assert again.model_copy(update={"mesh": body.mesh, "modes": body.modes}) == body
 
 
 @pytest.mark.long

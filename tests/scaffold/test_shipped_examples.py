@@ -60,7 +60,7 @@ def test_unknown_example_is_told_with_those_that_are(regkit, tmp_path):
 
 def test_wheel_carries_the_examples_and_stays_small(tmp_path):
     (wheel,) = map(Path, WheelBuilder(str(ROOT)).build(directory=str(tmp_path)))
-    assert wheel.stat().st_size < 4.2e6
+    assert wheel.stat().st_size < 4.5e6
     installed, empty = tmp_path / "installed", tmp_path / "empty"
     zipfile.ZipFile(wheel).extractall(installed)
     empty.mkdir()

@@ -131,7 +131,7 @@ def test_divided_body_is_a_list_of_a_template(tmp_path):
     description = Human().description()
     listed = divided(description.body("human", description.size.value), GaussianParameters, 26)
     shapes = dict(description.shapes) | {"gsog/26": listed}
-    other = description.model_copy(update={"shapes": shapes, "mesh": None})
+    other = description.model_copy(update={"shapes": shapes, "mesh": None, "modes": None})
     written = tmp_path / "human.yaml"
     written.write_text(template_text(other, "A person.", {}))
     read = description_in(written).shapes["gsog/26"]
