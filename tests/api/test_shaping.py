@@ -64,6 +64,7 @@ def test_template_without_modes_cannot_be_shaped(scan):
         regkit.fit_shape(scan, {"kind": "human", "build": "small"})
 
 
+@pytest.mark.long
 def test_command_writes_mesh_template_and_distances(scan, regkit, tmp_path):
     np.savetxt(tmp_path / "scan.xyz", scan)
     mesh, out = tmp_path / "hand.obj", tmp_path / "out"

@@ -108,7 +108,7 @@ def test_shape_of_a_whole_scan_is_found_again(hand):
 
 def test_one_shape_is_found_in_several_depth_images(hand):
     truth = drawn(hand, 7)
-    poses = [posed(hand, truth, seed, away=0.4) for seed in (10, 11, 12)]
+    poses = [posed(hand, truth, seed, away=0.4) for seed in (10, 11)]
     frames = []
     for pose in poses:
         vertices = PosedSkin.of(hand, truth, pose).vertices
@@ -123,6 +123,7 @@ def test_one_shape_is_found_in_several_depth_images(hand):
     assert error(hand, found.coefficients, truth) < 0.85 * error(hand, start, truth)
 
 
+@pytest.mark.long
 def test_missing_parts_of_a_scan_do_not_shrink_the_body(hand):
     truth = drawn(hand, 5)
     pose = posed(hand, truth, 6)

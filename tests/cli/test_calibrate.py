@@ -105,6 +105,7 @@ def test_calibrate_wants_a_surface(regkit, files, tmp_path, subject):
     assert "has no capsules" in ended.err
 
 
+@pytest.mark.long
 def test_calibrate_tells_lengths_and_girths_of_a_template_without_modes(regkit, files, subject):
     small = "{kind: human, build: small, height: 1.63}"
     recording = files.data / "first"
