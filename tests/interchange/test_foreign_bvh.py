@@ -200,14 +200,14 @@ def test_a_skeleton_too_large_is_refused_at_once(tmp_path: Path) -> None:
     begin = time.process_time()
     with pytest.raises(DataError, match=f"3001 joints; .* {MOST}"):
         read_skeleton(path)
-    assert time.process_time() - begin < 1.0
+    assert time.process_time() - begin < 5.0
 
 
 def test_a_deep_skeleton_is_a_body_in_time(tmp_path: Path) -> None:
     begin = time.process_time()
     description = _read(tmp_path, _nested(400)).description
     body = description.body("deep", description.size.value)
-    assert time.process_time() - begin < 2.0
+    assert time.process_time() - begin < 5.0
     heights = body.place(body.skeleton.rest()).transforms[:, 1, 3]
     assert heights.max() == pytest.approx(400.0)
 
