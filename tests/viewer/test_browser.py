@@ -77,6 +77,7 @@ def test_switches_change_what_is_drawn(shown):
     shown.wait(f"Number(data.triangles) === {one}")
 
 
+@pytest.mark.long
 def test_cameras_of_a_recording_are_drawn_with_their_names_until_they_are_switched_off(shown):
     assert not shown.page.is_visible("#show-cameras")
     shown.go("#recording=cloud")
