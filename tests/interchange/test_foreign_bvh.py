@@ -197,17 +197,17 @@ def _nested(count: int) -> str:
 
 def test_a_skeleton_too_large_is_refused_at_once(tmp_path: Path) -> None:
     path = _write(tmp_path, _nested(3000))
-    begin = time.process_time()
+    begin = time.thread_time()
     with pytest.raises(DataError, match=f"3001 joints; .* {MOST}"):
         read_skeleton(path)
-    assert time.process_time() - begin < 5.0
+    assert time.thread_time() - begin < 1.0
 
 
 def test_a_deep_skeleton_is_a_body_in_time(tmp_path: Path) -> None:
-    begin = time.process_time()
+    begin = time.thread_time()
     description = _read(tmp_path, _nested(400)).description
     body = description.body("deep", description.size.value)
-    assert time.process_time() - begin < 5.0
+    assert time.thread_time() - begin < 2.0
     heights = body.place(body.skeleton.rest()).transforms[:, 1, 3]
     assert heights.max() == pytest.approx(400.0)
 
