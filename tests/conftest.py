@@ -71,9 +71,15 @@ def lump() -> np.ndarray:
 
 @pytest.fixture(autouse=True, scope="session")
 def own_cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """No test reads or leaves anything in the user's cache."""
+    """No test reads or leaves anything in the user's cache.
+
+    All processes of a test run share one, so that an atlas is made once.
+    """
+    base = tmp_path_factory.getbasetemp()
+    folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "cache"
+    folder.mkdir(exist_ok=True)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("REGKIT_CACHE", str(tmp_path_factory.mktemp("cache")))
+        patch.setenv("REGKIT_CACHE", str(folder))
         yield
 
 

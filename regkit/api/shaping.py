@@ -12,6 +12,7 @@ from regkit.api.registering import OneFrame
 from regkit.api.running import tracked_through
 from regkit.api.shaped_body import ShapedBody
 from regkit.calibration.scan_fit import ScanFit
+from regkit.calibration.shared_shape import SOLVING
 from regkit.interfaces import Expected, Method, Preprocessor, Segmenter, Solver, Template
 from regkit.system.errors import ConfigError
 from regkit.system.optional import one_thread
@@ -71,7 +72,9 @@ def fit_shape(
     session = pipeline.session(recording)
     expected = Expected(body=found.body, pose=found.pose)
     solver = Solver.parse(
-        Solver.default(max_iterations=30, value_tolerance=1e-4), place="regkit", field="solver"
+        Solver.default(**SOLVING),
+        place="regkit",
+        field="solver",
     )
     with one_thread(), working("fitting the shape"):
         fit = ScanFit.of(

@@ -7,6 +7,7 @@ from itertools import islice
 import numpy as np
 
 from regkit.calibration.frames import Looks, spread
+from regkit.calibration.shared_shape import SOLVING
 from regkit.calibration.subject import Subject
 from regkit.calibration.subject_shape import SubjectShape
 from regkit.config.model import Model
@@ -54,7 +55,7 @@ class Calibration(Model):
     """Method that registers the body to each frame of the recording."""
     tracker: Tracker = slot_default(Tracker)
     """Tracker that predicts the next frame's pose, unless the method defines one."""
-    solver: Solver = slot_default(Solver, max_iterations=30, value_tolerance=1e-4)
+    solver: Solver = slot_default(Solver, **SOLVING)
     """Solver of the joint problem over all frames."""
 
     def subject(self, recording: Recording) -> Subject:

@@ -16,7 +16,7 @@ from regkit.interfaces import Solver
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 
-WIDE = (0.015, 0.0)
+WIDE = (0.03, 0.015, 0.0)
 """Least cutoffs of distances in the fits that follow each other, as fractions of the body's size: a
 part of the wrong length is first drawn from afar."""
 

@@ -1,4 +1,4 @@
-"""The data of one frame, and their distances to a skin in both directions."""
+"""The data of one frame, and their distances to a skin in both directions and at the outline."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
+from regkit.calibration.skin.outline import Outline
 from regkit.calibration.skin.skin_distances import SkinDistances
 from regkit.calibration.skin.skin_points import SkinPoints
 from regkit.geometry.camera import Camera
@@ -20,6 +21,9 @@ MOST_POINTS = 2000
 
 MOST_SKIN_POINTS = 1500
 """Number of points of the skin whose distance to the data is asked, in all frames together."""
+
+MOST_OUTLINE_POINTS = 900
+"""Number of points of the outlines in all frames together."""
 
 NEIGHBOURS = 8
 """Number of points of the skin near a pixel, of which that at the nearest depth corresponds."""
@@ -61,11 +65,7 @@ class Measured:
         camera, depth = observation.camera, observation.depth
         if camera is None or depth is None:
             return cls(observation, observation.points, None, share)
-        rows, columns = np.nonzero(depth > 0.0)
-        z = depth[rows, columns]
-        x = (columns - camera.cx) / camera.fx * z
-        y = (rows - camera.cy) / camera.fy * z
-        return cls(observation, np.column_stack([x, y, z]), camera, share)
+        return cls(observation, camera.back_projected(depth), camera, share)
 
     @cached_property
     def chosen(self) -> Array:
@@ -82,6 +82,14 @@ class Measured:
         return scipy.spatial.KDTree(self.points)
 
     @cached_property
+    def outline(self) -> Outline | None:
+        """The outline of the data in the picture; None without a camera."""
+        if self.camera is None or self.observation.depth is None:
+            return None
+        most = round(self.share * MOST_OUTLINE_POINTS)
+        return Outline.of(self.camera, self.observation.depth, most)
+
+    @cached_property
     def spacing(self) -> float:
         """Distance between neighbouring points [m]."""
         gaps = np.asarray(self.tree.query(self.chosen, k=2)[0])
@@ -89,8 +97,8 @@ class Measured:
 
     def distances(
         self, skin: SkinPoints, vertices: Array, size: float
-    ) -> tuple[SkinDistances, SkinDistances]:
-        """Returns the distances of the data to the skin, and those of the skin to the data.
+    ) -> tuple[SkinDistances, SkinDistances, SkinDistances]:
+        """Returns the distances of the data to the skin, of the skin to the data, and of outlines.
 
         Args:
             skin: Points on the skin.
@@ -102,7 +110,10 @@ class Measured:
         if self.camera is not None:
             shown = np.einsum("qi,qi->q", placed, normals) < 0.0
         to_skin = self._to_skin(skin, placed, normals, np.flatnonzero(shown), size)
-        return to_skin, self._to_data(skin, placed, shown)
+        to_data = self._to_data(skin, placed, shown)
+        if self.outline is None:
+            return to_skin, to_data, SkinDistances.none()
+        return to_skin, to_data, self.outline.distances(skin, placed, normals, size)
 
     def _to_skin(
         self, skin: SkinPoints, placed: Array, normals: Array, shown: Indices, size: float
