@@ -53,6 +53,7 @@ def solver():
     return Solver.parse(Solver.default(max_iterations=12), place="test", field="solver")
 
 
+@pytest.mark.long
 def test_frames_with_displaced_bases_have_their_common_one(registrar):
     body = registrar.body
     poses = standing(body)

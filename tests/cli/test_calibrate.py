@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from messages import tells
+from small_experiment import QUICK
 
 from regkit.body import BodyDescription
 from regkit.config.document import Document
@@ -33,20 +34,20 @@ def test_calibrate_writes_a_template_that_experiments_can_use(regkit, files, sub
     transforms = body.place(body.skeleton.rest()).transforms
     gaps = body.capsules.place(transforms).surface_distance(body.surface.place(transforms))
     assert np.median(np.abs(gaps)) < 0.012
-    template = f"template={{kind: file, path: {subject}}}"
-    ended = regkit(
-        "run",
-        files.experiment,
-        "--out",
-        files.out,
-        "--no-figures",
-        "--set",
-        template,
-        "--set",
-        "start=exemplars",
+    # A few exemplars suffice for one frame, and are quick to make.
+    changes = (
+        f"template={{kind: file, path: {subject}}}",
+        "start={kind: exemplars, exemplars: 500}",
     )
+    options = [word for change in changes for word in ("--set", change)]
+    ended = regkit("run", files.experiment, "--out", files.out, *options, *QUICK)
     assert ended.code == 0, ended.err
-    # A template may be replaced, and be calibrated further.
+
+
+@pytest.mark.long
+def test_a_calibrated_template_is_calibrated_further(regkit, files, subject):
+    recording = files.data / "first"
+    assert regkit("calibrate", recording, *HUMAN, "--out", subject).code == 0
     again = regkit("calibrate", recording, "--template", subject, "--out", subject)
     assert again.code == 0, again.err
 

@@ -145,12 +145,14 @@ def test_lists_are_readable_on_80_columns(regkit, monkeypatch):
         assert len(lines) < 240
 
 
+@pytest.mark.long
 def test_schema_check_passes_on_the_committed_files(regkit):
     ended = regkit("schema", ROOT / "schemas", "--check")
     assert ended.err == ""
     assert ended.code == 0
 
 
+@pytest.mark.long
 def test_schema_check_tells_missing_files_and_what_writes_them(regkit, tmp_path):
     ended = regkit("schema", tmp_path, "--check")
     assert ended.code == 1

@@ -62,6 +62,7 @@ def test_all_formats_hold_the_tracked_motion(regkit, tmp_path, tracked):
     np.testing.assert_allclose(starts["left_shin"], UPRIGHT @ truth["left_knee"], atol=1e-5)
 
 
+@pytest.mark.long
 def test_an_exported_body_is_fitted_again_without_a_map(regkit, tmp_path, tracked):
     assert regkit("export", tracked, "--to", tmp_path / "body.glb").code == 0
     ended = regkit("fit", tmp_path / "body.glb", "--out", tmp_path / "again.yaml")

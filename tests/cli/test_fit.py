@@ -26,6 +26,7 @@ def read(path: Path) -> BodyDescription:
     return Document.read(path).validated(BodyDescription)
 
 
+@pytest.mark.long
 def test_a_fitted_body_tracks_as_the_shipped_one_does(regkit, files, out):
     ended = regkit("fit", BODY, "--map", BODY_MAP, "--out", out)
     assert ended.code == 0, ended.err
@@ -129,6 +130,7 @@ def test_a_mesh_in_centimetres_is_refused(regkit, tmp_path, out):
     assert "must be in metres" in ended.err
 
 
+@pytest.mark.long
 def test_a_shape_model_that_the_template_does_not_list_is_fitted_as_one_that_it_lists(
     regkit, tmp_path, out
 ):

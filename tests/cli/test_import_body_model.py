@@ -89,6 +89,7 @@ def test_modes_of_another_mesh_are_refused_with_file_and_field(regkit, tmp_path,
         assert regkit("validate", out).code == 1
 
 
+@pytest.mark.long
 def test_a_body_model_is_fitted_by_another_template(regkit, tmp_path):
     person = SkinnedMesh.read(Path("plugins/regkit_plugins/templates/human_mesh.npz"))
     vertices, joints = person.vertices, person.rest[:, :3, 3]

@@ -40,6 +40,7 @@ def test_frame_of_a_folder_and_its_image_give_the_same_pose(regkit, out):
     assert set(found[0]["markers"]) == set(found[0]["marker_names"])
 
 
+@pytest.mark.long
 def test_image_beside_its_camera_and_a_cloud_file_are_frames(regkit, tmp_path, out):
     for name in ("depth/000000.png", "camera.json"):
         shutil.copy(WALK / name, tmp_path)

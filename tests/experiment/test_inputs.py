@@ -89,6 +89,7 @@ CHANGES = {
 }
 
 
+@pytest.mark.long
 def test_results_that_were_copied_with_their_data_are_finished(files):
     """Neither another place nor other times are a change; nothing is told."""
     assert finished(ledger(files)) == TRACKS

@@ -66,6 +66,7 @@ def test_results_of_another_format_are_refused(regkit, done, tmp_path, version, 
     assert {path: path.stat().st_mtime_ns for path in folder.rglob("*")} == before
 
 
+@pytest.mark.long
 def test_results_of_another_version_and_the_same_format_are_read_and_not_continued(
     regkit, done, tmp_path
 ):

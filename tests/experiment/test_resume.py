@@ -131,6 +131,7 @@ def test_interrupted_run_is_completed_later(regkit, files, interrupt):
     assert len(files.written()) == 12
 
 
+@pytest.mark.long
 @pytest.mark.filterwarnings("default::regkit.system.notes.RegkitWarning")
 def test_damaged_measure_is_told_and_made_again_and_the_rest_is_kept(regkit, files):
     regkit("run", files.experiment, "--out", files.out, "--no-figures")
@@ -184,6 +185,7 @@ def test_users_own_configuration_with_other_files_is_no_results_folder(regkit, f
     assert len(list(project.iterdir())) == 2
 
 
+@pytest.mark.long
 def test_run_that_was_killed_while_it_opened_its_folder_begins_anew(regkit, files):
     assert regkit("run", files.experiment, "--out", files.out, *QUICK).code == 0
     for kept in (("config.yaml",), ("config.yaml", "setup.json")):

@@ -105,6 +105,8 @@ class Runner:
                 if arguments[0] == "run":
                     # The figures of a report are drawn by tests of their own.
                     arguments += ["--no-figures", *shlex.split(block.markers.get("with", ""))]
+                if arguments[0] == "calibrate" and "--frames" not in arguments:
+                    arguments += ["--frames", "2"]
                 if arguments[0] == "track" and "--frames" not in arguments:
                     arguments += ["--frames", "1"]
                 ended = self.command(*arguments)

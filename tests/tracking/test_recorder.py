@@ -102,6 +102,7 @@ def test_every_frame_has_a_snapshot_kept_or_read_again(index):
     np.testing.assert_array_equal(snapshot.pose.root, pose().root)
 
 
+@pytest.mark.long
 def test_no_more_images_are_kept_than_pictures_need():
     """Observations die when their frame is over, however long the track is."""
     alive: list[weakref.ref[Observation]] = []
@@ -157,6 +158,7 @@ def test_frame_without_data_is_bridged_and_told():
         recorder.snapshot(1)
 
 
+@pytest.mark.long
 # Points on the axes are no surface, so the start is doubtful, but its size is right.
 @pytest.mark.filterwarnings("ignore::regkit.system.notes.RegkitWarning")
 def test_start_is_in_the_first_frame_with_data():

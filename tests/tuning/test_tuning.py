@@ -74,6 +74,7 @@ def tuned(displaced_kite):
         return regkit.tune(displaced_kite, name="mine", **FEW)
 
 
+@pytest.mark.long
 def test_result_is_compared_with_what_the_template_had_whatever_tuning_starts_from(
     displaced_kite, tuned
 ):

@@ -39,6 +39,7 @@ def test_small_scene_is_embedded_as_it_is():
     assert embedded(replay(scene)) == json.loads(scene.json())
 
 
+@pytest.mark.long
 def test_long_track_with_many_points_is_thinned_to_five_megabytes():
     track = made_scene(BODY, GAUSSIANS, 5000, points=30_000)
     scene = run_scene("long", {"walk": {"m": lambda: track}}, {"m": "#000000"})
