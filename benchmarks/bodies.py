@@ -1,4 +1,4 @@
-"""Errors of a robot's joints, base and slides, and with one base for all; of people with hands.
+"""Errors of robots, of people with hands, of two hands, and of unknown bodies.
 
     python benchmarks/bodies.py [ROBOT.urdf]
 
@@ -15,6 +15,9 @@ start that is found (`_bodies_hands.py`); beside them is the error of the body a
 
 Two hands of the preset `two_hands` are tracked as one composed body, and each of them alone in the
 same motion; real hands are tracked with a forearm (`_bodies_several.py`).
+
+The shape of unknown people is found in three frames and in whole scans (`_bodies_shape.py`); what
+was chosen was chosen on other people.
 """
 
 from __future__ import annotations
@@ -29,6 +32,7 @@ from pathlib import Path
 import numpy as np
 from _bodies_hands import hands_with_body
 from _bodies_several import forearm_sr305, two_hands
+from _bodies_shape import unknown_bodies
 from threadpoolctl import threadpool_limits
 
 from regkit.body import Body
@@ -71,7 +75,7 @@ def main(robot: Path) -> None:
     print(f"squared error of the one base in standard deviations: {squares:.2f}")
     arm = {"arm_deg": figures["robots"]["hinges_deg"], "methods": figures}
     several = {"two_hands": two_hands(), "forearm_sr305_mm": forearm_sr305()}
-    print(json.dumps({**arm, **hands_with_body(), **several}))
+    print(json.dumps({**unknown_bodies(), **arm, **hands_with_body(), **several}))
 
 
 def told(name: str, body: Body, errors: Array) -> dict[str, float]:

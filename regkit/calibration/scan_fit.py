@@ -12,17 +12,13 @@ from regkit.body.linear_shape import LinearShape
 from regkit.body.shaped import shaped
 from regkit.calibration.skin import Measured, fitted
 from regkit.calibration.skin.posed_skin import PosedSkin
-from regkit.calibration.subject_shape import ADVICE, ModeShape
+from regkit.calibration.subject_shape import ModeShape, check_distance
 from regkit.geometry.mesh_distance import mesh_distances
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.interfaces import Solver
 from regkit.observation import Observation
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array, Indices
-from regkit.system.errors import NotFoundError
-
-FARTHEST = 0.015
-"""A fit has failed if the median distance of the data exceeds this fraction of the body's size."""
 
 REACH = 3.0
 """A point belongs to the body if a preprocessed point is within this many of their spacings."""
@@ -82,9 +78,7 @@ class ScanFit:
         variable.check(x)
         vertices = PosedSkin.of(shape, x, pose).vertices
         to_skin = mesh_distances(data.chosen, vertices, shape.mesh.faces)
-        off = float(np.median(to_skin))
-        if off > FARTHEST * shape.size(x):
-            raise NotFoundError(f"the skin lies {100.0 * off:.1f} cm from the data: {ADVICE}")
+        check_distance(float(np.median(to_skin)), shape.size(x))
         return cls(
             shape=shape,
             x=x,

@@ -9,14 +9,11 @@ import numpy as np
 from regkit.body import Body, BodyDescription, BodyFit
 from regkit.body.verdict import frame_verdicts
 from regkit.calibration.frames import Looks
-from regkit.calibration.subject_shape import ADVICE, SubjectShape
+from regkit.calibration.subject_shape import ADVICE, SubjectShape, check_distance
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.system.arrays import Array
 from regkit.system.errors import NotFoundError
 from regkit.tracking import Verdict
-
-FARTHEST = 0.015
-"""A fit has failed if the median distance of the data exceeds this fraction of the body's size."""
 
 FAR = 0.03
 """Points farther from the surface than this fraction of the size are hardly the body's."""
@@ -128,6 +125,5 @@ def check(shape: SubjectShape, x: Array, off: float) -> None:
             f"its {size.name} came out as {size.value:.3g} m, and the template's range is "
             f"{smallest:.3g} to {largest:.3g} m: {ADVICE}, or widen size.range in the template"
         )
-    if off > FARTHEST * size.value:
-        raise NotFoundError(f"the body's surface lies {100.0 * off:.1f} cm from the data: {ADVICE}")
+    check_distance(off, size.value)
     shape.check(x)

@@ -25,8 +25,12 @@ from regkit.system.errors import NotFoundError
 EXTREME = 1.25
 """A fit has failed if a bone's length differs by more than this factor from the scaled template."""
 
-RAREST = 1e-6
-"""Probability of a shape that is refused."""
+RAREST = 1e-12
+"""Probability of a shape that is refused. Clothes, hair and proportions that the modes do not show
+make people rarer than they are."""
+
+FARTHEST = 0.015
+"""A fit has failed if the median distance of the data exceeds this fraction of the body's size."""
 
 ADVICE = "the body was not found; give its size or a start, or use another recording"
 
@@ -194,13 +198,13 @@ class ModeShape(SubjectShape):
         return np.abs(skin_distances(self.shape, x, _measured(looks), looks.poses))
 
     def check(self, x: Array) -> None:
-        """Refuses a shape that is farther from the mean than any person of a million."""
+        """Refuses a shape that is farther from the mean than any person is."""
         away = self.shape.energy(x)
         largest = 0.5 * float(scipy.stats.chi2.isf(RAREST, len(x)))
         if away > largest:
             raise NotFoundError(
                 f"its shape came out {np.sqrt(2.0 * away):.1f} standard deviations from the mean "
-                f"of the template's modes, where {np.sqrt(2.0 * largest):.1f} is rare: {ADVICE}"
+                f"of the template's modes, and {np.sqrt(2.0 * largest):.1f} are plausible: {ADVICE}"
             )
 
     def changes(self, x: Array) -> Changes:
@@ -214,6 +218,20 @@ class ModeShape(SubjectShape):
         )
         title = "coefficients of the shape modes, and how far they are from the mean"
         return Changes(title, ("mode", "coefficient", "deviations"), tuple(rows))
+
+
+def check_distance(off: float, size: float) -> None:
+    """Refuses a fit whose surface is far from the data.
+
+    Args:
+        off: Median distance of the data to the surface [m].
+        size: The body's size [m].
+
+    Raises:
+        NotFoundError: If it is.
+    """
+    if off > FARTHEST * size:
+        raise NotFoundError(f"the body's surface lies {100.0 * off:.1f} cm from the data: {ADVICE}")
 
 
 def _measured(looks: Looks) -> list[Measured]:

@@ -103,41 +103,41 @@ def test_another_sweep_does_not_go_into_the_same_folder(regkit, files):
     [
         (
             "sweep: {methods.gsgo.kernel: [correlation]}",
-            "FILE:8: sweep.methods.gsgo.kernel: no method 'gsgo' (there are: gsog); did you mean",
+            "FILE:9: sweep.methods.gsgo.kernel: no method 'gsgo' (there are: gsog); did you mean",
         ),
         (
             "sweep: {methods.gsog.solver.memry: [3]}",
-            "FILE:8: methods.gsog,memry=3.solver.memry: no such field (there are: ",
+            "FILE:9: methods.gsog,memry=3.solver.memry: no such field (there are: ",
         ),
-        ("sweep: {preprocessor.voxle: [0.1]}", "FILE:8: preprocessor.voxle: no such field"),
+        ("sweep: {preprocessor.voxle: [0.1]}", "FILE:9: preprocessor.voxle: no such field"),
         (
             "sweep: {preprocessor.voxel: 0.1}",
-            "FILE:8: sweep.preprocessor.voxel: input should be a valid",
+            "FILE:9: sweep.preprocessor.voxel: input should be a valid",
         ),
         (
             "sweep: {preprocessor.voxel: []}",
-            "FILE:8: sweep.preprocessor.voxel: list should have at least",
+            "FILE:9: sweep.preprocessor.voxel: list should have at least",
         ),
         (
             "sweep:\n  preprocessor.voxel:\n    - 0.05\n    - thick",
-            "FILE:11: preprocessor.voxel: input",
+            "FILE:12: preprocessor.voxel: input",
         ),
         (
             "sweep: {preprocessor.voxel: [0.1, 0.1]}",
-            "FILE:8: sweep.preprocessor.voxel: 0.1 is listed twice",
+            "FILE:9: sweep.preprocessor.voxel: 0.1 is listed twice",
         ),
-        ("sweep: {name: [a, b]}", "FILE:8: sweep.name: 'name' cannot be swept"),
-        ("sweep: {methods: [a, b]}", "FILE:8: sweep.methods: 'methods' cannot be swept"),
+        ("sweep: {name: [a, b]}", "FILE:9: sweep.name: 'name' cannot be swept"),
+        ("sweep: {methods: [a, b]}", "FILE:9: sweep.methods: 'methods' cannot be swept"),
         (
             "sweep: {preprocessor..voxel: [1]}",
-            "FILE:8: sweep.preprocessor..voxel: a field must read a.b.c",
+            "FILE:9: sweep.preprocessor..voxel: a field must read a.b.c",
         ),
-        ("sweep: [1, 2]", "FILE:8: sweep: input should be a valid dictionary"),
+        ("sweep: [1, 2]", "FILE:9: sweep: input should be a valid dictionary"),
         (
             "sweep: {preprocessor.voxel: MANY, preprocessor.sigma: MANY}".replace(
                 "MANY", str(list(range(1, 52)))
             ),
-            "FILE:8: sweep: 51 x 51 = 2601 combinations; the maximum is 1000",
+            "FILE:9: sweep: 51 x 51 = 2601 combinations; the maximum is 1000",
         ),
     ],
 )
@@ -147,7 +147,7 @@ def test_sweep_that_cannot_be_is_told_with_its_line(files, sweep, expected):
 
 def test_one_experiment_is_not_read_from_a_sweep(files):
     append(files, SIGMAS)
-    with pytest.raises(ConfigError, match=r"small.yaml:8: sweep: .*several experiments"):
+    with pytest.raises(ConfigError, match=r"small.yaml:9: sweep: .*several experiments"):
         Experiment.read(files.experiment)
     assert list(Experiment.read(files.experiment, ["sweep={}"]).methods) == ["gsog"]
 
@@ -160,7 +160,7 @@ def test_items_of_a_presets_list_are_swept(files):
     assert kinds == [term.kind for term in methods["best,least=0.3"].terms]
     text = files.experiment.read_text()
     for wrong, expected in (
-        ("terms.0.lest", "small.yaml:9: methods.best,lest=0.1.terms.0.lest: no such field"),
+        ("terms.0.lest", "small.yaml:10: methods.best,lest=0.1.terms.0.lest: no such field"),
         ("terms.9.least", "terms is a list of 5"),
     ):
         files.experiment.write_text(text.replace("terms.0.least", wrong))

@@ -21,6 +21,7 @@ dataset: {{kind: depth, root: {root}}}
 template: {{kind: human, height: 1.7}}
 preprocessor: {{kind: points, voxel: 0.05, sigma: 0.03}}
 start: {{kind: given, root: {{position: [-0.05, -0.05, 3.25], rotation_deg: [180, 0, 0]}}}}
+segmentation: []
 methods:
   gsog: {{kind: direct, shape: gsog, kernel: correlation, \
 solver: {{kind: lbfgs, max_iterations: 4}}}}
