@@ -10,7 +10,7 @@ import scipy
 from regkit.body import BodyDescription
 from regkit.body.linear_shape import LinearShape
 from regkit.body.shaped import shaped
-from regkit.calibration.skin import Measured, fitted
+from regkit.calibration.skin import Measured, fitted, measured
 from regkit.calibration.skin.posed_skin import PosedSkin
 from regkit.calibration.subject_shape import ModeShape, check_distance
 from regkit.geometry.mesh_distance import mesh_distances
@@ -73,7 +73,8 @@ class ScanFit:
         shape, data = variable.shape, Measured.of(observation)
         if data.camera is None:
             data = replace(data, points=_own(points, observation.points))
-        found = fitted(shape, shape.at_size(size), [data], [pose], solver)
+        seen = measured(observation) if observation.views else data
+        found = fitted(shape, shape.at_size(size), [seen], [pose], solver)
         x, pose = found.coefficients, found.poses[0]
         variable.check(x)
         vertices = PosedSkin.of(shape, x, pose).vertices

@@ -16,7 +16,7 @@ from regkit.body.shaped import shaped
 from regkit.calibration.frames import Looks, distances
 from regkit.calibration.problem import SubjectProblem
 from regkit.calibration.shape import Shape
-from regkit.calibration.skin import Measured, fitted, skin_distances
+from regkit.calibration.skin import MeasuredFrame, fitted, measured, skin_distances
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.interfaces import Solver
 from regkit.system.arrays import Array
@@ -234,6 +234,6 @@ def check_distance(off: float, size: float) -> None:
         raise NotFoundError(f"the body's surface lies {100.0 * off:.1f} cm from the data: {ADVICE}")
 
 
-def _measured(looks: Looks) -> list[Measured]:
+def _measured(looks: Looks) -> list[MeasuredFrame]:
     share = 1.0 / len(looks.clouds)
-    return [Measured.of(cloud.observation, share) for cloud in looks.clouds]
+    return [measured(cloud.observation, share) for cloud in looks.clouds]

@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 
 from regkit.body.linear_shape import LinearShape
-from regkit.calibration.skin import Measured, fitted, skin_distances
+from regkit.calibration.skin import Measured, fitted, measured, skin_distances
 from regkit.calibration.skin.posed_skin import PosedSkin
 from regkit.calibration.skin.skin_distances import SkinDistances
 from regkit.calibration.skin.skin_points import SkinPoints
 from regkit.geometry.camera import Camera
-from regkit.geometry.rigid import rigid
+from regkit.geometry.rigid import inverse, rigid, transformed
 from regkit.geometry.rotation import vector_to_matrix
-from regkit.observation import Observation
+from regkit.observation import Observation, View
 from regkit.sensors.raycast import ray_cast
 from regkit.skeleton import Pose
 from regkit_plugins.solvers.gauss_newton import GaussNewton
@@ -121,6 +121,50 @@ def test_one_shape_is_found_in_several_depth_images(hand):
     found = fitted(hand, start, frames, starts, SOLVER)
     assert np.median(np.abs(skin_distances(hand, found.coefficients, frames, found.poses))) < 1e-3
     assert error(hand, found.coefficients, truth) < 0.85 * error(hand, start, truth)
+
+
+def seen_from(shape: LinearShape, vertices: np.ndarray, T_world_camera: np.ndarray) -> View:
+    there = transformed(inverse(T_world_camera), vertices)
+    depth = ray_cast(there, shape.mesh.faces, CAMERA)
+    points = CAMERA.back_projected(depth)
+    ones = np.ones(len(points))
+    return View("", T_world_camera, Observation(points, ones, 1e-6 * ones, CAMERA, depth))
+
+
+def test_distances_in_several_views_are_those_of_each_in_the_world(hand):
+    pose = posed(hand, hand.mean, 12, away=0.4)
+    vertices = PosedSkin.of(hand, hand.mean, pose).vertices
+    turn = rigid(vector_to_matrix(np.array([0.2, 1.1, 0.3])), np.array([-0.35, 0.1, 0.2]))
+    views = [seen_from(hand, vertices, camera) for camera in (np.eye(4), turn)]
+    moved = vertices + np.array([0.004, -0.003, 0.002])
+    skin, whole = SkinPoints.on(hand.mesh.faces), measured(Observation.of_views(views))
+    found = whole.distances(skin, moved, 0.19)
+    for side, (first, second) in zip(found, zip(*(
+        measured(view.data, 0.5).distances(skin, transformed(view.to_camera, moved), 0.19)
+        for view in views
+    ), strict=True), strict=True):  # fmt: skip
+        assert len(side) == len(first) + len(second)
+        np.testing.assert_allclose(side.lengths, [*first.lengths, *second.lengths])
+        world = second.directions @ turn[:3, :3].T
+        np.testing.assert_allclose(side.directions, [*first.directions, *world])
+
+
+@pytest.mark.long
+def test_two_cameras_show_more_of_a_shape_than_one(hand):
+    truth = drawn(hand, 7)
+    pose = posed(hand, truth, 10, away=0.4)
+    vertices = PosedSkin.of(hand, truth, pose).vertices
+    middle = vertices.mean(axis=0)
+    turn = vector_to_matrix(np.array([0.0, np.pi, 0.0]))
+    behind = rigid(turn, middle - turn @ middle)
+    views = [seen_from(hand, vertices, camera) for camera in (np.eye(4), behind)]
+    start, errors = hand.at_size(hand.size(hand.mean)), []
+    for several in (views[:1], views):
+        frame = measured(Observation.of_views(several))
+        found = fitted(hand, start, [frame], [near(hand, truth, pose)], SOLVER)
+        errors.append(error(hand, found.coefficients, truth))
+    assert errors[1] < errors[0]
+    assert errors[1] < 0.8 * error(hand, start, truth)
 
 
 @pytest.mark.long

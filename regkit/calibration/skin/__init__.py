@@ -2,5 +2,6 @@
 
 from regkit.calibration.skin.fit import SkinFit, fitted, skin_distances
 from regkit.calibration.skin.measured import Measured
+from regkit.calibration.skin.measured_views import MeasuredFrame, measured
 
-__all__ = ["Measured", "SkinFit", "fitted", "skin_distances"]
+__all__ = ["Measured", "MeasuredFrame", "SkinFit", "fitted", "measured", "skin_distances"]

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from regkit.body.linear_shape import LinearShape
-from regkit.calibration.skin.measured import Measured
+from regkit.calibration.skin.measured_views import MeasuredFrame
 from regkit.calibration.skin.posed_skin import PosedSkin
 from regkit.calibration.skin.problem import SkinProblem
 from regkit.calibration.skin.skin_points import SkinPoints
@@ -43,7 +43,7 @@ class SkinFit:
 def fitted(
     shape: LinearShape,
     start: Array,
-    frames: Sequence[Measured],
+    frames: Sequence[MeasuredFrame],
     poses: Sequence[Pose],
     solver: Solver,
 ) -> SkinFit:
@@ -68,7 +68,7 @@ def fitted(
 
 
 def skin_distances(
-    shape: LinearShape, x: Array, frames: Sequence[Measured], poses: Sequence[Pose]
+    shape: LinearShape, x: Array, frames: Sequence[MeasuredFrame], poses: Sequence[Pose]
 ) -> Array:
     """Returns the signed distances of the data of all frames to the skin, (N,) [m].
 

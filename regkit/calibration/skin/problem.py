@@ -8,7 +8,7 @@ import numpy as np
 
 from regkit.body.linear_shape import LinearShape
 from regkit.calibration.shared_shape import FrameEnergy, SharedShapeProblem
-from regkit.calibration.skin.measured import Measured
+from regkit.calibration.skin.measured_views import MeasuredFrame
 from regkit.calibration.skin.posed_skin import PosedSkin
 from regkit.calibration.skin.skin_distances import SkinDistances
 from regkit.calibration.skin.skin_points import SkinPoints
@@ -46,7 +46,7 @@ class SkinProblem(SharedShapeProblem):
         self,
         shape: LinearShape,
         start: Array,
-        frames: Sequence[Measured],
+        frames: Sequence[MeasuredFrame],
         poses: Sequence[Pose],
         cutoff: float,
     ) -> None:
