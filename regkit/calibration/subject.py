@@ -9,14 +9,15 @@ import numpy as np
 from regkit.body import Body, BodyDescription, BodyFit
 from regkit.body.verdict import frame_verdicts
 from regkit.calibration.frames import Looks
-from regkit.calibration.subject_shape import ADVICE, SubjectShape, check_distance
+from regkit.calibration.subject_shape import ADVICE, NOISE, SubjectShape, check_distance
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.system.arrays import Array
 from regkit.system.errors import NotFoundError
 from regkit.tracking import Verdict
 
 FAR = 0.03
-"""Points farther from the surface than this fraction of the size are hardly the body's."""
+"""Points farther from the surface than this fraction of the size, and than twice what noise alone
+does, are hardly the body's."""
 
 SLACK = 1.05
 """A fit has failed if the size is beyond the template's range by more than this factor."""
@@ -77,7 +78,7 @@ class Subject:
             skin=shape.skin(x),
             frames=len(looks.poses),
             distance=off,
-            strange=float((gaps > FAR * body.size).mean()),
+            strange=float((gaps > max(FAR * body.size, 2.0 * NOISE)).mean()),
             verdict=verdict,
         )
 

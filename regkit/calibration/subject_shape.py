@@ -32,6 +32,9 @@ make people rarer than they are."""
 FARTHEST = 0.015
 """A fit has failed if the median distance of the data exceeds this fraction of the body's size."""
 
+NOISE = 0.005
+"""Noise alone may put the data this far from the surface [m], which is much of a small body."""
+
 ADVICE = "the body was not found; give its size or a start, or use another recording"
 
 
@@ -230,7 +233,7 @@ def check_distance(off: float, size: float) -> None:
     Raises:
         NotFoundError: If it is.
     """
-    if off > FARTHEST * size:
+    if off > max(FARTHEST * size, NOISE):
         raise NotFoundError(f"the body's surface lies {100.0 * off:.1f} cm from the data: {ADVICE}")
 
 

@@ -16,7 +16,7 @@ from regkit.calibration.jacobian import ProportionJacobian
 from regkit.calibration.problem import SubjectProblem
 from regkit.calibration.shape import Shape
 from regkit.calibration.subject import check
-from regkit.calibration.subject_shape import ModeShape, ProportionShape
+from regkit.calibration.subject_shape import ModeShape, ProportionShape, check_distance
 from regkit.config.document import Document
 from regkit.geometry.camera import Camera
 from regkit.geometry.rigid import rigid
@@ -335,6 +335,13 @@ def test_a_body_that_was_not_found_is_refused():
         check(shape, x, 0.01)
     with pytest.raises(NotFoundError, match=r"6\.49 m, and the template's range"):
         check(shape, shape.origin(6.49), 0.01)
+
+
+@pytest.mark.parametrize(("off", "size"), [(0.03, 1.7), (0.01, 0.19)])
+def test_a_surface_far_from_the_data_is_refused_and_noise_is_not(off, size):
+    check_distance(0.004, size)
+    with pytest.raises(NotFoundError, match="from the data"):
+        check_distance(off, size)
 
 
 def test_a_shape_that_hardly_anyone_has_is_refused():

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from messages import tells
+from places import EXAMPLES
 from small_experiment import QUICK
 
 from regkit.body import BodyDescription
@@ -50,6 +51,17 @@ def test_a_calibrated_template_is_calibrated_further(regkit, files, subject):
     assert regkit("calibrate", recording, *HUMAN, "--out", subject).code == 0
     again = regkit("calibrate", recording, "--template", subject, "--out", subject)
     assert again.code == 0, again.err
+
+
+@pytest.mark.long
+def test_hand_of_the_sample_is_calibrated_in_its_noise(regkit, subject):
+    ended = regkit(
+        "calibrate", EXAMPLES / "data" / "hand_gestures", "--template", "hand", "--frames", "4",
+        "--out", subject,
+    )  # fmt: skip
+    assert ended.code == 0, ended.err
+    size = Document.read(subject).validated(BodyDescription).size.value
+    assert size == pytest.approx(0.1858, rel=0.02)
 
 
 def test_calibrate_takes_an_experiments_data_template_and_start(regkit, files, subject):
