@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +17,9 @@ from regkit.geometry.surface import SkinnedSurface
 from regkit.skeleton import Placement, Pose, Skeleton
 from regkit.system.arrays import Array, Indices
 from regkit.system.brief import Brief
+
+if TYPE_CHECKING:
+    from regkit.body.free_body import FreeBody
 
 SPACING = 0.05
 """Distance of the points on a body's axes, as a fraction of its size."""
@@ -85,6 +88,7 @@ class Body(Brief):
         parts: The parts of a composed body, such as its hands; none if it is not composed.
         base: The same body with its own segments in place of attached parts, which is found first;
             None if it has no attached parts.
+        free_bodies: The bodies of which it consists, if several move freely beside each other.
     """
 
     name: str
@@ -99,6 +103,7 @@ class Body(Brief):
     optional: tuple[int, ...] = ()
     parts: tuple[Part, ...] = ()
     base: Body | None = None
+    free_bodies: tuple[FreeBody, ...] = ()
 
     def __repr__(self) -> str:
         """Returns what the body consists of, in one line."""

@@ -22,6 +22,7 @@ from regkit.start import (
     judged,
     rigid_start,
     standing,
+    with_free_bodies,
     with_parts,
 )
 from regkit.system.optional import one_blas_thread
@@ -72,7 +73,8 @@ class Exemplars(StartSearch):
         inside = with_parts(
             lambda base: self.find(base, observations), template, observations[0], self.method
         )
-        rigid = inside or rigid_start(template, observations[0])
+        beside = inside or with_free_bodies(self.find, template, observations, self.method)
+        rigid = beside or rigid_start(template, observations[0])
         if rigid is not None:
             return rigid
         fixed = is_fixed(template)

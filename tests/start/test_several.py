@@ -1,0 +1,148 @@
+"""The start of several bodies beside each other: each on its own points, and all together."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from regkit.body import Body
+from regkit.body.verdict import Verdict
+from regkit.geometry.rigid import rigid
+from regkit.geometry.rotation import vector_to_matrix
+from regkit.interfaces import Start, StartSearch, Template
+from regkit.observation import Observation
+from regkit.skeleton import Pose
+from regkit.start.divisions import divisions
+from regkit.system.errors import ConfigError
+from tests.support.scarecrow import POLE, measured
+
+BALL = """
+title: A ball
+size: {name: diameter, value: 0.24, range: [0.24, 0.24]}
+segments:
+  ball:
+    joint: {type: free}
+    capsules: [{start: [0, 0, 0], end: [0, 0, 0], radius: 0.12}]
+    markers: {middle: [0, 0, 0]}
+"""
+
+SEARCH = {"kind": "exemplars", "exemplars": 400, "looked_up": 60, "refined": 10, "finalists": 2}
+
+
+def search() -> StartSearch:
+    return StartSearch.parse(SEARCH, place="test", field="start")
+
+
+@pytest.fixture
+def files(tmp_path: Path) -> dict[str, dict[str, object]]:
+    """The templates of a pole and of a ball, by name."""
+    for name, text in (("pole", POLE), ("ball", BALL)):
+        (tmp_path / f"{name}.yaml").write_text(text)
+    kinds = {"pole": {"size": 1.0}, "ball": {}}
+    return {
+        name: {"kind": "file", "path": str(tmp_path / f"{name}.yaml"), **more}
+        for name, more in kinds.items()
+    }
+
+
+def template(free: dict[str, dict[str, object]]) -> Template:
+    return Template.parse({"kind": "composed", "free": free}, place="test", field="template")
+
+
+def placed(body: Body, pole: list[float], ball: list[float], arm: float = 20.0) -> Pose:
+    """A pole that stands upright and a ball, at places in the camera's frame [m]."""
+    pose = body.skeleton.rest()
+    for one in body.free_bodies:
+        own = one.body.skeleton.rest()
+        place, hinges = (pole, np.radians([arm])) if one.name == "pole" else (ball, ())
+        turn = vector_to_matrix(np.array([np.pi, 0.0, 0.0]))
+        own = Pose(rigid(turn, np.array(place)), own.balls, np.array(hinges))
+        pose = one.placed(own, pose)
+    return pose
+
+
+def marked(start: Start) -> dict[str, np.ndarray]:
+    """The places of the markers by name."""
+    places = start.body.markers.place(start.body.place(start.pose).transforms)
+    return dict(zip(start.body.markers.names, places, strict=True))
+
+
+def seen(whole: Template, pole: list[float], ball: list[float]) -> tuple[Observation, Body, Pose]:
+    body = whole.body(whole.candidate_sizes()[0])
+    pose = placed(body, pole, ball)
+    return measured(body, pose, voxel=0.016), body, pose
+
+
+APART = [-0.2, 0.0, 2.4], [0.7, 0.0, 2.4]
+
+
+def test_bodies_apart_are_found(files) -> None:
+    observation, body, truth = seen(template(files), *APART)
+    start = search().find(template(files), [observation])
+    expected = marked(Start(body, truth))
+    assert start.verdict is Verdict.FOUND, start.reason
+    for name, place in marked(start).items():
+        assert np.linalg.norm(place - expected[name]) < 0.03, name
+
+
+def test_a_start_of_bodies_apart_is_that_of_each_alone(files) -> None:
+    """Searched on the points of its piece."""
+    observation, _, _ = seen(template(files), *APART)
+    both = marked(search().find(template(files), [observation]))
+    left = observation.points[:, 0] < 0.0
+    for name, own in (("pole", left), ("ball", ~left)):
+        one = Template.parse(files[name], place="test", field="template")
+        alone = marked(search().find(one, [observation.only(own)]))
+        for marker, place in alone.items():
+            np.testing.assert_allclose(both[f"{name}_{marker}"], place, atol=0.02)
+
+
+def test_names_and_their_order_do_not_matter(files) -> None:
+    observation, _, _ = seen(template(files), *APART)
+    start = marked(search().find(template(files), [observation]))
+    renamed = {"z": files["ball"], "a": files["pole"]}
+    other = marked(search().find(template(renamed), [observation]))
+    names = {"pole": "a", "ball": "z"}
+    for name, place in start.items():
+        part, marker = name.split("_", 1)
+        np.testing.assert_allclose(other[f"{names[part]}_{marker}"], place, atol=1e-5)
+
+
+def test_touching_bodies_are_told_apart(files) -> None:
+    """The ball lies at the pole's foot: there is one piece."""
+    observation, body, truth = seen(template(files), [0.0, 0.0, 2.4], [0.13, 0.4, 2.4])
+    first = next(divisions(observation.points, 2))
+    assert first.cut
+    start = search().find(template(files), [observation])
+    expected = marked(Start(body, truth))
+    for name in ("pole_foot", "ball_middle"):
+        assert np.linalg.norm(marked(start)[name] - expected[name]) < 0.03, name
+
+
+@pytest.mark.parametrize("missing", ["ball", "pole"])
+def test_a_body_without_points_is_not_found(files, missing) -> None:
+    """It is told by its name, wherever it is put."""
+    places = {"pole": APART[0], "ball": APART[1]}
+    places[missing] = [0.0, 0.0, -5.0]
+    observation, _, _ = seen(template(files), places["pole"], places["ball"])
+    start = search().find(template(files), [observation])
+    assert start.verdict is not Verdict.FOUND
+    assert f"{missing}:" in start.reason
+
+
+def test_too_few_points_are_no_bodies(files) -> None:
+    observation, _, _ = seen(template(files), *APART)
+    few = observation.only(np.arange(len(observation.points)) < 15)
+    start = search().find(template(files), [few])
+    assert start.verdict is Verdict.LOST
+    assert "15 points" in start.reason
+
+
+def test_a_body_that_the_method_does_not_know_is_refused(files, tmp_path, lump) -> None:
+    """A cloud has no capsules, of which the default method makes its primitives."""
+    np.savetxt(tmp_path / "lump.xyz", lump)
+    cloud = {"kind": "cloud", "path": str(tmp_path / "lump.xyz")}
+    whole = template({"ball": files["ball"], "lump": cloud})
+    observation = Observation(lump, np.ones(len(lump)), 1e-4 * np.ones(len(lump)))
+    with pytest.raises(ConfigError, match="'lump' has no primitives"):
+        search().find(whole, [observation])
