@@ -13,8 +13,10 @@ One thread.
 People with hands gesture a metre before an upright camera with noise of 3 mm, as tracked from the
 start that is found (`_bodies_hands.py`); beside them is the error of the body alone.
 
-Two hands of the preset `two_hands` are tracked as one composed body, and each of them alone in the
-same motion; real hands are tracked with a forearm (`_bodies_several.py`).
+Two hands of the preset `two_hands` are tracked as one composed body, from the true pose and from
+the start that is found, and each of them alone in the same motion; real hands are tracked with a
+forearm (`_bodies_several.py`). One in five of their frames is a first frame for a start from
+nothing (`_bodies_starts.py`).
 """
 
 from __future__ import annotations

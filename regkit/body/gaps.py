@@ -1,4 +1,4 @@
-"""Distances of points to the surface of a posed body, and to those of several."""
+"""Distances of points to the surface of a posed body."""
 
 from __future__ import annotations
 
@@ -20,16 +20,3 @@ def surface_gaps(body: Body, pose: Pose, points: Array) -> Array | None:
         placed_points = body.surface.place(transforms)
         return np.asarray(scipy.spatial.KDTree(placed_points).query(points)[0])
     return None
-
-
-def gaps_to_each(whole: Body, pose: Pose, points: Array) -> Array:
-    """Returns the distances of points to each of several bodies, (K, N) [m].
-
-    Args:
-        whole: The bodies as one.
-        pose: Its pose.
-        points: The points, (N, 3) [m].
-    """
-    found = [surface_gaps(one.body, one.alone(pose), points) for one in whole.free_bodies]
-    beyond = np.full(len(points), np.inf)
-    return np.array([beyond if gaps is None else gaps for gaps in found])

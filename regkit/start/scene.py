@@ -11,15 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from regkit.body import Body, BodyFit
-from regkit.body.gaps import gaps_to_each
+from regkit.body.each import fits_of_each, points_of_each
 from regkit.interfaces import Registrar, Start, Template
 from regkit.observation import Observation
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit.system.brief import Brief
-
-REACH = 0.5
-"""Points farther from a body than this are not its points, in sizes of the body."""
 
 
 @dataclass(frozen=True)
@@ -69,20 +66,12 @@ class Scene(Brief):
 
     def owned(self, observation: Observation) -> tuple[NDArray[np.bool_], ...]:
         """Returns the points of each body: those that are nearest to it, and not far away."""
-        gaps = gaps_to_each(self.body, self.pose, observation.points)
-        nearest = gaps.argmin(axis=0)
-        return tuple(
-            (nearest == at) & (gaps[at] < REACH * one.body.size)
-            for at, one in enumerate(self.body.free_bodies)
-        )
+        return points_of_each(self.body, self.pose, observation.points)
 
-    def fits(self, observation: Observation) -> list[BodyFit]:
-        """Returns how well each body fits its own points; of a body without any, the fit to all."""
-        found = []
-        for one, own in zip(self.body.free_bodies, self.owned(observation), strict=True):
-            seen = observation.only(own) if own.any() else observation
-            found.append(BodyFit.of(one.body, one.alone(self.pose), seen.points, seen.sight))
-        return found
+    def misfits(self, observation: Observation) -> Array:
+        """Returns the misfit of each body to its own points, (K,); infinite if it is unknown."""
+        fits = fits_of_each(self.body, self.pose, observation.points, observation.sight)
+        return np.nan_to_num([one.misfit for one in fits], nan=np.inf)
 
     def exchanges(self, other: Scene, templates: Sequence[Template]) -> bool:
         """Returns whether a body is where another one is in the other scene.

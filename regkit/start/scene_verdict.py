@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from regkit.body import BodyFit
+from regkit.body.each import gaps_to_each
 from regkit.body.fit import tolerance
-from regkit.body.gaps import gaps_to_each
 from regkit.body.verdict import Verdict, frame_verdict
 from regkit.interfaces import Start
 from regkit.start.scene import Scene

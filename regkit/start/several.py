@@ -137,8 +137,7 @@ class SeveralSearch:
 
         The body that fits worst is sought first, since its points may be those of another.
         """
-        fits = [one.misfit for one in scene.fits(self.observation)]
-        for at in np.argsort(fits)[::-1].tolist():
+        for at in np.argsort(-scene.misfits(self.observation)).tolist():
             own = scene.owned(self.observation)[at]
             if own.sum() >= FEWEST:
                 start = self.alone(at, own)[0]

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from regkit.body import Body, BodyFit
-from regkit.body.gaps import gaps_to_each, surface_gaps
+from regkit.body.each import gaps_to_each
+from regkit.body.gaps import surface_gaps
 from regkit.interfaces import Template
 from regkit.skeleton import Pose
 

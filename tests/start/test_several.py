@@ -4,27 +4,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from pole_and_ball import APART, pole_and_ball, seen, template
 
-from regkit.body import Body
 from regkit.body.verdict import Verdict
-from regkit.geometry.rigid import rigid
-from regkit.geometry.rotation import vector_to_matrix
 from regkit.interfaces import Start, StartSearch, Template
 from regkit.observation import Observation
-from regkit.skeleton import Pose
 from regkit.start.divisions import divisions
 from regkit.system.errors import ConfigError
-from tests.support.scarecrow import POLE, measured
-
-BALL = """
-title: A ball
-size: {name: diameter, value: 0.24, range: [0.24, 0.24]}
-segments:
-  ball:
-    joint: {type: free}
-    capsules: [{start: [0, 0, 0], end: [0, 0, 0], radius: 0.12}]
-    markers: {middle: [0, 0, 0]}
-"""
 
 SEARCH = {"kind": "exemplars", "exemplars": 400, "looked_up": 60, "refined": 10, "finalists": 2}
 
@@ -35,45 +21,13 @@ def search() -> StartSearch:
 
 @pytest.fixture
 def files(tmp_path: Path) -> dict[str, dict[str, object]]:
-    """The templates of a pole and of a ball, by name."""
-    for name, text in (("pole", POLE), ("ball", BALL)):
-        (tmp_path / f"{name}.yaml").write_text(text)
-    kinds = {"pole": {"size": 1.0}, "ball": {}}
-    return {
-        name: {"kind": "file", "path": str(tmp_path / f"{name}.yaml"), **more}
-        for name, more in kinds.items()
-    }
-
-
-def template(free: dict[str, dict[str, object]]) -> Template:
-    return Template.parse({"kind": "composed", "free": free}, place="test", field="template")
-
-
-def placed(body: Body, pole: list[float], ball: list[float], arm: float = 20.0) -> Pose:
-    """A pole that stands upright and a ball, at places in the camera's frame [m]."""
-    pose = body.skeleton.rest()
-    for one in body.free_bodies:
-        own = one.body.skeleton.rest()
-        place, hinges = (pole, np.radians([arm])) if one.name == "pole" else (ball, ())
-        turn = vector_to_matrix(np.array([np.pi, 0.0, 0.0]))
-        own = Pose(rigid(turn, np.array(place)), own.balls, np.array(hinges))
-        pose = one.placed(own, pose)
-    return pose
+    return pole_and_ball(tmp_path)
 
 
 def marked(start: Start) -> dict[str, np.ndarray]:
     """The places of the markers by name."""
     places = start.body.markers.place(start.body.place(start.pose).transforms)
     return dict(zip(start.body.markers.names, places, strict=True))
-
-
-def seen(whole: Template, pole: list[float], ball: list[float]) -> tuple[Observation, Body, Pose]:
-    body = whole.body(whole.candidate_sizes()[0])
-    pose = placed(body, pole, ball)
-    return measured(body, pose, voxel=0.016), body, pose
-
-
-APART = [-0.2, 0.0, 2.4], [0.7, 0.0, 2.4]
 
 
 def test_bodies_apart_are_found(files) -> None:
