@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from _bodies_recovery import after_jumps, jumping
 from _bodies_starts import starts
 from _starts_sr305 import DATA, SEQUENCES, tracked_hand
 
@@ -27,6 +28,9 @@ LENGTH = 0.1858
 SIDES = ("right", "left")
 
 POINTS = PointsPreprocessor(voxel=0.008, sigma=0.004)
+
+LOST = 0.02
+"""A hand with a larger mean joint error is lost [m]."""
 
 FIT_STEPS, FIT_DAMPING = 60, 1e-6
 """Gauss-Newton steps that pose a body by the markers of the first frame, and their damping."""
@@ -84,6 +88,31 @@ def two_hands() -> dict[str, object]:
     }
 
 
+def jumps() -> dict[str, object]:
+    """Prints what the search of a lost hand beside the other gains, and returns figures.
+
+    In each of six recordings one hand jumps twice by some 20 cm and turns by about 100 degrees.
+    """
+    both = _template({"kind": "composed", "free": {side: _hand(side) for side in SIDES}})
+    found: dict[str, list[Array]] = {"sought": [], "not": []}
+    for recording in jumping():
+        for name, recovery in (("sought", {}), ("not", {"reinitialization": None})):
+            truth, places, names = _tracked(both, recording, recovery=recovery)
+            side = recording.name.split("_")[0]
+            own = np.array([one.startswith(side) for one in names])
+            errors = np.linalg.norm(places - truth, axis=2)[:, own].mean(axis=1)
+            found[name].append(after_jumps(errors, recording.fps))
+    told: dict[str, object] = {}
+    for name, each in found.items():
+        errors = np.concatenate(each)
+        percent = 100.0 * float((errors < LOST).mean())
+        words = "with the search" if name == "sought" else "without"
+        print(f"hand that jumps, {words}: {1e3 * errors.mean():.1f} mm, "
+              f"{percent:.0f} % of the frames within {1e3 * LOST:.0f} mm", flush=True)  # fmt: skip
+        told[name] = {"mm": round(1e3 * float(errors.mean()), 2), "percent": round(percent, 1)}
+    return told
+
+
 def forearm_sr305() -> dict[str, float]:
     """Returns the median distance of real data to a hand with a forearm, by sequence [mm]."""
     if not DATA.is_dir():
@@ -123,7 +152,11 @@ def _alone(recording: SyntheticRecording, side: str) -> Array:
 
 
 def _tracked(
-    template: Template, recording: SyntheticRecording, *, found: bool = False
+    template: Template,
+    recording: SyntheticRecording,
+    *,
+    found: bool = False,
+    recovery: Mapping[str, Any] | None = None,
 ) -> tuple[Array, Array, tuple[str, ...]]:
     """Returns the true and the tracked positions (T, J, 3) [m] of the joints, and their names.
 
@@ -131,10 +164,12 @@ def _tracked(
         template: The template.
         recording: The recording.
         found: Whether the start is searched; otherwise it is nearest to the truth.
+        recovery: Fields of the tracker's recovery; by default none.
     """
     body = template.body(LENGTH)
     registrar = Method.parse("best", place="benchmark", field="method").bind(body)
-    tracker = Tracker.parse("constant_velocity", place="benchmark", field="tracker").bind(registrar)
+    follows = {"kind": "constant_velocity", "recovery": dict(recovery or {})}
+    tracker = Tracker.parse(follows, place="benchmark", field="tracker").bind(registrar)
     truth = recording.truth()
     assert truth is not None
     order = np.array([body.markers.names.index(joint) for joint in truth.joints])
