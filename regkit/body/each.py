@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from regkit.body.body import Body
-from regkit.body.fit import BodyFit, tolerance
+from regkit.body.fit import FARTHEST, BodyFit, tolerance
 from regkit.body.gaps import surface_gaps
 from regkit.body.verdict import Verdict, frame_verdict
 from regkit.observation.sight import Sight
@@ -33,7 +33,9 @@ def gaps_to_each(whole: Body, pose: Pose, points: Array) -> Array:
 
 
 def points_of_each(whole: Body, pose: Pose, points: Array) -> tuple[NDArray[np.bool_], ...]:
-    """Returns masks (N,) of the points of each of several bodies: nearest to it, and not far."""
+    """Returns masks (N,) of each of several bodies' points: nearest to it, and not far away."""
+    if not whole.free_bodies:
+        return ()
     gaps = gaps_to_each(whole, pose, points)
     nearest = gaps.argmin(axis=0)
     return tuple(
@@ -61,9 +63,7 @@ def unexplained_by_others(whole: Body, pose: Pose, points: Array, body: int) -> 
 def fits_of_each(
     whole: Body, pose: Pose, points: Array, sight: Sight | None
 ) -> tuple[BodyFit, ...]:
-    """Returns how well each of several bodies fits its own points; unknown without a point.
-
-    What another body hides of a body counts as hidden.
+    """Returns how well each of several bodies fits its own points; unknown if it is hidden.
 
     Args:
         whole: The bodies as one.
@@ -73,17 +73,35 @@ def fits_of_each(
     """
     owned = points_of_each(whole, pose, points)
     return tuple(
-        BodyFit.of(one.body, one.alone(pose), points[own], sight)
-        if own.any()
-        else BodyFit.unknown()
+        _fit(one.body, one.alone(pose), points[own], sight)
         for one, own in zip(whole.free_bodies, owned, strict=True)
     )
 
 
-def verdicts_of_each(fits: Iterable[BodyFit]) -> tuple[Verdict, ...]:
-    """Returns the verdict of each of several bodies by its fit; lost if it has no points."""
-    shares = [(one.inlier_share, one.coverage, one.misfit, one.relief) for one in fits]
+def _fit(body: Body, pose: Pose, points: Array, sight: Sight | None) -> BodyFit:
+    """Returns the fit of a body to its points; the worst if there should be some."""
+    if len(points):
+        return BodyFit.of(body, pose, points, sight)
+    if sight is not None and len(body.capsules):
+        axes = body.required_axes
+        spheres = axes.place(body.place(pose).transforms)
+        if not sight.observable(spheres, axes.radii + body.limb_radius).any():
+            return BodyFit.unknown()
+    return BodyFit(np.inf, 0.0, 0.0, 2.0 * FARTHEST, 0.0)
+
+
+def shares_of_each(fits: Sequence[BodyFit]) -> Array:
+    """Returns inlier share, coverage, misfit and relief of several fits, (K, 4)."""
+    rows = [(one.inlier_share, one.coverage, one.misfit, one.relief) for one in fits]
+    return np.array(rows).reshape(-1, 4)
+
+
+def verdicts_of_each(shares: Array) -> tuple[Verdict, ...]:
+    """Returns the verdict of each of several bodies; one that is hidden has no data.
+
+    Args:
+        shares: What ``shares_of_each`` returns, (K, 4).
+    """
     return tuple(
-        Verdict.LOST if np.isnan(inliers) else frame_verdict(1, inliers, *others)
-        for inliers, *others in shares
+        Verdict.NO_DATA if np.isnan(row[0]) else frame_verdict(1, *row) for row in shares.tolist()
     )

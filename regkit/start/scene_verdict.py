@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from regkit.body import BodyFit
 from regkit.body.each import gaps_to_each
 from regkit.body.fit import tolerance
-from regkit.body.verdict import Verdict, frame_verdict
+from regkit.body.verdict import Verdict, frame_verdict, worst
 from regkit.interfaces import Start
 from regkit.start.scene import Scene
 from regkit.start.several import FEWEST, SeveralSearch
@@ -23,9 +23,6 @@ LONG = 1.3
 
 AS_MANY = 0.05
 """It explains them as well if it has at most this much smaller a share of inliers than both."""
-
-WORSE = (Verdict.FOUND, Verdict.DOUBTFUL, Verdict.LOST)
-"""Verdicts from the best to the worst."""
 
 
 def judged_scene(scenes: Sequence[Scene], search: SeveralSearch) -> Start:
@@ -43,7 +40,7 @@ def judged_scene(scenes: Sequence[Scene], search: SeveralSearch) -> Start:
         margin = len(search.templates) * (rival.cost - scene.cost)
         if margin < SURE_MARGIN:
             told.append((Verdict.DOUBTFUL, "the bodies, exchanged, fit nearly as well"))
-    verdict = max((one for one, _ in told), key=WORSE.index)
+    verdict = worst(one for one, _ in told)
     reason = "; ".join(reason for _, reason in told if reason)
     return Start(scene.body, scene.pose, verdict, reason, margin)
 
