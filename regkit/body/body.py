@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from regkit.body.free_body import FreeBody
 from regkit.body.listed import ListedShape
 from regkit.body.parts import Part
 from regkit.geometry.capsules import AxisPoints, Capsules
@@ -17,9 +18,6 @@ from regkit.geometry.surface import SkinnedSurface
 from regkit.skeleton import Placement, Pose, Skeleton
 from regkit.system.arrays import Array, Indices
 from regkit.system.brief import Brief
-
-if TYPE_CHECKING:
-    from regkit.body.free_body import FreeBody
 
 SPACING = 0.05
 """Distance of the points on a body's axes, as a fraction of its size."""

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from regkit.body.body import Body
 from regkit.geometry.rigid import inverse, rigid
 from regkit.geometry.rotation import from_matrix, to_matrix
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array, Indices
 from regkit.system.brief import Brief
+
+if TYPE_CHECKING:
+    from regkit.body.body import Body
 
 
 @dataclass(frozen=True)

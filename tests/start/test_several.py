@@ -11,6 +11,8 @@ from regkit.interfaces import Start, StartSearch, Template
 from regkit.observation import Observation
 from regkit.start.divisions import divisions
 from regkit.system.errors import ConfigError
+from regkit.system.notes import RegkitWarning
+from regkit.tracking.extent import check_extent
 
 SEARCH = {"kind": "exemplars", "exemplars": 400, "looked_up": 60, "refined": 10, "finalists": 2}
 
@@ -100,3 +102,12 @@ def test_a_body_that_the_method_does_not_know_is_refused(files, tmp_path, lump) 
     observation = Observation(lump, np.ones(len(lump)), 1e-4 * np.ones(len(lump)))
     with pytest.raises(ConfigError, match="'lump' has no primitives"):
         search().find(whole, [observation])
+
+
+def test_bodies_far_apart_are_of_no_unlikely_extent(files) -> None:
+    """Nothing is told of the two, but of each alone in the same data."""
+    observation, _, _ = seen(template(files), *APART)
+    check_extent(observation.points, template(files), place="test")
+    ball = Template.parse(files["ball"], place="test", field="template")
+    with pytest.warns(RegkitWarning, match="spread over"):
+        check_extent(observation.points, ball, place="test")
