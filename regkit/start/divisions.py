@@ -32,7 +32,7 @@ class Division:
 
     Attributes:
         parts: Masks of the points, (N,) each.
-        cut: Whether a connected piece is cut.
+        cut: Whether a connected piece is cut, or several are one part.
     """
 
     parts: tuple[NDArray[np.bool_], ...]
@@ -43,8 +43,9 @@ def divisions(points: Array, count: int) -> Iterator[Division]:
     """Yields divisions of points (N, 3) [m] for several bodies, the likeliest first.
 
     The first is that into connected pieces, if there are enough; it may have more pieces than there
-    are bodies. In the others pieces are cut, where their points are least connected (Shi and Malik,
-    Normalized cuts and image segmentation, 2000), or in equal parts around centres.
+    are bodies. In the second, all but the largest are one body, which another one hides in part, so
+    that it is in pieces. In the others pieces are cut, where their points are least connected (Shi
+    and Malik, Normalized cuts and image segmentation, 2000), or in equal parts around centres.
 
     Args:
         points: The points.
@@ -53,6 +54,10 @@ def divisions(points: Array, count: int) -> Iterator[Division]:
     pieces = _pieces(points, count)
     if len(pieces) >= count:
         yield Division(tuple(_mask(one, len(points)) for one in pieces), cut=False)
+    rest = _rest(pieces[: count - 1], len(points))
+    if rest.any() and count > 1:
+        large = tuple(_mask(one, len(points)) for one in pieces[: count - 1])
+        yield Division((*large, rest), cut=True)
     for cut in (_least_connected, _around_centres):
         for parts in _parts_of(pieces, count):
             made = [
@@ -73,6 +78,14 @@ def _pieces(points: Array, count: int) -> list[Indices]:
     least = LEAST * len(points) / count
     large = [one for one in found if len(one) >= least]
     return sorted(large, key=len, reverse=True)[: count + MORE]
+
+
+def _rest(pieces: list[Indices], count: int) -> NDArray[np.bool_]:
+    """Returns a mask of the points, (N,), that are in none of some pieces."""
+    rest = np.ones(count, dtype=bool)
+    for piece in pieces:
+        rest[piece] = False
+    return rest
 
 
 def _parts_of(pieces: list[Indices], count: int) -> list[tuple[int, ...]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import permutations
 from operator import attrgetter
@@ -109,7 +109,7 @@ class SeveralSearch:
         near = NEARLY if clear else np.inf
         tried = [self.refined(one) if one.cost < least + near else one for one in found]
         tried.sort(key=attrgetter("cost"))
-        chosen = [self.with_limbs(one) for one in tried[:1]]
+        chosen = [self.with_limbs(self.with_rivals(one)) for one in tried[:1]]
         chosen += [one for one in tried if one.exchanges(chosen[0], self.templates)][:1]
         return sorted(chosen, key=attrgetter("cost"))
 
@@ -142,6 +142,17 @@ class SeveralSearch:
             if own.sum() >= FEWEST:
                 start = self.alone(at, own)[0]
                 scene = min(scene, self._with(scene, at, start), key=attrgetter("cost"))
+        return scene
+
+    def with_rivals(self, scene: Scene) -> Scene:
+        """Returns a scene with other poses of its bodies, if it is better.
+
+        With the points of the others at hand, another pose than the best one alone may be right.
+        """
+        for at, start in enumerate(scene.starts):
+            for pose in start.rivals:
+                tried = self._with(scene, at, replace(start, pose=pose))
+                scene = min(scene, tried, key=attrgetter("cost"))
         return scene
 
     def with_limbs(self, scene: Scene) -> Scene:

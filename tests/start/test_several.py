@@ -111,3 +111,11 @@ def test_bodies_far_apart_are_of_no_unlikely_extent(files) -> None:
     ball = Template.parse(files["ball"], place="test", field="template")
     with pytest.warns(RegkitWarning, match="spread over"):
         check_extent(observation.points, ball, place="test")
+
+
+def test_a_body_that_is_mostly_hidden_is_doubtful(files) -> None:
+    """The ball is behind the pole, but for a rim."""
+    observation, _, _ = seen(template(files), [0.0, 0.0, 2.0], [0.0, 0.1, 2.6])
+    start = search().find(template(files), [observation])
+    assert start.verdict is not Verdict.FOUND
+    assert "ball:" in start.reason

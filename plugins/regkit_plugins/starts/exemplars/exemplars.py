@@ -93,7 +93,9 @@ class Exemplars(StartSearch):
                 finalists = standing(finalists, body)
                 pose = at_root(body, finalists[0].pose)
                 pose = self.method.bind(body).register(observations[0], [pose]).pose
-            return judged(body, pose, observations[0], margin(finalists), doubts)
+            start = judged(body, pose, observations[0], margin(finalists), doubts)
+            rivals = () if fixed else tuple(one.pose for one in finalists[1:])
+            return replace(start, rivals=rivals)
 
     def _search(self, template: Template) -> Search:
         sizes = template.candidate_sizes()
