@@ -55,7 +55,7 @@ def divisions(points: Array, count: int) -> Iterator[Division]:
     if len(pieces) >= count:
         yield Division(tuple(_mask(one, len(points)) for one in pieces), cut=False)
     rest = _rest(pieces[: count - 1], len(points))
-    if rest.any() and count > 1:
+    if rest.any() and len(pieces) >= count - 1:
         large = tuple(_mask(one, len(points)) for one in pieces[: count - 1])
         yield Division((*large, rest), cut=True)
     for cut in (_least_connected, _around_centres):
