@@ -17,8 +17,8 @@ from regkit.tracking.extent import check_extent
 SEARCH = {"kind": "exemplars", "exemplars": 400, "looked_up": 60, "refined": 10, "finalists": 2}
 
 
-def search() -> StartSearch:
-    return StartSearch.parse(SEARCH, place="test", field="start")
+def search(kind: str = "exemplars") -> StartSearch:
+    return StartSearch.parse(SEARCH if kind == "exemplars" else kind, place="test", field="start")
 
 
 @pytest.fixture
@@ -32,9 +32,10 @@ def marked(start: Start) -> dict[str, np.ndarray]:
     return dict(zip(start.body.markers.names, places, strict=True))
 
 
-def test_bodies_apart_are_found(files) -> None:
+@pytest.mark.parametrize("kind", ["exemplars", "stances"])
+def test_bodies_apart_are_found(files, kind) -> None:
     observation, body, truth = seen(template(files), *APART)
-    start = search().find(template(files), [observation])
+    start = search(kind).find(template(files), [observation])
     expected = marked(Start(body, truth))
     assert start.verdict is Verdict.FOUND, start.reason
     for name, place in marked(start).items():
