@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from _bodies_objects import hand_with_can
 from _bodies_recovery import after_jumps, jumping
 from _bodies_starts import starts
 from _starts_sr305 import DATA, SEQUENCES, tracked_hand
@@ -111,6 +112,11 @@ def jumps() -> dict[str, object]:
               f"{percent:.0f} % of the frames within {1e3 * LOST:.0f} mm", flush=True)  # fmt: skip
         told[name] = {"mm": round(1e3 * float(errors.mean()), 2), "percent": round(percent, 1)}
     return told
+
+
+def carried() -> dict[str, float]:
+    """Prints the starts of a hand with a can, and returns figures."""
+    return hand_with_can(LENGTH, POINTS)
 
 
 def forearm_sr305() -> dict[str, float]:
