@@ -6,13 +6,17 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from _bodies_objects import hand_with_can
+from _bodies_recovery import after_jumps, jumping
+from _bodies_starts import starts
 from _starts_sr305 import DATA, SEQUENCES, tracked_hand
 
 from regkit.body import Body
 from regkit.config.document import Document
 from regkit.geometry.rigid import rigid
 from regkit.geometry.rotation import from_matrix, to_vector
-from regkit.interfaces import Method, Past, Template, Tracker
+from regkit.interfaces import Method, Past, StartSearch, Template, Tracker
+from regkit.metrics import exchanged_frames
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit_plugins.datasets.synthetic import Synthetic, SyntheticRecording
@@ -26,48 +30,93 @@ SIDES = ("right", "left")
 
 POINTS = PointsPreprocessor(voxel=0.008, sigma=0.004)
 
+LOST = 0.02
+"""A hand with a larger mean joint error is lost [m]."""
+
 FIT_STEPS, FIT_DAMPING = 60, 1e-6
 """Gauss-Newton steps that pose a body by the markers of the first frame, and their damping."""
 
 
 def two_hands() -> dict[str, object]:
-    """Prints the table of two hands, and returns figures.
+    """Prints the tables of two hands, and returns figures.
 
-    The first frame starts at the pose whose markers are nearest to the truth, so that only tracking
-    is measured. Beside each take stand the same hands, each tracked alone in a recording without
-    the other. The hands have exchanged identities in a frame if the two centres of their joints are
-    nearer to the truth when exchanged.
+    The hands are tracked from the pose whose markers are nearest to the truth in the first frame,
+    so that only tracking is measured, and from the start that is found there. Beside each take
+    stand the same hands, each tracked alone in a recording without the other, from the former.
     """
-    print(f"\n{'two hands':<14}{'both mm':>16}{'alone mm':>16}{'ratio':>8}{'exchanged':>11}")
+    print(f"\n{'two hands':<14}{'both mm':>16}{'alone mm':>16}{'ratio':>8}{'exchanged':>11}"
+          f"{'from found start':>18}{'ratio':>8}{'exchanged':>11}")  # fmt: skip
     figures: dict[str, object] = {}
-    errors: list[list[Array]] = [[], []]
+    errors: dict[str, list[Array]] = {"given": [], "found": [], "alone": []}
     exchanged = 0
     both = _template({"kind": "composed", "free": {side: _hand(side) for side in SIDES}})
-    for recording in _dataset().chosen():
-        assert isinstance(recording, SyntheticRecording)
-        truth, places = _tracked(both, recording)
-        own = np.linalg.norm(places - truth, axis=2)
+    recordings = [one for one in _dataset().chosen() if isinstance(one, SyntheticRecording)]
+    for recording in recordings:
         alone = np.concatenate([_alone(recording, side) for side in SIDES], axis=1)
-        count = _exchanged(places, truth)
-        exchanged += count
-        errors[0].append(own)
-        errors[1].append(alone)
-        ratio = own.mean() / alone.mean()
-        halves = [1e3 * one.mean() for one in (*np.split(own, 2, 1), *np.split(alone, 2, 1))]
-        cells = f"{halves[0]:.1f} / {halves[1]:.1f}", f"{halves[2]:.1f} / {halves[3]:.1f}"
-        print(f"{recording.name:<14}{cells[0]:>16}{cells[1]:>16}{ratio:>8.2f}{count:>11}")
-        figures[recording.name] = {
-            "mm": round(1e3 * float(own.mean()), 2),
-            "alone_mm": round(1e3 * float(alone.mean()), 2),
-            "ratio": round(float(ratio), 3),
-            "exchanged_frames": count,
-        }
-    means = [np.concatenate(each).mean() for each in errors]
+        errors["alone"].append(alone)
+        row: dict[str, float] = {"alone_mm": round(1e3 * float(alone.mean()), 2)}
+        cells = []
+        for start in ("given", "found"):
+            truth, places, names = _tracked(both, recording, found=start == "found")
+            own = np.linalg.norm(places - truth, axis=2)
+            errors[start].append(own)
+            switched = exchanged_frames(names, [one.split("_")[0] for one in names], places, truth)
+            assert switched is not None
+            exchanged += int(switched.sum())
+            row |= {
+                f"{start}_mm": round(1e3 * float(own.mean()), 2),
+                f"{start}_ratio": round(float(own.mean() / alone.mean()), 3),
+                f"{start}_exchanged_frames": int(switched.sum()),
+            }
+            halves = [1e3 * one.mean() for one in np.split(own, 2, 1)]
+            cells.append(f"{halves[0]:.1f} / {halves[1]:.1f}")
+        halves = [1e3 * one.mean() for one in np.split(alone, 2, 1)]
+        cells.insert(1, f"{halves[0]:.1f} / {halves[1]:.1f}")
+        print(
+            f"{recording.name:<14}{cells[0]:>16}{cells[1]:>16}{row['given_ratio']:>8.2f}"
+            f"{row['given_exchanged_frames']:>11}{cells[2]:>18}{row['found_ratio']:>8.2f}"
+            f"{row['found_exchanged_frames']:>11}",
+            flush=True,
+        )
+        figures[recording.name] = row
+    means = {name: float(np.concatenate(each).mean()) for name, each in errors.items()}
     return {
         "takes": figures,
-        "ratio": round(float(means[0] / means[1]), 3),
+        "ratio": round(means["given"] / means["alone"], 3),
+        "found_ratio": round(means["found"] / means["alone"], 3),
         "identities_kept": exchanged == 0,
+        "starts": starts(recordings, both, POINTS),
     }
+
+
+def jumps() -> dict[str, object]:
+    """Prints what the search of a lost hand beside the other gains, and returns figures.
+
+    In each of six recordings one hand jumps twice by some 20 cm and turns by about 100 degrees.
+    """
+    both = _template({"kind": "composed", "free": {side: _hand(side) for side in SIDES}})
+    found: dict[str, list[Array]] = {"sought": [], "not": []}
+    for recording in jumping():
+        for name, recovery in (("sought", {}), ("not", {"reinitialization": None})):
+            truth, places, names = _tracked(both, recording, recovery=recovery)
+            side = recording.name.split("_")[0]
+            own = np.array([one.startswith(side) for one in names])
+            errors = np.linalg.norm(places - truth, axis=2)[:, own].mean(axis=1)
+            found[name].append(after_jumps(errors, recording.fps))
+    told: dict[str, object] = {}
+    for name, each in found.items():
+        errors = np.concatenate(each)
+        percent = 100.0 * float((errors < LOST).mean())
+        words = "with the search" if name == "sought" else "without"
+        print(f"hand that jumps, {words}: {1e3 * errors.mean():.1f} mm, "
+              f"{percent:.0f} % of the frames within {1e3 * LOST:.0f} mm", flush=True)  # fmt: skip
+        told[name] = {"mm": round(1e3 * float(errors.mean()), 2), "percent": round(percent, 1)}
+    return told
+
+
+def carried() -> dict[str, float]:
+    """Prints the starts of a hand with a can, and returns figures."""
+    return hand_with_can(LENGTH, POINTS)
 
 
 def forearm_sr305() -> dict[str, float]:
@@ -104,25 +153,44 @@ def _alone(recording: SyntheticRecording, side: str) -> Array:
     alone = {"frames": take.frames, "view": take.view.model_dump(exclude_unset=True), **part}
     (only,) = Synthetic.model_validate({**whole, "takes": {name: alone}}).chosen()
     assert isinstance(only, SyntheticRecording)
-    truth, places = _tracked(_template(_hand(side)), only)
+    truth, places, _ = _tracked(_template(_hand(side)), only)
     return np.asarray(np.linalg.norm(places - truth, axis=2))
 
 
-def _tracked(template: Template, recording: SyntheticRecording) -> tuple[Array, Array]:
-    """Returns the true and the tracked positions (T, J, 3) [m] of the joints."""
+def _tracked(
+    template: Template,
+    recording: SyntheticRecording,
+    *,
+    found: bool = False,
+    recovery: Mapping[str, Any] | None = None,
+) -> tuple[Array, Array, tuple[str, ...]]:
+    """Returns the true and the tracked positions (T, J, 3) [m] of the joints, and their names.
+
+    Args:
+        template: The template.
+        recording: The recording.
+        found: Whether the start is searched; otherwise it is nearest to the truth.
+        recovery: Fields of the tracker's recovery; by default none.
+    """
     body = template.body(LENGTH)
     registrar = Method.parse("best", place="benchmark", field="method").bind(body)
-    tracker = Tracker.parse("constant_velocity", place="benchmark", field="tracker").bind(registrar)
+    follows = {"kind": "constant_velocity", "recovery": dict(recovery or {})}
+    tracker = Tracker.parse(follows, place="benchmark", field="tracker").bind(registrar)
     truth = recording.truth()
     assert truth is not None
     order = np.array([body.markers.names.index(joint) for joint in truth.joints])
-    past = Past.start(_posed(body, order, truth.positions[0]))
+    if found:
+        search = StartSearch.parse(StartSearch.default(), place="benchmark", field="start")
+        first = POINTS.preprocess(next(iter(recording.frames())))
+        past = Past.start(search.find(template, [first]).pose)
+    else:
+        past = Past.start(_posed(body, order, truth.positions[0]))
     places = []
     for frame in recording.frames():
         past = past.followed_by(tracker.step(POINTS.preprocess(frame), past))
         transforms = body.place(past.last.pose).transforms
         places.append(body.markers.place(transforms)[order])
-    return truth.positions, np.array(places)
+    return truth.positions, np.array(places), truth.joints
 
 
 def _posed(body: Body, order: Array, places: Array) -> Pose:
@@ -150,15 +218,3 @@ def _posed(body: Body, order: Array, places: Array) -> Pose:
             bones.retract(pose, -np.linalg.solve(normal, jacobian.T @ gaps))
         )
     return pose
-
-
-def _exchanged(places: Array, truth: Array) -> int:
-    """Returns the number of frames in which the hands have exchanged identities."""
-    found, true = (
-        [half.mean(axis=1) for half in np.split(one, 2, axis=1)] for one in (places, truth)
-    )
-    kept, swapped = (
-        sum(np.linalg.norm(a - b, axis=1) for a, b in zip(found, order, strict=True))
-        for order in (true, true[::-1])
-    )
-    return int(np.sum(swapped < kept))

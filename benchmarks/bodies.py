@@ -13,8 +13,12 @@ One thread.
 People with hands gesture a metre before an upright camera with noise of 3 mm, as tracked from the
 start that is found (`_bodies_hands.py`); beside them is the error of the body alone.
 
-Two hands of the preset `two_hands` are tracked as one composed body, and each of them alone in the
-same motion; real hands are tracked with a forearm (`_bodies_several.py`).
+Two hands of the preset `two_hands` are tracked as one composed body, from the true pose and from
+the start that is found, and each of them alone in the same motion; real hands are tracked with a
+forearm (`_bodies_several.py`). One in five of their frames is a first frame for a start from
+nothing (`_bodies_starts.py`), and in others one hand jumps, so that it has to be found again
+(`_bodies_recovery.py`). A hand with a can that it carries is found from nothing
+(`_bodies_objects.py`).
 
 The shape of unknown people is found in three frames and in whole scans (`_bodies_shape.py`); what
 was chosen was chosen on other people.
@@ -31,7 +35,7 @@ from pathlib import Path
 
 import numpy as np
 from _bodies_hands import hands_with_body
-from _bodies_several import forearm_sr305, two_hands
+from _bodies_several import carried, forearm_sr305, jumps, two_hands
 from _bodies_shape import unknown_bodies
 from threadpoolctl import threadpool_limits
 
@@ -74,7 +78,8 @@ def main(robot: Path) -> None:
     print(f"median of the bases: {middles[:, 0].mean():.2f} mm, {middles[:, 1].mean():.2f} deg")
     print(f"squared error of the one base in standard deviations: {squares:.2f}")
     arm = {"arm_deg": figures["robots"]["hinges_deg"], "methods": figures}
-    several = {"two_hands": two_hands(), "forearm_sr305_mm": forearm_sr305()}
+    hands = {"two_hands": two_hands(), "hand_that_jumps": jumps(), "hand_with_can": carried()}
+    several = {**hands, "forearm_sr305_mm": forearm_sr305()}
     print(json.dumps({**unknown_bodies(), **arm, **hands_with_body(), **several}))
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Self
 
 from regkit.observation import Observation
@@ -32,6 +33,7 @@ class LivePose(Brief):
         seconds: Time to preprocess and register [s].
         deviations: Standard deviations of the markers along the camera's axes, (M, 3) [m]; None if
             the method does not know them, or without data.
+        bodies: Whether each of several bodies was found, by name; empty for one body.
     """
 
     number: int
@@ -46,6 +48,7 @@ class LivePose(Brief):
     latency: float
     seconds: float
     deviations: Array | None = None
+    bodies: Mapping[str, Verdict] = field(default_factory=dict)
 
     @classmethod
     def of(cls, frame: LiveFrame) -> Self:
@@ -64,4 +67,5 @@ class LivePose(Brief):
             latency=frame.latency,
             seconds=tracked.seconds,
             deviations=recorded.deviations(),
+            bodies=recorded.bodies,
         )

@@ -163,6 +163,15 @@ class Tracking(Summary):
         return self.track.verdicts
 
     @property
+    def body_verdicts(self) -> dict[str, tuple[Verdict, ...]]:
+        """Whether each of several bodies was found in each frame, (T,), by name; hidden: no data.
+
+        Empty for one body.
+        """
+        each = zip(*self.track.body_verdicts, strict=True)
+        return dict(zip([one.name for one in self.body.free_bodies], each, strict=False))
+
+    @property
     def inlier_shares(self) -> Array:
         """Fraction of each frame's points that lie on the body, (T,); NaN without data."""
         return self.track.inlier_shares

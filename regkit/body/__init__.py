@@ -6,6 +6,7 @@ from regkit.body.deformation import Deformation, Mirror, Scaling, Stretch
 from regkit.body.description import BodyDescription
 from regkit.body.ellipsoids import BallParameters, EllipsoidParameters
 from regkit.body.fit import BodyFit
+from regkit.body.free_body import FreeBody
 from regkit.body.freedoms import Freedom
 from regkit.body.gaussians import GaussianParameters, IsotropicGaussianParameters
 from regkit.body.listed import ListedShape, capsules, ellipsoids, gaussians, of_capsules
@@ -21,6 +22,7 @@ __all__ = [
     "CapsuleParameters",
     "Deformation",
     "EllipsoidParameters",
+    "FreeBody",
     "Freedom",
     "GaussianParameters",
     "IsotropicGaussianParameters",

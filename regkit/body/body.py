@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from regkit.body.free_body import FreeBody
 from regkit.body.listed import ListedShape
 from regkit.body.parts import Part
 from regkit.geometry.capsules import AxisPoints, Capsules
@@ -85,6 +86,7 @@ class Body(Brief):
         parts: The parts of a composed body, such as its hands; none if it is not composed.
         base: The same body with its own segments in place of attached parts, which is found first;
             None if it has no attached parts.
+        free_bodies: The bodies of which it consists, if several move freely beside each other.
     """
 
     name: str
@@ -99,6 +101,7 @@ class Body(Brief):
     optional: tuple[int, ...] = ()
     parts: tuple[Part, ...] = ()
     base: Body | None = None
+    free_bodies: tuple[FreeBody, ...] = ()
 
     def __repr__(self) -> str:
         """Returns what the body consists of, in one line."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -11,6 +11,7 @@ import numpy as np
 from regkit.body.body import Body
 from regkit.body.composing import attached, beside
 from regkit.body.description import BodyDescription
+from regkit.body.free_body import FreeBody
 from regkit.body.members import Member
 from regkit.geometry.joined_surface import in_frame, joined, moved_rest, on_segments_of, without
 from regkit.geometry.rigid import inverse, rigid
@@ -69,8 +70,18 @@ class Composition:
     def body(self, name: str) -> Body:
         """Returns the body of the whole, called ``name``."""
         whole = self.description.body(name, self.description.size.value)
-        base = self.bodies[0].body if self.parts and len(self.bodies) == 1 else None
-        return replace(whole, surface=self._surface(whole.skeleton.names), base=base)
+        whole = replace(whole, surface=self._surface(whole.skeleton.names))
+        if len(self.bodies) == 1:
+            return replace(whole, base=self.bodies[0].body if self.parts else None)
+        return replace(whole, free_bodies=tuple(self._each(whole)))
+
+    def _each(self, whole: Body) -> Iterator[FreeBody]:
+        """Yields each of several bodies, the first one with its parts."""
+        for index, one in enumerate(self.bodies):
+            alone = one.body
+            if self.parts and not index:
+                alone = Composition([one], self.parts).body(one.member.name)
+            yield FreeBody.of(one.member.name, alone, whole, one.member.prefix)
 
     def _surface(self, segments: Sequence[str]) -> SkinnedSurface | None:
         """Returns the surface of the whole; None if a member has none.

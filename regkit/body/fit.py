@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import KDTree
 
 from regkit.body.body import Body
+from regkit.body.gaps import surface_gaps
 from regkit.clouds.compiled_nearest import nearest_distances
 from regkit.observation.sight import Sight
 from regkit.skeleton import Pose
@@ -36,7 +36,8 @@ class BodyFit:
             each up to twice the radius of a typical limb and in units of it: 0 to 4. NaN for a body
             without capsules.
         relief: Standard deviation of the points along their thinnest direction, in radii of a
-            typical limb; that of a wall is near 0, that of a body seen from one side about 1.
+            typical limb; that of a wall is near 0, that of a body seen from one side about 1. A
+            rigid body with a flatter side has a smaller unit.
     """
 
     distance: float
@@ -60,11 +61,13 @@ class BodyFit:
             points: The data, (N, 3) [m].
             sight: What the cameras show; None if everything is seen.
         """
-        points, transforms = loop_input(points), body.place(pose).transforms
+        gaps = surface_gaps(body, pose, points)
+        if gaps is None:
+            return cls.unknown()
+        near = tolerance(body)
         if len(body.capsules):
-            capsules = body.capsules.place(transforms)
-            gaps = np.abs(capsules.surface_distance(points))
-            near, axes = body.limb_radius, body.required_axes
+            points, transforms = loop_input(points), body.place(pose).transforms
+            axes = body.required_axes
             spheres = axes.place(transforms)
             bare = np.maximum(nearest_distances(spheres, points, np.inf) - axes.radii, 0.0)
             if sight is not None:
@@ -74,15 +77,10 @@ class BodyFit:
             coverage = float((bare <= near).mean())
             sides = [np.minimum(side / near, FARTHEST).mean() for side in (gaps, bare)]
             misfit = float(sum(sides))
-            relief = _least_deviation(points) / near
-        elif body.surface is not None:
-            placed = body.surface.place(transforms)
-            gaps = np.asarray(KDTree(placed).query(points)[0])
-            near = NEAR * body.size
+            relief = _least_deviation(points) / _relief_of(body, pose, points)
+        else:
             # The far side of an object is never seen, and an object may be flat.
             coverage = misfit = relief = float("nan")
-        else:
-            return cls.unknown()
         return cls(
             distance=float(np.median(gaps)),
             inlier_share=float((gaps <= near).mean()),
@@ -90,6 +88,25 @@ class BodyFit:
             misfit=misfit,
             relief=relief,
         )
+
+
+def tolerance(body: Body) -> float:
+    """Returns the distance within which data fit a body's surface [m]."""
+    return body.limb_radius if len(body.capsules) else NEAR * body.size
+
+
+def _relief_of(body: Body, pose: Pose, points: Array) -> float:
+    """Returns the unit of the relief of data (N, 3) [m]: the radius of a typical limb.
+
+    A rigid body may show a side that is flatter, such as a ball, or a box from the front: then it
+    is twice the deviation of its surface beside the data.
+    """
+    if len(body.skeleton.names) > 1:
+        return body.limb_radius
+    placed = body.capsules.place(body.place(pose).transforms)
+    _, distances, directions = placed.nearest(points)
+    beside = _least_deviation(points - distances[:, None] * directions)
+    return max(min(body.limb_radius, 2.0 * beside), 1e-9)
 
 
 def _least_deviation(points: Array) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from enum import StrEnum
 from typing import Any
 
@@ -73,6 +74,14 @@ def frame_verdicts(
     """Returns the verdict of each of T frames, from arrays (T,) of what ``frame_verdict`` takes."""
     columns = (points, inlier_shares, coverages, misfits, reliefs)
     return tuple(map(frame_verdict, *(column.tolist() for column in columns)))
+
+
+_FROM_GOOD_TO_BAD = (Verdict.NO_DATA, Verdict.FOUND, Verdict.DOUBTFUL, Verdict.LOST)
+
+
+def worst(verdicts: Iterable[Verdict]) -> Verdict:
+    """Returns the worst of the verdicts of several bodies; those without data do not count."""
+    return max(verdicts, key=_FROM_GOOD_TO_BAD.index, default=Verdict.NO_DATA)
 
 
 def check_verdicts(stored: NDArray[Any], frames: int) -> None:

@@ -106,16 +106,20 @@ def _hinges(tracking: Tracking) -> CsvTable:
 
 
 def _frames(tracking: Tracking) -> CsvTable:
-    """Returns a table of the frames: verdict, agreement with the data, and cost."""
+    """Returns a table of the frames: verdict, agreement with the data, and cost.
+
+    Each of several bodies has a column of its own verdicts.
+    """
     track = tracking.track
     columns = ("inlier_shares", "coverages", "misfits", "reliefs", "surface_distances")
     shares = zip(*(getattr(track, name) for name in columns), strict=True)
     return (
         "frame", "time_s", "verdict", "points", "inlier_share", "coverage", "misfit", "relief",
         "surface_distance_m", "converged", "seconds",
+        *(f"verdict_{one.name}" for one in tracking.body.free_bodies),
     ), (
         (frame, f"{track.times[at]:.6f}", track.verdicts[at], int(track.points[at]),
          *(f"{value:.6g}" if math.isfinite(value) else "" for value in row),
-         int(track.converged[at]), f"{track.seconds[at]:.6f}")
+         int(track.converged[at]), f"{track.seconds[at]:.6f}", *track.body_verdicts[at])
         for at, (frame, row) in enumerate(zip(tracking.numbers, shares, strict=True))
     )  # fmt: skip

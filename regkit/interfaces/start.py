@@ -27,6 +27,8 @@ class Start(Brief):
         reason: Why it is not surely found; empty if it is.
         margin: Cost of the best rival that is turned or mirrored, less that of the pose,
             dimensionless; NaN if there was no rival.
+        rivals: Other poses that were registered, the best first; what else is known of the scene
+            may decide for one of them.
     """
 
     body: Body
@@ -34,6 +36,7 @@ class Start(Brief):
     verdict: Verdict = Verdict.FOUND
     reason: str = ""
     margin: float = float("nan")
+    rivals: tuple[Pose, ...] = ()
 
     @property
     def summary(self) -> str:

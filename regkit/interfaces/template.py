@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -63,6 +63,14 @@ class Template(Plugin, ABC):
         A body of this template then has the other's body as its ``base``.
         """
         return None
+
+    def free_bodies(self) -> Mapping[str, Template]:
+        """Returns the templates of several bodies that move freely beside each other, by name.
+
+        A body of this template then has theirs as its ``free_bodies``, in the same order and at
+        their sizes. By default there is one body, and the mapping is empty.
+        """
+        return {}
 
     def name(self) -> str:
         """Returns the name of the body in messages."""

@@ -14,6 +14,7 @@ from regkit.metrics.measure import (
     measured,
 )
 from regkit.metrics.pairs import Pair, compared
+from regkit.metrics.parts import exchanged_frames, parts_of_markers
 from regkit.metrics.statistics import Summary, summary
 from regkit.metrics.thresholds import auc, fraction_within
 
@@ -30,12 +31,14 @@ __all__ = [
     "check_reference_unit",
     "checked_measure",
     "compared",
+    "exchanged_frames",
     "fraction_within",
     "in_words",
     "joint_errors",
     "matched",
     "mean_of",
     "measured",
+    "parts_of_markers",
     "summary",
     "tell_unmatched",
 ]

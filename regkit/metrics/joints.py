@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from regkit.body import Body
 from regkit.metrics.matching import check_reference_unit, matched
+from regkit.metrics.parts import exchanged_frames, parts_of_markers
 from regkit.observation import Truth
 from regkit.system.arrays import Array
 from regkit.tracking import Track
@@ -37,6 +38,10 @@ class JointErrors:
         covered: Share of the three coordinates whose adjusted error is within the 90 % interval of
             the marker, (T, J). A constant displacement is a matter of where a marker is defined,
             and no error of the pose.
+        parts: Name of the part of each joint, (J,), which is empty for joints of no part; empty if
+            the body has no parts.
+        exchanged: 1 where two parts of like joints, exchanged, would be nearer to the reference,
+            else 0, (T,); None without such parts.
     """
 
     joints: tuple[str, ...]
@@ -44,6 +49,22 @@ class JointErrors:
     adjusted: Array
     deviations: Array | None = None
     covered: Array | None = None
+    parts: tuple[str, ...] = ()
+    exchanged: Array | None = None
+
+    def of_part(self, part: str) -> JointErrors:
+        """Returns the errors of the joints of one part."""
+        own = np.array([name == part for name in self.parts], dtype=bool)
+        return replace(
+            self,
+            joints=tuple(joint for joint, kept in zip(self.joints, own, strict=True) if kept),
+            raw=self.raw[:, own],
+            adjusted=self.adjusted[:, own],
+            deviations=None if self.deviations is None else self.deviations[:, own],
+            covered=None if self.covered is None else self.covered[:, own],
+            parts=(part,) * int(own.sum()),
+            exchanged=None,
+        )
 
     def expected(self) -> Array | None:
         """Returns the distance within which a joint is expected in 9 of 10 cases, (T,) [m].
@@ -94,12 +115,23 @@ def joint_errors(track: Track, body: Body, truth: Truth, joints: Mapping[str, st
         beyond = np.abs(np.einsum("tjab,tjb->tja", rotations, adjusted)) > HALF_WIDTH * sides
         certain = np.isfinite(adjusted).all(axis=2) & np.isfinite(deviations)
         covered = np.where(certain, 1.0 - beyond.mean(axis=2), np.nan)
+    parts = parts_of_markers(body, markers) if body.parts else ()
+    exchanged = None
+    if parts:
+        exchanged = exchanged_frames(
+            [body.markers.names[marker] for marker in markers],
+            parts,
+            track.markers[:frames, markers],
+            truth.positions[:frames, columns],
+        )
     return JointErrors(
         joints=tuple(truth.joints[column] for column in columns),
         raw=np.linalg.norm(error, axis=2),
         adjusted=np.linalg.norm(adjusted, axis=2),
         deviations=deviations,
         covered=covered,
+        parts=parts,
+        exchanged=exchanged,
     )
 
 

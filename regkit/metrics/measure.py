@@ -69,6 +69,8 @@ class Measure:
             that the method gives a marker; None if it gives none.
         interval_coverage_percent: Percentage of the joints' coordinates whose adjusted error is
             within the 90 % interval of the marker.
+        exchanged_percent: Percentage of the frames in which two parts of like joints, such as two
+            hands, would be nearer to the reference if they were exchanged; None without such parts.
         verdict: Whether the body was found in the recording: found, doubtful or lost.
         reason: Why it is doubtful or lost, or how many frames have no data; None if neither.
     """
@@ -97,6 +99,7 @@ class Measure:
     fps: Positive | None
     marker_deviation_cm: Amount | None
     interval_coverage_percent: Percent | None
+    exchanged_percent: Percent | None
     # JSON holds the verdict as text.
     verdict: Annotated[Verdict, Strict(strict=False)] | None = None
     reason: str | None = None
@@ -167,6 +170,7 @@ def measured(
         fps=float(seen.sum() / track.seconds[seen].sum()) if seen.any() else None,
         marker_deviation_cm=_mean(_deviations(track, body), 100.0),
         interval_coverage_percent=_mean(None if errors is None else errors.covered, 100.0),
+        exchanged_percent=_mean(None if errors is None else errors.exchanged, 100.0),
         verdict=judged.verdict,
         reason=judged.reason or None,
     )

@@ -7,11 +7,13 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from regkit.geometry.camera import Camera
 from regkit.geometry.rigid import transformed
 from regkit.observation.arrays import ObservationArrays
 from regkit.observation.landmarks import Landmarks
+from regkit.observation.removed_pixels import depth_of_kept
 from regkit.observation.sight import SharedSight, Sight
 from regkit.observation.silhouette import Silhouette
 from regkit.observation.view import View, only_view
@@ -98,6 +100,35 @@ class Observation(Brief):
             return self
         landmarks = None if self.landmarks is None else self.landmarks.moved(view.to_camera)
         return Observation.of_views([one.moved(view.to_camera) for one in self.views], landmarks)
+
+    def only(self, kept: NDArray[np.bool_]) -> Observation:
+        """Returns the data with some of the points; the pixels of others are free or unknown.
+
+        Args:
+            kept: Mask of the points to keep, (N,).
+
+        Raises:
+            DataError: If no point is kept.
+        """
+        if self.views:
+            ends = np.cumsum([len(view.data.points) for view in self.views])[:-1]
+            left = [
+                replace(view, data=view.data.only(mask))
+                for view, mask in zip(self.views, np.split(kept, ends), strict=True)
+                if mask.any()
+            ]
+            return Observation.of_views(left, self.landmarks)
+        depth = self.depth
+        if depth is not None and self.camera is not None and not kept.all():
+            depth = depth_of_kept(depth, self.camera, self.points, kept)
+        return replace(
+            self,
+            points=self.points[kept],
+            weights=self.weights[kept],
+            variances=self.variances[kept],
+            depth=depth,
+            normals=None if self.normals is None else self.normals[kept],
+        )
 
     def __post_init__(self) -> None:
         """Validates the arrays.

@@ -48,6 +48,7 @@ COLUMNS = (
     Column("surface_distance_mm", "surface", "mm"),
     Column("marker_deviation_cm", "deviation", "cm", digits=2),
     Column("interval_coverage_percent", "in 90 %", "%"),
+    Column("exchanged_percent", "exchanged", "%", "less"),
     Column("limit_violation_deg", "limits", "°", "less"),
     Column("evaluations_per_frame", "evaluations", "/frame"),
     Column("fps", "speed", "fps", "more"),

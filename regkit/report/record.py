@@ -128,6 +128,8 @@ class Record:
             named["joints"] = np.array(self.errors.joints, dtype=np.str_)
             named["raw"] = self.errors.raw
             named["adjusted"] = self.errors.adjusted
+            if self.errors.parts:
+                named["parts"] = np.array(self.errors.parts, dtype=np.str_)
             if self.errors.deviations is not None and self.errors.covered is not None:
                 named["deviations"] = self.errors.deviations
                 named["covered"] = self.errors.covered
@@ -153,10 +155,13 @@ class Record:
         errors = None
         if "joints" in named:
             joints = tuple(str(joint) for joint in named["joints"])
+            parts = tuple(str(part) for part in named.get("parts", ()))
+            if len(parts) not in (0, len(joints)):
+                raise ValueError(f"there are {len(parts)} parts of {len(joints)} joints")
             known = [name for name in ("raw", "adjusted", "deviations", "covered") if name in named]
             errors = JointErrors(joints, **{
                 name: real_numbers(named[name], name).reshape(frames, len(joints)) for name in known
-            })  # fmt: skip
+            }, parts=parts)  # fmt: skip
         drawings: list[FrameDrawing] = []
         while any(name.startswith(prefix := f"drawing{len(drawings)}_") for name in named):
             own = {

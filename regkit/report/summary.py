@@ -7,11 +7,14 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from regkit.metrics import METRICS, mean_of, summary
 from regkit.metrics.statistics import Interval
 from regkit.report.figures.joints import errors_of, joint_means
 from regkit.report.plot import Value, write_csv
 from regkit.report.run import Run
+from regkit.system.arrays import Array
 
 
 def metrics(run: Run) -> dict[str, Any]:
@@ -32,6 +35,7 @@ def metrics(run: Run) -> dict[str, Any]:
             "median": {name: one.median for name, one in over.items()},
             "interval": {name: _listed(one.interval) for name, one in over.items()},
             "joints": _joints(run, method),
+            "parts": _parts(run, method),
         }
     pairs = [asdict(pair) | {"interval": _listed(pair.interval)} for pair in run.pairs()]
     return {"methods": methods, "pairs": pairs}
@@ -59,6 +63,13 @@ def write_tables(run: Run, folder: Path) -> None:
         for joint, one in _joints(run, method).items()
     ]
     write_csv(folder / "joints.csv", ["method", "joint", "raw [cm]", "adjusted [cm]"], joints)
+    parts = [
+        [method, part, one["raw_cm"], one["adjusted_cm"]]
+        for method in run.finished
+        for part, one in _parts(run, method).items()
+    ]
+    if parts:
+        write_csv(folder / "parts.csv", ["method", "part", "raw [cm]", "adjusted [cm]"], parts)
     write_csv(
         folder / "pairs.csv",
         ["metric", "method", "other", "recordings", "won", "tied", "median difference",
@@ -86,6 +97,25 @@ def _joints(run: Run, method: str) -> dict[str, dict[str, float | None]]:
     return {
         joint: {"raw_cm": mean, "adjusted_cm": adjusted.get(joint)} for joint, mean in raw.items()
     }
+
+
+def _parts(run: Run, method: str) -> dict[str, dict[str, float | None]]:
+    """Returns the mean error of each part over its joints and all frames."""
+    errors = errors_of(run, method)
+    found: dict[str, dict[str, float | None]] = {}
+    for part in dict.fromkeys(name for one in errors for name in one.parts if name):
+        own = [one.of_part(part) for one in errors if part in one.parts]
+        raw, adjusted = (
+            np.concatenate([getattr(one, kind).ravel() for one in own])
+            for kind in ("raw", "adjusted")
+        )
+        found[part] = {"raw_cm": _mean_cm(raw), "adjusted_cm": _mean_cm(adjusted)}
+    return found
+
+
+def _mean_cm(distances: Array) -> float | None:
+    known = distances[np.isfinite(distances)]
+    return 100.0 * float(known.mean()) if len(known) else None
 
 
 def _listed(interval: Interval | None) -> list[float] | None:

@@ -8,9 +8,13 @@
 - ``rigid``, ``cloud``: starts of rigid surfaces.
 - ``free_root``: starts of bodies whose root is fixed in the world.
 - ``inside``: the start of a body with parts, whose base is found first.
+- ``beside``, ``several``: the start of bodies beside each other; ``divisions`` divides the points
+  among them, a ``scene`` is a pose of all, and ``scene_verdict`` judges it.
+- ``of_size``: a template at a size.
 - ``verdict``: whether a start was found.
 """
 
+from regkit.start.beside import with_free_bodies
 from regkit.start.candidate import Candidate
 from regkit.start.finalist import Finalist
 from regkit.start.free_root import FreeRoot, at_root, is_fixed, standing
@@ -29,5 +33,6 @@ __all__ = [
     "judged",
     "rigid_start",
     "standing",
+    "with_free_bodies",
     "with_parts",
 ]

@@ -51,6 +51,8 @@ def check_unit(points: Array, template: Template, *, place: str) -> None:
 def check_extent(points: Array, template: Template, *, place: str) -> None:
     """Compares the data with the sizes of a template; an unlikely extent is told as a warning.
 
+    Of several bodies, which may be far apart, the extent tells nothing but the unit.
+
     Args:
         points: The data, (N, 3) [m], the body and possibly its surroundings.
         template: The template.
@@ -60,6 +62,8 @@ def check_extent(points: Array, template: Template, *, place: str) -> None:
         DataError: If the data are so large or small that their unit or the template is wrong.
     """
     check_unit(points, template, place=place)
+    if template.free_bodies():
+        return
     sizes, extent = template.candidate_sizes(), extent_of(points)
     advice = "check the unit of the data (depth_scale) and the template"
     if extent > LARGE * sizes[-1]:

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from sys import intern
 
 import numpy as np
 
 from regkit.body import Body, BodyFit
+from regkit.body.each import fits_of_each, shares_of_each, verdicts_of_each
 from regkit.body.marker_fit import fit_to_data
-from regkit.body.verdict import Verdict, frame_verdict
+from regkit.body.verdict import Verdict, frame_verdict, worst
 from regkit.interfaces import Expected, Registrar
 from regkit.observation import Observation
 from regkit.skeleton import Placement, Pose
@@ -51,7 +52,8 @@ class RecordedFrame(Brief):
         markers: The markers in the camera's frame, (M, 3) [m].
         supports: How well data support each segment, (S,), from 0 to 1.
         fit: Agreement of the body with the data.
-        verdict: Whether the body was found.
+        verdict: Whether the body was found; of several bodies, each of them.
+        bodies: Whether each of several bodies was found, by name; empty for one body.
     """
 
     number: int
@@ -63,6 +65,7 @@ class RecordedFrame(Brief):
     supports: Array
     fit: BodyFit
     verdict: Verdict
+    bodies: Mapping[str, Verdict] = field(default_factory=dict)
 
     def deviations(self) -> Array | None:
         """Returns the standard deviations of the markers along the camera's axes, (M, 3) [m].
@@ -131,10 +134,13 @@ class TrackRecorder:
         transforms = placement.transforms
         points, fit = None, BodyFit.unknown()
         supports = np.zeros(len(transforms))
+        shares = np.full((len(body.free_bodies), 4), np.nan)
         if frame.observation is not None:
             points = frame.observation.points
             self.sample.add(len(self), frame.observation)
             fit, supports = fit_to_data(body, found.pose, frame.observation)
+            sight = frame.observation.sight
+            shares = shares_of_each(fits_of_each(body, found.pose, points, sight))
         markers = body.markers.place(transforms)
         count = 0 if points is None else len(points)
         self._rows.append(
@@ -161,15 +167,19 @@ class TrackRecorder:
                 "covariances": np.nan if found.covariance is None else found.covariance,
                 "pulls": np.nan if found.pull is None else found.pull,
                 "information": np.nan if found.information is None else found.information,
+                "body_shares": shares,
             }
         )
         if points is not None:
             self._keep(Snapshot(len(self), points, found.pose), fit.distance)
         self._messages.append(intern(found.message))
         verdict = frame_verdict(count, fit.inlier_share, fit.coverage, fit.misfit, fit.relief)
+        names = [one.name for one in body.free_bodies]
+        bodies = dict(zip(names, verdicts_of_each(shares), strict=True))
         return RecordedFrame(
-            number, time, body, placement, found.covariance, markers, supports, fit, verdict
-        )
+            number, time, body, placement, found.covariance, markers, supports, fit,
+            worst((verdict, *bodies.values())), bodies,
+        )  # fmt: skip
 
     def _keep(self, snapshot: Snapshot, distance: float) -> None:
         self._snapshots.setdefault("first", snapshot)

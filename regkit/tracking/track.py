@@ -12,10 +12,11 @@ from numpy.typing import NDArray
 
 from regkit.body import Body
 from regkit.body.support import WEAK
-from regkit.body.verdict import Verdict, frame_verdicts
+from regkit.body.verdict import Verdict
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit.system.brief import Brief
+from regkit.tracking.frame_verdicts import body_verdicts, verdicts_of
 
 UNCERTAINTY = ("effective_points", "covariances", "information", "pulls")
 """Arrays that a track has only if its method knows how sure it is."""
@@ -60,6 +61,9 @@ class Track(Brief):
             (T, m, m), as ``Curvature.information``; NaN without data, None if it is not kept.
         pulls: How each frame's data alone pull at its pose, (T, m), as ``Curvature.pull``; None if
             it is not kept.
+        body_shares: Inlier share, coverage, misfit and relief of each of K bodies that move freely
+            beside each other, of its own points, (T, K, 4); NaN where it is hidden. None of one
+            body.
     """
 
     numbers: Array
@@ -84,6 +88,7 @@ class Track(Brief):
     covariances: Array | None = None
     information: Array | None = None
     pulls: Array | None = None
+    body_shares: Array | None = None
 
     @staticmethod
     def layout(body: Body, *, information: bool = True) -> dict[str, tuple[int, ...]]:
@@ -104,8 +109,11 @@ class Track(Brief):
             "covariances": (dofs, dofs),
             "information": (own, own),
             "pulls": (own,),
+            "body_shares": (len(body.free_bodies), 4),
         }
         names = [field.name for field in fields(Track)]
+        if not body.free_bodies:
+            names.remove("body_shares")
         kept = [name for name in names if information or name not in EVIDENCE]
         return {name: shapes.get(name, ()) for name in kept}
 
@@ -144,9 +152,14 @@ class Track(Brief):
 
     @cached_property
     def verdicts(self) -> tuple[Verdict, ...]:
-        """Whether the body was found in each frame, (T,)."""
-        shares = (self.inlier_shares, self.coverages, self.misfits, self.reliefs)
-        return frame_verdicts(self.points, *shares)
+        """Whether the body was found in each frame, (T,); of several bodies, each of them."""
+        return verdicts_of(self._arrays())
+
+    @cached_property
+    def body_verdicts(self) -> tuple[tuple[Verdict, ...], ...]:
+        """Whether each of several bodies was found in each frame, T times K; hidden: no data."""
+        shares = self.body_shares
+        return body_verdicts(self.points, np.zeros((len(self), 0, 4)) if shares is None else shares)
 
     @property
     def seen(self) -> NDArray[np.bool_]:
@@ -177,6 +190,8 @@ class Track(Brief):
         arrays = self._arrays()
         # It is only needed to smooth the track, and as large as all others together.
         kept = {name: array for name, array in arrays.items() if name not in EVIDENCE}
+        if body.free_bodies:
+            kept["body_names"] = np.array([one.name for one in body.free_bodies], dtype=np.str_)
         return kept | {
             "verdicts": np.array(self.verdicts, dtype=np.str_),
             "marker_names": np.array(body.markers.names, dtype=np.str_),

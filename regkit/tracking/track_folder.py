@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 
 from regkit import __version__
 from regkit.body import Body, BodyDescription
-from regkit.body.verdict import Verdict, frame_verdicts
 from regkit.config.document import Document
 from regkit.config.model import Model
 from regkit.config.quantities import Length, Rate
@@ -30,6 +29,7 @@ from regkit.system.digests import file_digest
 from regkit.system.errors import ConfigError, DataError
 from regkit.system.json_files import read_json, write_json
 from regkit.system.notes import note
+from regkit.tracking.frame_verdicts import verdicts_of
 from regkit.tracking.rows import RowsInFile, read_rows
 from regkit.tracking.stored_poses import checked_poses, placed
 from regkit.tracking.track import Track
@@ -211,9 +211,7 @@ def _poses(folder: Path, size: float) -> dict[str, NDArray[Any]]:
 
 
 def _verdicts(rows: Mapping[str, Array]) -> NDArray[np.str_]:
-    shares = (rows[name] for name in ("inlier_shares", "coverages", "misfits", "reliefs"))
-    verdicts: tuple[Verdict, ...] = frame_verdicts(rows["points"], *shares)
-    return np.array(verdicts, dtype=np.str_)
+    return np.array(verdicts_of(rows), dtype=np.str_)
 
 
 def _even(arrays: Mapping[str, NDArray[Any]], fps: float, *, place: Path) -> NDArray[np.intp]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -51,7 +52,8 @@ class TrackVerdict:
             start: The start. A track is doubtful or lost if its start is, however well its frames
                 fit: a body that is turned round, or furniture, fits nearly as well.
         """
-        judged = cls._of_frames(track)
+        names = [] if start is None else [one.name for one in start.body.free_bodies]
+        judged = cls._of_frames(track, names)
         if start is None or start.verdict is Verdict.FOUND:
             return judged
         lost = Verdict.LOST in (start.verdict, judged.verdict)
@@ -59,8 +61,8 @@ class TrackVerdict:
         return cls(Verdict.LOST if lost else Verdict.DOUBTFUL, "; ".join(reasons))
 
     @classmethod
-    def _of_frames(cls, track: Track) -> TrackVerdict:
-        """Returns the verdict of the frames."""
+    def _of_frames(cls, track: Track, names: Sequence[str]) -> TrackVerdict:
+        """Returns the verdict of the frames, with the names of several bodies."""
         frames = Counter(track.verdicts)
         seen = [verdict for verdict in track.verdicts if verdict is not Verdict.NO_DATA]
         if not seen:
@@ -74,7 +76,19 @@ class TrackVerdict:
         else:
             told = TOLD[Verdict.NO_DATA].format(_share_of(frames[Verdict.NO_DATA], track))
             return cls(Verdict.FOUND, told if missing else "")
-        return cls(verdict, _reason(track))
+        return cls(verdict, "; ".join([*_of_bodies(track, names), _reason(track)]))
+
+
+def _of_bodies(track: Track, names: Sequence[str]) -> list[str]:
+    """Returns which of several bodies is lost or doubtful, and in how many frames."""
+    told = []
+    for at, name in enumerate(names if track.body_shares is not None else ()):
+        frames = Counter(bodies[at] for bodies in track.body_verdicts)
+        bad = [one for one in (Verdict.LOST, Verdict.DOUBTFUL) if frames[one]]
+        if bad:
+            counts = " and ".join(f"{one} in {_share_of(frames[one], track)}" for one in bad)
+            told.append(f"'{name}' is {counts}")
+    return told
 
 
 def _reason(track: Track) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Literal
 
 import numpy as np
@@ -56,8 +57,8 @@ class Room(Segmenter):
         # A body without a surface shows no area, and nothing can be told from it.
         known = has_surface(template.body(template.candidate_sizes()[0]))
         frames = list(sampled(recording, FRAMES)) if known else []
-        figure = Figure.of(template) if known else None
-        if figure is None or not any(_is_larger(frame, template, figure) for frame in frames):
+        figures = Figure.of_each(template) if known else ()
+        if not figures or not any(_is_larger(frame, template, figures) for frame in frames):
             return Chain()
         extent = max(extent_of(frame.points) for frame in frames)
         steps = (self.planes, self.gate, self.pieces)
@@ -72,16 +73,19 @@ class Room(Segmenter):
         return tuple(self.model_copy(update={"pieces": one}) for one in pieces)
 
 
-def _is_larger(frame: Frame, template: Template, figure: Figure) -> bool:
-    """Returns whether a frame extends over more than the body, or shows a larger area."""
+def _is_larger(frame: Frame, template: Template, figures: Sequence[Figure]) -> bool:
+    """Returns whether a frame extends over more than the body, or shows a larger area.
+
+    Several bodies may be far apart, so that their area alone counts.
+    """
+    usual = float(np.median(template.candidate_sizes()))
     largest = template.candidate_sizes()[-1]
     whole = Piece(frame, np.arange(len(frame.points)), largest / CELLS)
     # A cloud that no camera saw may be a scan.
     sides = 1.0 if frame.camera is not None or frame.views else ALL_SIDES
-    return (
-        extent_of(frame.points) > LARGE * largest
-        or whole.area > sides * AMPLE * figure.largest * (largest / figure.size) ** 2
-    )
+    area = sum(figure.largest for figure in figures) * (largest / usual) ** 2
+    extends = len(figures) == 1 and extent_of(frame.points) > LARGE * largest
+    return extends or whole.area > sides * AMPLE * area
 
 
 def _told(frame: Frame, chain: Chain, extent: float) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from functools import partial
 from pathlib import Path
 from typing import Literal, Self
@@ -68,7 +68,7 @@ class Composed(Template):
 
     def given_size(self) -> float | None:
         """Returns the size of the first body [m], if those of all bodies are given."""
-        sizes = [template.given_size() for template in self._bodies.values()]
+        sizes = [_known_size(template) for template in self._bodies.values()]
         return None if None in sizes else sizes[0]
 
     def input_files(self) -> Iterable[Path]:
@@ -84,10 +84,17 @@ class Composed(Template):
         """Returns the base, if it has parts and nothing is beside it."""
         return self.base if self.at and not self.free else None
 
+    def free_bodies(self) -> Mapping[str, Template]:
+        """Returns the templates of the bodies beside each other; of a base, with its parts."""
+        if len(self._bodies) < 2:
+            return {}
+        base = Composed(base=self.base, at=self.at) if self.at else None
+        return self._bodies | ({} if base is None else {BASE: base})
+
     def _composition(self, size: float | None = None) -> Composition:
         """Returns the composition at a size [m], by default at that of its description."""
         descriptions = {name: one.description() for name, one in self._bodies.items()}
-        sizes = {name: one.given_size() for name, one in self._bodies.items()}
+        sizes = {name: _known_size(one) for name, one in self._bodies.items()}
         free = [name for name, given in sizes.items() if given is None]
         leading = free[0] if free else next(iter(sizes))
         usual = descriptions[leading].size.value
@@ -125,3 +132,9 @@ class Composed(Template):
                     + did_you_mean(name, list(sockets))
                     + "; a template of your own needs 'sockets' in its file"
                 )
+
+
+def _known_size(template: Template) -> float | None:
+    """Returns the size of a template that is given, or has no range [m]; None if it has one."""
+    sizes = template.candidate_sizes()
+    return sizes[0] if len(sizes) == 1 else None

@@ -12,6 +12,9 @@ from regkit.testing.scenes import SceneTemplate, WallScene
 from regkit_plugins.segmenters.gate import Gate
 from regkit_plugins.segmenters.pieces import Pieces
 from regkit_plugins.segmenters.pieces.figure import Figure
+from regkit_plugins.segmenters.pieces.pieces import held
+from regkit_plugins.segmenters.room import Room
+from regkit_plugins.templates.composed import Composed
 
 TEMPLATE = SceneTemplate()
 WALLED = WallScene("scene", 30.0, 8)
@@ -133,3 +136,40 @@ def test_gate_keeps_what_the_body_can_reach_once_its_motion_is_known():
     near = capsules.surface_distance(frame.points) <= 0.3
     np.testing.assert_array_equal(left.points, frame.points[near])
     assert 0 < len(left.points) < len(frame.points)
+
+
+BOTH = Composed(free={"a": TEMPLATE, "b": TEMPLATE})
+
+
+def twins(shift: int) -> np.ndarray:
+    """Returns the image of the body and of a nearer twin beside it, shifted by pixels."""
+    depth, twin = body_depth(), np.roll(body_depth(), shift, axis=1)
+    nearer = (twin > 0.0) & ((depth == 0.0) | (twin - 0.2 < depth))
+    return np.where(nearer, twin - 0.2, depth)
+
+
+@pytest.mark.parametrize("choose", ["fits", "largest"])
+def test_a_piece_is_kept_for_each_of_several_bodies(choose):
+    depth = twins(50)
+    shown = depth > 0.0
+    board = (slice(20, 60), slice(10, 30))
+    depth[board] = 1.2
+    frames = recording(depth)
+    (frame,) = frames.frames()
+    left = Pieces(choose=choose).bind(frames, BOTH).segmented(frame, None).depth > 0.0
+    np.testing.assert_array_equal(left, shown)
+    alone = Pieces(choose=choose).bind(frames, TEMPLATE).segmented(frame, None).depth > 0.0
+    assert np.count_nonzero(alone) < 0.6 * np.count_nonzero(shown)
+
+
+def test_bodies_that_touch_are_one_piece():
+    """What is left then belongs to no body."""
+    first, second = Figure.of_each(BOTH)
+    assert held(first.area, (first, second)) == 1
+    assert held(1.8 * first.area, (first, second)) == 2
+
+
+def test_several_bodies_alone_in_the_picture_are_no_room():
+    frames = recording(twins(50))
+    (frame,) = frames.frames()
+    assert Room().bind(frames, BOTH).segmented(frame, None) is frame

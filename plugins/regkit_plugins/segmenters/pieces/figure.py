@@ -80,6 +80,16 @@ class Figure:
             float(np.median([roundness(points, size) for points in views[::ROUNDED]])),
         )
 
+    @classmethod
+    def of_each(cls, template: Template) -> tuple[Self, ...]:
+        """Returns the figure of each of several bodies, the largest first; of one body, its own.
+
+        Raises:
+            ConfigError: If a body has no surface.
+        """
+        each = template.free_bodies().values() or (template,)
+        return tuple(sorted(map(cls.of, each), key=lambda one: -one.area))
+
     def cost(self, piece: Piece) -> float:
         """Returns how unlike the body a piece is: the sum of squared deviations."""
         cost = 0.0

@@ -1,7 +1,8 @@
-"""The piece segmenter: keeps one connected piece of the scene."""
+"""The piece segmenter: keeps one connected piece of the scene, or one for each body."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Annotated, Literal
@@ -43,7 +44,8 @@ class Pieces(Segmenter):
     In an image, neighbouring pixels of like depth are connected; in a cloud, neighbouring points.
     A piece belongs to another if what is between them is hidden by something nearer. In tracking,
     the pieces where the last body was are kept, and a piece is chosen only at the start and after
-    the body was lost. A frame in which no piece is chosen has no data.
+    the body was lost. A frame in which no piece is chosen has no data. Of a template of several
+    bodies that move freely, a piece is chosen for each, or one for several that touch.
     """
 
     kind: Literal["pieces"] = "pieces"
@@ -76,9 +78,9 @@ class Pieces(Segmenter):
         numbers: list[int] = []
         seen = np.zeros(0 if frame is None else len(frame.points), dtype=bool)
         for number, piece in enumerate(bound.candidates(pieces)):
-            whole, cost = grown(piece, pieces, bound.figure)
+            whole, cost = grown(piece, pieces, bound.figures[0])
             # The part of a body that was found is no other body.
-            certain = cost < CERTAIN and bound.figure.flatness(whole) < CERTAINLY_ROUND
+            certain = cost < CERTAIN and bound.figures[0].flatness(whole) < CERTAINLY_ROUND
             if certain and not seen[piece.at].any():
                 numbers.append(number)
                 seen[whole.at] = True
@@ -100,9 +102,9 @@ class BoundPieces(BoundSegmenter):
     motion: Motion | None
 
     @cached_property
-    def figure(self) -> Figure:
-        """What the template tells of its pieces."""
-        return Figure.of(self.template)
+    def figures(self) -> tuple[Figure, ...]:
+        """What the template tells of the pieces of each of its bodies, the largest body first."""
+        return Figure.of_each(self.template)
 
     def segmented(self, frame: Frame, expected: Expected | None) -> Frame:
         """Returns the frame with the points of the body's piece; without points if none fits."""
@@ -119,7 +121,7 @@ class BoundPieces(BoundSegmenter):
         """Returns all pieces of a frame from the nearest to the farthest."""
         if not len(frame.points):
             return []
-        gap = self.settings.gap or GAP * float(np.median(self.template.candidate_sizes()))
+        gap = self.settings.gap or GAP * self.figures[-1].size
         labels = components(frame, gap)
         ends = np.cumsum(np.bincount(labels))[:-1]
         found = [Piece(frame, at, gap) for at in np.split(np.argsort(labels, kind="stable"), ends)]
@@ -127,16 +129,39 @@ class BoundPieces(BoundSegmenter):
 
     def candidates(self, pieces: list[Piece]) -> list[Piece]:
         """Returns the pieces that are large enough to be chosen."""
-        least = self.settings.least * self.figure.area
-        return [piece for piece in pieces if piece.area >= least]
+        return [piece for piece in pieces if piece.area >= self._least]
+
+    @property
+    def _least(self) -> float:
+        """Least area of a piece that is chosen [m^2]."""
+        return self.settings.least * self.figures[-1].area
 
     def chosen(self, pieces: list[Piece]) -> Piece | None:
-        """Returns the chosen one of all pieces, with those that belong to it; None if none is."""
+        """Returns the chosen one of all pieces, with those that belong to it; None if none is.
+
+        Of several bodies it is one piece for each, as one.
+        """
+        whole, rest = None, pieces
+        for number, figure in enumerate(self.figures):
+            # Bodies that touch are one piece.
+            if whole is not None and held(whole.area, self.figures) > number:
+                continue
+            best = self._chosen(rest, figure)
+            if best is None:
+                continue
+            whole = best if whole is None else whole.with_piece(best)
+            rest = [piece for piece in rest if not np.isin(piece.at[0], best.at)]
+            if isinstance(self.settings.choose, int):
+                break
+        return whole
+
+    def _chosen(self, pieces: list[Piece], figure: Figure) -> Piece | None:
+        """Returns the chosen piece of one body."""
         found, choose = self.candidates(pieces), self.settings.choose
         if not found:
             return None
         if choose == "fits":
-            return self._fitting(found, pieces)
+            return _fitting(found, pieces, figure)
         if isinstance(choose, int):
             if choose >= len(found):
                 raise DataError(
@@ -151,16 +176,7 @@ class BoundPieces(BoundSegmenter):
             best = max(found, key=self.motion.of_piece)
         else:
             best = max(found, key=lambda piece: piece.area)
-        return grown(best, pieces, self.figure)[0]
-
-    def _fitting(self, found: list[Piece], pieces: list[Piece]) -> Piece | None:
-        """Returns the piece that is most like the body; None if none is."""
-        likely = sorted(found, key=self.figure.cost)[:LIKELY]
-        wholes = [grown(one, pieces, self.figure) for one in likely]
-        fits = [(piece, cost) for piece, cost in wholes if cost < LEAST_FIT]
-        least = min((cost for _, cost in fits), default=0.0)
-        alike = [piece for piece, cost in fits if cost <= least + ALIKE]
-        return min(alike, key=lambda piece: piece.depth, default=None)
+        return grown(best, pieces, figure)[0]
 
     def _last(self, pieces: list[Piece], expected: Expected | None) -> Piece | None:
         """Returns the pieces where the last body was; None if that is unknown, or too little."""
@@ -169,8 +185,29 @@ class BoundPieces(BoundSegmenter):
         reach = NEAR * expected.body.size * (1 + expected.missed) + expected.motion
         near = expected.within(pieces[0].frame.points, reach)
         found = [piece for piece in pieces if near[piece.at].mean() >= 0.5]
-        if sum(piece.area for piece in found) < self.settings.least * self.figure.area:
+        if sum(piece.area for piece in found) < self._least:
             return None
         others = [piece for piece in pieces if all(piece is not one for one in found)]
         whole = replace(found[0], at=np.sort(np.concatenate([piece.at for piece in found])))
-        return with_fragments(whole, others, self.figure)
+        return with_fragments(whole, others, self.figures[0])
+
+
+def held(area: float, figures: Sequence[Figure]) -> int:
+    """Returns how many bodies, the largest first, a chosen area [m^2] holds: the likeliest number.
+
+    Args:
+        area: The area.
+        figures: The bodies' figures, the largest first.
+    """
+    sums = np.cumsum([one.area for one in figures])
+    return 1 + int(np.abs(np.log(area / sums)).argmin())
+
+
+def _fitting(found: list[Piece], pieces: list[Piece], figure: Figure) -> Piece | None:
+    """Returns the piece that is most like a body; None if none is."""
+    likely = sorted(found, key=figure.cost)[:LIKELY]
+    wholes = [grown(one, pieces, figure) for one in likely]
+    fits = [(piece, cost) for piece, cost in wholes if cost < LEAST_FIT]
+    least = min((cost for _, cost in fits), default=0.0)
+    alike = [piece for piece, cost in fits if cost <= least + ALIKE]
+    return min(alike, key=lambda piece: piece.depth, default=None)

@@ -22,6 +22,7 @@ from regkit.start import (
     judged,
     rigid_start,
     standing,
+    with_free_bodies,
     with_parts,
 )
 from regkit.system.optional import one_blas_thread
@@ -72,7 +73,8 @@ class Exemplars(StartSearch):
         inside = with_parts(
             lambda base: self.find(base, observations), template, observations[0], self.method
         )
-        rigid = inside or rigid_start(template, observations[0])
+        beside = inside or with_free_bodies(self.find, template, observations, self.method)
+        rigid = beside or rigid_start(template, observations[0])
         if rigid is not None:
             return rigid
         fixed = is_fixed(template)
@@ -91,7 +93,9 @@ class Exemplars(StartSearch):
                 finalists = standing(finalists, body)
                 pose = at_root(body, finalists[0].pose)
                 pose = self.method.bind(body).register(observations[0], [pose]).pose
-            return judged(body, pose, observations[0], margin(finalists), doubts)
+            start = judged(body, pose, observations[0], margin(finalists), doubts)
+            rivals = () if fixed else tuple(one.pose for one in finalists[1:])
+            return replace(start, rivals=rivals)
 
     def _search(self, template: Template) -> Search:
         sizes = template.candidate_sizes()

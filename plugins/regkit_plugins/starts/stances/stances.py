@@ -20,6 +20,7 @@ from regkit.start import (
     is_fixed,
     judged,
     rigid_start,
+    with_free_bodies,
     with_parts,
 )
 from regkit.start.fit import STIFFNESS
@@ -62,7 +63,8 @@ class Stances(StartSearch):
         inside = with_parts(
             lambda base: self.find(base, observations), template, observations[0], self.method
         )
-        rigid = inside or rigid_start(template, observations[0])
+        beside = inside or with_free_bodies(self.find, template, observations, self.method)
+        rigid = beside or rigid_start(template, observations[0])
         if rigid is not None:
             return rigid
         fixed = is_fixed(template)

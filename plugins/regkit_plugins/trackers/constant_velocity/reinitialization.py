@@ -8,6 +8,8 @@ from typing import Annotated
 
 from pydantic import Field
 
+from regkit.body import Body
+from regkit.body.each import unexplained_by_others
 from regkit.config.model import Model
 from regkit.interfaces import Past, RegistrationResult
 from regkit.interfaces.tracker import SEARCHES
@@ -16,6 +18,7 @@ from regkit.search.exemplars import AtlasSettings, Finder, Pictures, atlas_of, e
 from regkit.search.limb_recovery import LimbRecovery
 from regkit.skeleton import Pose
 from regkit.start import Finalist
+from regkit_plugins.trackers.constant_velocity.lost_bodies import lost_bodies
 
 FEWEST_POINTS = 30
 """Fewer points than this show no body."""
@@ -39,7 +42,9 @@ class Reinitialization(Model):
     It searches when the limbs do not explain the outliers of a frame, when the points jump, and in
     the first frame with data after frames without. The best of the poses that it finds replaces the
     tracked one only if it has fewer outliers, less energy and clearly less misfit to the data.
-    Searches that repeat become rarer: the k-th last one is at least 4 (2^k - 1) frames ago.
+    Searches that repeat become rarer: the k-th last one is at least 4 (2^k - 1) frames ago. Of
+    several bodies that move freely, each that is not surely found is sought among the points that
+    the others do not explain.
     """
 
     exemplars: Annotated[int, Field(ge=100, le=1_000_000)] = 30_000
@@ -66,7 +71,8 @@ class Reinitialization(Model):
             limbs: The search of the body's limbs, with its registrar.
         """
         body = limbs.registrar.body
-        if not body.skeleton.free or not len(body.capsules):
+        free = body.skeleton.free or bool(body.free_bodies)
+        if not free or not len(body.capsules):
             return None
         return BoundReinitialization(self, limbs)
 
@@ -106,11 +112,40 @@ class BoundReinitialization:
             return found
         size = self.limbs.registrar.body.size
         tracked = Finalist.registered(self.limbs, found, observation, size)
+        if self.limbs.registrar.body.free_bodies:
+            found = self._each_anew(observation, tracked).result
+            return replace(found, searched=points)
         rivals = self._finalists(observation, past.last.pose)
         best = min(rivals, key=_cost, default=tracked)
         if self._better(best, tracked):
             found = best.result
         return replace(found, searched=points)
+
+    def _each_anew(self, observation: Observation, tracked: Finalist) -> Finalist:
+        """Returns the best pose after each lost one of several bodies is sought, the worst first.
+
+        A body is sought among the points that the others do not explain.
+        """
+        body, points = tracked.body, observation.points
+        for at in lost_bodies(body, tracked.pose, observation):
+            rest = unexplained_by_others(body, tracked.pose, points, at)
+            if rest.sum() < FEWEST_POINTS:
+                continue
+            one = body.free_bodies[at]
+            rivals = [
+                self._registered(observation, one.placed(found, tracked.pose))
+                for found in self._sought(one.body, observation.only(rest), one.alone(tracked.pose))
+            ]
+            best = min(rivals, key=_cost, default=tracked)
+            if self._better(best, tracked):
+                result = self.limbs.recovered(observation, best.result)
+                tracked = Finalist.registered(self.limbs, result, observation, body.size)
+        return tracked
+
+    def _registered(self, observation: Observation, pose: Pose) -> Finalist:
+        """Returns a pose after registration."""
+        result = self.limbs.registrar.register(observation, [pose])
+        return Finalist.registered(self.limbs, result, observation, self.limbs.registrar.body.size)
 
     def _due(self, points: int, past: Past, outliers: Sequence[float]) -> bool:
         """Returns whether to seek a body that may be lost, unless it was sought too often already.
@@ -134,12 +169,26 @@ class BoundReinitialization:
         return after > alarm and (grown or rested)
 
     def _finalists(self, observation: Observation, last: Pose) -> list[Finalist]:
-        settings, body = self.settings, self.limbs.registrar.body
+        body = self.limbs.registrar.body
+        return [
+            Finalist.of(self.limbs, pose, observation, body.size)
+            for pose in self._sought(body, observation, last)
+        ]
+
+    def _sought(self, body: Body, observation: Observation, last: Pose) -> list[Pose]:
+        """Returns the likeliest poses of a body in data, as its exemplars show them.
+
+        Args:
+            body: The body.
+            observation: The data.
+            last: Its last pose.
+        """
+        settings = self.settings
         # A body that was turned meanwhile may have kept its pose.
         atlas = atlas_of(body, AtlasSettings(settings.exemplars)).with_pose(body, last, VIEWS)
         finder = Finder([body], atlas, even_rolls(), settings.looked_up, settings.refined)
         return [
-            Finalist.of(self.limbs, one.pose.moved(view.T_world_camera), observation, body.size)
+            one.pose.moved(view.T_world_camera)
             for view in observation.each_view
             for one in finder.candidates(Pictures.of(view.data, body.size))[: settings.finalists]
         ]
