@@ -82,7 +82,7 @@ def test_broken_plugins_fail_only_when_they_are_named(regkit, files, broken):
         files.experiment.write_text(text.replace("shape: gsog", f"shape: {name}"))
         ended = regkit("run", files.experiment, "--out", files.out, *QUICK)
         assert ended.code == 1
-        assert ended.err.startswith(f"error: {files.experiment}:7: methods.gsog.shape: {told}")
+        assert ended.err.startswith(f"error: {files.experiment}:8: methods.gsog.shape: {told}")
         assert "Traceback" not in ended.err
 
 
