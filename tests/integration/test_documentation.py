@@ -21,6 +21,7 @@ LONG = (
     "docs/how-to/shape-model.md",
     "docs/how-to/compiled.md",
     "docs/how-to/install.md",
+    "docs/how-to/keypoints.md",
     "docs/how-to/limits.md",
     "docs/how-to/robot.md",
     "docs/how-to/room.md",

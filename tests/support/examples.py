@@ -106,7 +106,7 @@ class Runner:
                     # The figures of a report are drawn by tests of their own.
                     arguments += ["--no-figures", *shlex.split(block.markers.get("with", ""))]
                 if arguments[0] == "calibrate" and "--frames" not in arguments:
-                    arguments += ["--frames", "2"]
+                    arguments += ["--frames", "1"]
                 if arguments[0] == "track" and "--frames" not in arguments:
                     arguments += ["--frames", "1"]
                 ended = self.command(*arguments)
