@@ -11,10 +11,15 @@ from regkit.system.arrays import Array, Indices
 def bones_of(body: Body) -> Indices:
     """Returns the ends of each bone as indices of ``bone_ends``, (B, 2).
 
-    A bone joins each segment's origin with its parent's and with its markers.
+    A bone joins each segment's origin with its parent's and with its markers. Where a free joint is
+    between them, as in bodies beside each other, there is none.
     """
-    count = len(body.skeleton.names)
-    joints = [(parent, one) for one, parent in enumerate(body.skeleton.parents) if parent >= 0]
+    bones, count = body.skeleton, len(body.skeleton.names)
+    joints = [
+        (parent, one)
+        for one, (parent, name) in enumerate(zip(bones.parents.tolist(), bones.names, strict=True))
+        if parent >= 0 and not bones.is_free(name)
+    ]
     tips = [(one, count + marker) for marker, one in enumerate(body.markers.segments)]
     return np.array([*joints, *tips], dtype=np.intp).reshape(-1, 2)
 

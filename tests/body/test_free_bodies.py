@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from regkit.body import Body, BodyFit
+from regkit.body.bones import bones_of
 from regkit.body.each import gaps_to_each
 from regkit.body.gaps import surface_gaps
 from regkit.interfaces import Template
@@ -73,3 +74,14 @@ def test_a_ball_is_not_as_flat_as_a_wall(tmp_path, random) -> None:
     wall = np.column_stack([0.05 * random.uniform(-1, 1, (500, 2)), -0.05 * np.ones(500)])
     assert BodyFit.of(body, body.skeleton.rest(), ball).relief > 0.4
     assert BodyFit.of(body, body.skeleton.rest(), wall).relief < 0.1
+
+
+def test_no_bone_is_drawn_between_bodies(scene) -> None:
+    count = len(scene.skeleton.names)
+    segments = np.concatenate([np.arange(count), scene.markers.segments])
+    drawn = segments[bones_of(scene)]
+    for one in scene.free_bodies:
+        inside = np.isin(drawn, one.segments)
+        assert (inside[:, 0] == inside[:, 1]).all()
+        own = len(one.body.skeleton.names) - 1 + len(one.body.markers.segments)
+        assert inside.all(axis=1).sum() == own
