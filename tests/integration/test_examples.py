@@ -10,7 +10,7 @@ SOME = {"paper": "[02_walk]", "paper_why": "[05_bow]"}
 """One of their 28 recordings for each, of two of the three people."""
 
 
-SHORT = ("rigid",)
+SHORT = ("rigid", "robot", "calibrate", "hand_with_object", "two_hands", "body_with_hands")
 """Examples that `make test` tries here; blocks of README.md and docs/index.md run three more."""
 
 
