@@ -76,3 +76,34 @@ def test_motion_makes_the_next_step_uncertain_about_every_axis_of_the_joint(rand
 def test_noise_of_an_unknown_joint_is_refused(linkage):
     with pytest.raises(ConfigError, match=r"joints_deg\.forarm: .*did you mean 'forearm'"):
         Filter(joints_deg={"forarm": 5.0}).noise(linkage.skeleton)
+
+
+def on_surface(linkage, pose, random):
+    """Points on the surface of all capsules."""
+    axes = linkage.capsules.axis_points(0.02)
+    directions = random.normal(size=(len(axes.segments), 3))
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
+    points = axes.place(linkage.place(pose).transforms) + axes.radii[:, None] * directions
+    return Observation(points, np.ones(len(points)), np.full(len(points), 1e-4))
+
+
+def test_a_sudden_motion_is_followed_in_its_frame_and_a_usual_one_is_not_affected(linkage, random):
+    bones = linkage.skeleton
+    registrar = Method.parse(METHOD, place="test", field="method").bind(linkage)
+    arm, start = bones.dofs_of("arm"), bones.limits.projected(bones.rest())
+    turn = np.zeros(bones.dofs)
+    turn[arm] = [0.0, 0.0, 0.6]
+    sudden = bones.limits.projected(bones.retract(start, turn))
+    errors = {}
+    for unforeseen in (0.0, 3.0):
+        settings = Filter(joint_deg=0.5, unforeseen=unforeseen, recovery=None)
+        tracker, past, seeded = settings.bind(registrar), Past.start(start), np.random.default_rng(3)
+        for _ in range(4):
+            found = tracker.step(on_surface(linkage, start, seeded), past)
+            past = past.followed_by(found)
+        calm = np.abs(bones.difference(start, found.pose)).max()
+        found = tracker.step(on_surface(linkage, sudden, seeded), past)
+        moved = np.abs(bones.difference(sudden, found.pose)[arm]).max()
+        errors[unforeseen] = (calm, moved)
+    assert errors[3.0][0] == pytest.approx(errors[0.0][0], rel=0.2)
+    assert errors[3.0][1] < 0.5 * errors[0.0][1]

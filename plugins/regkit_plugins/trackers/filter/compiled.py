@@ -62,3 +62,33 @@ def predicted_information(
         for j in range(count):
             information[own[i], own[j]] = inverse[i, j]
     return information
+
+
+@compiled
+def unforeseen_noise(
+    information: Matrix, step: Vector, usual: float, share: float, hinges: int
+) -> Vector:
+    """Returns the process noise (n,) of the joints that moved farther than a prior lets expect.
+
+    The squared Mahalanobis distance is divided among the joints. Where the part of a joint is more
+    than ``usual`` per degree of freedom, its noise is a share of the square of its step.
+
+    Args:
+        information: Inverse of the prior's covariance, (n, n).
+        step: Step from the prior's pose, (n,).
+        usual: Squared distance per degree of freedom that is no surprise.
+        share: Variance per square of the step.
+        hinges: Index of the first hinge.
+    """
+    noise, pull = np.zeros(len(step)), information @ step
+    for at in range(0, hinges, 3):
+        distance = square = 0.0
+        for dof in range(at, at + 3):
+            distance += step[dof] * pull[dof]
+            square += step[dof] ** 2
+        if distance > 3.0 * usual:
+            noise[at : at + 3] = share * square
+    for dof in range(hinges, len(step)):
+        if step[dof] * pull[dof] > usual:
+            noise[dof] = share * step[dof] ** 2
+    return noise

@@ -17,7 +17,13 @@ from regkit.skeleton import Pose, Skeleton
 from regkit.system.arrays import Array
 from regkit_plugins.trackers.constant_velocity.recovery import BoundRecovery, Recovery
 from regkit_plugins.trackers.constant_velocity.repetition import repeated
-from regkit_plugins.trackers.filter.compiled import predicted_information
+from regkit_plugins.trackers.filter.compiled import predicted_information, unforeseen_noise
+
+USUAL = 1.0
+"""Squared Mahalanobis distance per degree of freedom that is no surprise: its expectation."""
+
+ROUNDS = 2
+"""A frame is registered again so often, at most, with more noise for joints that surprise."""
 
 
 class Filter(Tracker):
@@ -47,6 +53,9 @@ class Filter(Tracker):
     """Share of an unforeseen step that counts as a change of the velocity."""
     share: Annotated[float, Field(ge=0.0, le=100.0)] = 2.0
     """Process noise of a joint that moves, besides, as a share of its motion in the last frame."""
+    unforeseen: Annotated[float, Field(ge=0.0, le=100.0)] = 3.0
+    """Variance of the process noise of a joint that moves farther than expected, as a share of the
+    square of its step; the frame is then registered again. 0 disables it."""
     recovery: Recovery | None = Recovery()
     """Recovery of lost limbs and of a lost body; null disables it."""
 
@@ -108,11 +117,7 @@ class BoundFilter(BoundTracker):
         predicted = last.pose
         if velocity.any():
             predicted = skeleton.limits.projected(skeleton.retract(last.pose, velocity))
-        prior = self._prior(past, predicted)
-        candidates = [last.pose]
-        if past.before is not None:
-            candidates.append(repeated(skeleton, past.before.pose, last.pose))
-        found = self.registrar.register(observation, candidates, prior=prior, warm_start=last)
+        found = self._registered(observation, past, predicted)
         kept = found
         if self.recovery is not None:
             kept = self.recovery.checked(observation, found, past)
@@ -124,21 +129,55 @@ class BoundFilter(BoundTracker):
         kept = past.counted(self.registrar, observation, kept)
         return replace(kept, velocity=velocity + gain * moved)
 
+    def _registered(
+        self, observation: Observation, past: Past, predicted: Pose
+    ) -> RegistrationResult:
+        """Registers a frame, again with more process noise where a joint moved unforeseen."""
+        skeleton, last = self.registrar.body.skeleton, past.last
+        candidates = [last.pose]
+        if past.before is not None:
+            candidates.append(repeated(skeleton, past.before.pose, last.pose))
+        noise = self.noise * (1 + past.missed)
+        prior, extra = self._prior(past, predicted, noise), np.zeros(len(noise))
+        found = self.registrar.register(observation, candidates, prior=prior, warm_start=last)
+        for _ in range(ROUNDS if self.settings.unforeseen else 0):
+            if prior.information is None:
+                break
+            more = unforeseen_noise(
+                prior.information,
+                skeleton.difference(predicted, found.pose),
+                USUAL,
+                self.settings.unforeseen,
+                skeleton.hinge_dofs.start,
+            )
+            if not more.any():
+                break
+            extra = np.maximum(extra, more)
+            prior = self._prior(past, predicted, noise + extra)
+            found = self.registrar.register(observation, [found.pose], prior=prior, warm_start=last)
+        return found
+
     def _velocity(self, past: Past) -> Array:
         """Returns the step (n,) that the body is expected to take."""
         if past.last.velocity is None or past.before is None:
             return np.zeros(self.registrar.body.skeleton.dofs)
         return self.settings.damping * past.last.velocity
 
-    def _prior(self, past: Past, predicted: Pose) -> Prior:
-        """Returns the last posterior, one frame later; a pose alone in the first frame."""
+    def _prior(self, past: Past, predicted: Pose, noise: Array) -> Prior:
+        """Returns the last posterior, one frame later; a pose alone in the first frame.
+
+        Args:
+            past: Results of previous frames.
+            predicted: The pose that is expected.
+            noise: Variance of the process noise, (n,).
+        """
         curvature, points = past.last.curvature, past.last.effective_points
         if curvature is None or isnan(points):
             return Prior(past.last.pose, points=points)
         velocity = past.last.velocity
         information = predicted_information(
             curvature.carried(points),
-            self.noise * (1 + past.missed),
+            noise,
             np.zeros(len(self.noise)) if velocity is None else self.settings.share * velocity,
             self.spread,
             self.registrar.body.skeleton.arrays.limits.leaders,
