@@ -38,9 +38,9 @@ room than the 70.""",
     "left_forearm": "Flexion 150 (AAOS), forward. It cannot be turned about its own length.",
     "left_thigh": """
 Flexion 135, extension 30, abduction 55 and adduction 30 of a person who stands upright, rotation 45
-inward and 60 outward. The pelvis is rigid up to the waist, so that this joint bends for the lower
-lumbar spine too. Recorded kicks, tucks and people who get up nearly all lie inside. The middle of
-the cone points forward and a little outward.""",
+both ways. The pelvis is rigid up to the waist, so that this joint bends for the lower lumbar spine
+too. Recorded kicks, tucks and people who get up nearly all lie inside. The middle of the cone
+points forward and a little outward.""",
     "left_shin": "Flexion backward: 157 in a deep squat (Hemmerich et al.); clinically about 135.",
     "left_foot": "First dorsiflexion 20 and plantar flexion 50, then inversion 35 and eversion 15.",
 }
@@ -64,7 +64,7 @@ JOINTS: dict[str, Joint] = {
         type="ball",
         centre_deg=(-52.5, 0.0, 12.0),
         swing_deg=(82.5, 55.0),
-        twist_deg=(-45.0, 60.0),
+        twist_deg=(-45.0, 45.0),
     ),
     "left_shin": HingeJoint(type="hinge", axis=(1.0, 0.0, 0.0), limits_deg=(0.0, 157.0)),
     "left_foot": UniversalJoint(
