@@ -95,7 +95,7 @@ def test_a_sudden_motion_is_followed_in_its_frame_and_a_usual_one_is_not_affecte
     turn[arm] = [0.0, 0.0, 0.6]
     sudden = bones.limits.projected(bones.retract(start, turn))
     errors = {}
-    for unforeseen in (0.0, 3.0):
+    for unforeseen in (0.0, 1.0):
         settings = Filter(joint_deg=0.5, unforeseen=unforeseen, recovery=None)
         tracker, past, seeded = settings.bind(registrar), Past.start(start), np.random.default_rng(3)
         for _ in range(4):
@@ -105,5 +105,5 @@ def test_a_sudden_motion_is_followed_in_its_frame_and_a_usual_one_is_not_affecte
         found = tracker.step(on_surface(linkage, sudden, seeded), past)
         moved = np.abs(bones.difference(sudden, found.pose)[arm]).max()
         errors[unforeseen] = (calm, moved)
-    assert errors[3.0][0] == pytest.approx(errors[0.0][0], rel=0.2)
-    assert errors[3.0][1] < 0.5 * errors[0.0][1]
+    assert errors[1.0][0] == pytest.approx(errors[0.0][0], rel=0.2)
+    assert errors[1.0][1] < 0.5 * errors[0.0][1]

@@ -53,7 +53,7 @@ class Filter(Tracker):
     """Share of an unforeseen step that counts as a change of the velocity."""
     share: Annotated[float, Field(ge=0.0, le=100.0)] = 2.0
     """Process noise of a joint that moves, besides, as a share of its motion in the last frame."""
-    unforeseen: Annotated[float, Field(ge=0.0, le=100.0)] = 3.0
+    unforeseen: Annotated[float, Field(ge=0.0, le=100.0)] = 1.0
     """Variance of the process noise of a joint that moves farther than expected, as a share of the
     square of its step; the frame is then registered again. 0 disables it."""
     recovery: Recovery | None = Recovery()
