@@ -55,7 +55,7 @@ TAKES: Mapping[Set, tuple[Mapping[str, Any], ...]] = {
 """Two takes of each set, from the front and from aside or behind."""
 
 ASKED_FOR = "crowded, asked for"
-"""Among several people the one that is asked for, of those that `regkit track --people all` finds."""
+"""The person who is asked for, among those that `regkit track --people all` finds."""
 
 ROWS: Mapping[str, str] = {**dict(zip(ROOMS, ROOMS, strict=True)), ASKED_FOR: "crowded"}
 """Room of each row."""
