@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -12,9 +12,15 @@ from _starts_bodies import Set
 from _starts_options import Options
 from _starts_sessions import experiment, synthetic
 
+from regkit.body import Body
+from regkit.interfaces.segmenter import each_body
 from regkit.metrics.matching import matched
+from regkit.observation import Truth
+from regkit.skeleton import Pose
+from regkit.system.arrays import Array
 from regkit.system.errors import RegkitError
 from regkit.system.optional import one_thread
+from regkit.tracking import Session
 from regkit_synthesis.rooms import ROOMS
 
 FRAMES = 60
@@ -48,6 +54,12 @@ TAKES: Mapping[Set, tuple[Mapping[str, Any], ...]] = {
 }
 """Two takes of each set, from the front and from aside or behind."""
 
+ASKED_FOR = "crowded, asked for"
+"""The person who is asked for, among those that `regkit track --people all` finds."""
+
+ROWS: Mapping[str, str] = {**dict(zip(ROOMS, ROOMS, strict=True)), ASKED_FOR: "crowded"}
+"""Room of each row."""
+
 HEIGHTS = {"average": 1.6327, "small": 1.4901, "tall": 1.88}
 
 
@@ -56,7 +68,7 @@ class InRoom:
     """A take in a room.
 
     Attributes:
-        room: Name of the room.
+        room: Name of the row.
         error: Mean error of all joints in all frames [m]; infinite if nothing was tracked.
         first: The same in the first frame [m].
         verdict: The start's verdict, or why there is none.
@@ -69,33 +81,50 @@ class InRoom:
 
 
 def tracked(kind: str, item: tuple[str, Mapping[str, Any]]) -> InRoom:
-    """Returns the errors of a take in a room, given by name."""
-    room, take = item
+    """Returns the errors of a take in a row's room, given by name."""
+    row, take = item
     template = {"kind": "human", "build": take["body"], "height": HEIGHTS[take["body"]]}
-    chosen = experiment(kind, template, synthetic({"take": take}, frames=FRAMES, room=room))
+    chosen = experiment(kind, template, synthetic({"take": take}, frames=FRAMES, room=ROWS[row]))
     (recording,) = chosen.dataset.chosen()
     session, method, truth = chosen.session(recording), chosen.methods["best"], recording.truth()
     assert truth is not None
     try:
         with one_thread():
+            if row == ASKED_FOR:
+                session = _asked_for(session, truth)
             start = session.begin()
             body, tracker = start.body, method.tracker or chosen.tracker
             frames = list(session.tracked(method.bind(body), tracker, start.pose))
     except RegkitError as error:
-        return InRoom(room, np.inf, np.inf, str(error))
-    columns, markers = matched(body, truth, {})
-    placed = np.array([
-        body.markers.place(body.place(frame.registered.pose).transforms)[markers]
-        for frame in frames
+        return InRoom(row, np.inf, np.inf, str(error))
+    errors = np.array([
+        _errors(body, frame.registered.pose, truth, index) for index, frame in enumerate(frames)
     ])  # fmt: skip
-    errors = np.linalg.norm(placed - truth.positions[: len(placed), columns], axis=2)
-    return InRoom(room, float(errors.mean()), float(errors[0].mean()), str(start.verdict))
+    return InRoom(row, float(errors.mean()), float(errors[0].mean()), str(start.verdict))
+
+
+def _asked_for(session: Session, truth: Truth) -> Session:
+    """Returns the session of the person, of all that are found, who is nearest to the truth."""
+
+    def away(one: Session) -> float:
+        start = one.begin()
+        return float(_errors(start.body, start.pose, truth, 0).mean())
+
+    each = each_body(session.segmentation, session.recording, session.template)
+    return min((replace(session, segmentation=one) for one in each), key=away)
+
+
+def _errors(body: Body, pose: Pose, truth: Truth, frame: int) -> Array:
+    """Returns the distances (J,) [m] of a body's markers to the true joints of a frame."""
+    columns, markers = matched(body, truth, {})
+    placed = body.markers.place(body.place(pose).transforms)[markers]
+    return np.asarray(np.linalg.norm(placed - truth.positions[frame, columns], axis=1))
 
 
 def figures(options: Options) -> dict[str, object]:
     """Prints the table of rooms, and returns their figures."""
     takes = TAKES[options.chosen]
-    items = [(room, take) for room in ROOMS for take in takes]
+    items = [(room, take) for room in ROWS for take in takes]
     found = options.mapped("rooms", partial(tracked, options.start), items)
     alone = [one.error for one in found if one.room == "none"]
     heads = [f"{take['body']}, {take['motion']['name']}" for take in takes]
@@ -104,15 +133,16 @@ def figures(options: Options) -> dict[str, object]:
     )
     print("|---|" + "--:|--:|---|" * len(heads) + "--:|")
     ratios = {}
-    for room in ROOMS:
+    for room in ROWS:
         rows = [one for one in found if one.room == room]
         ratios[room] = sum(one.error for one in rows) / sum(alone)
         cells = [f"{100 * one.error:.1f} | {100 * one.first:.1f} | {one.verdict}" for one in rows]
         print(f"| {room} | {' | '.join(cells)} | {ratios[room]:.2f} |", flush=True)
-    others = [ratio for room, ratio in ratios.items() if room != "none"]
+    others = [ratios[room] for room in ROOMS if room != "none"]
     if not np.isfinite(others).all():
         return {"rooms": {"untracked": sum(not np.isfinite(one.error) for one in found)}}
     return {
         "rooms_ratio": round(float(np.mean(others)), 2),
         "rooms_worst_ratio": round(max(others), 2),
+        "asked_for_ratio": round(ratios[ASKED_FOR], 2),
     }

@@ -1,12 +1,16 @@
-"""Single frames of real recordings as fresh starts: UTD-MHAD, people before a Kinect."""
+"""Single frames of real recordings as fresh starts: UTD-MHAD, people before a Kinect.
+
+A start of known size has the median height of all starts of the same person without it.
+"""
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from _starts_options import Options
@@ -95,13 +99,38 @@ class Recorded:
         )
 
 
+def _person(recording: str) -> str:
+    """Returns the name of the person in a recording."""
+    return recording.split("_")[1]
+
+
+def _heights(rows: Sequence[Recorded]) -> dict[str, float]:
+    """Returns the median height of each person over all frames [m], since nobody measured it."""
+    sizes: dict[str, list[float]] = {}
+    for one in rows:
+        sizes.setdefault(_person(one.name), []).extend(single.size for single in one.singles)
+    return {person: round(float(np.median(found)), 3) for person, found in sizes.items()}
+
+
 def _mean(errors: Array) -> float:
     return float(np.nanmean(np.linalg.norm(errors, axis=1)))
 
 
-def started(kind: str, count: int, recording: Recording) -> Recorded:
-    """Returns fresh starts in single frames; two more frames may show the size."""
-    chosen = experiment(kind, {"kind": "human"}, {"kind": "utd_mhad", "root": str(DATA)})
+def started(
+    kind: str, count: int, recording: Recording, heights: Mapping[str, float] | None = None
+) -> Recorded:
+    """Returns fresh starts in single frames; two more frames may show an unknown size.
+
+    Args:
+        kind: Name of the search.
+        count: Number of frames.
+        recording: The recording.
+        heights: Height of each person [m]; by default unknown.
+    """
+    template: dict[str, Any] = {"kind": "human"}
+    if heights is not None:
+        template["height"] = heights[_person(recording.name)]
+    chosen = experiment(kind, template, {"kind": "utd_mhad", "root": str(DATA)})
     spread = np.linspace(0.1, 0.9, count) * (recording.length - 1)
     wanted = [int(index) for index in spread]
     frames = [frame for _, frame in recording.some(wanted)]
@@ -130,21 +159,27 @@ def figures(options: Options) -> dict[str, object]:
         return {}
     recordings = UtdMhad(root=DATA).chosen()
     count = min(FRAMES, max(4, options.some // len(recordings)))
-    rows = options.mapped("UTD-MHAD", partial(started, options.start, count), recordings)
+    unknown = options.mapped("UTD-MHAD", partial(started, options.start, count), recordings)
+    heights = _heights(unknown)
+    sized = partial(started, options.start, count, heights=heights)
+    known = options.mapped("UTD-MHAD, known size", sized, recordings)
+    found: dict[str, object] = {"frames": count * len(recordings), "heights_m": heights}
+    for name, rows in (("unknown", unknown), ("known", known)):
+        _print(f"UTD-MHAD, {count} frames, size {name}", rows)
+        total = count * len(rows)
+        within = _percent(sum((one.raw() < WITHIN).sum() for one in rows), total)
+        adjusted = _percent(sum((one.adjusted() < WITHIN).sum() for one in rows), total)
+        found[f"{name}_size_within_10cm_percent"] = within
+        found[f"{name}_size_within_10cm_adjusted_percent"] = adjusted
+    return {"utd": found}
+
+
+def _print(title: str, rows: Sequence[Recorded]) -> None:
+    """Prints a table of recordings."""
     heads = ("within 10 cm [%]", "adjusted [%]", "median [cm]", "adjusted [cm]", "height [m]")
-    print(f"\n| UTD-MHAD, {count} frames | {' | '.join(heads)} | not found or doubtful |")
+    print(f"\n| {title} | {' | '.join(heads)} | not found or doubtful |")
     print("|---|" + "--:|" * (len(heads) + 1))
     print("\n".join(map(str, rows)), flush=True)
-    total = count * len(rows)
-    return {
-        "utd": {
-            "frames": total,
-            "within_10cm_percent": _percent(sum((one.raw() < WITHIN).sum() for one in rows), total),
-            "within_10cm_adjusted_percent": _percent(
-                sum((one.adjusted() < WITHIN).sum() for one in rows), total
-            ),
-        }
-    }
 
 
 def _percent(part: int, total: int) -> float:

@@ -26,7 +26,7 @@ from regkit.start import (
     with_parts,
 )
 from regkit.system.optional import one_blas_thread
-from regkit_plugins.starts.exemplars.finalists import Comparison, margin
+from regkit_plugins.starts.exemplars.finalists import Comparison, margin, mean_pose
 from regkit_plugins.starts.exemplars.search import Search
 
 Elevation = Annotated[float, Field(ge=-90.0, le=90.0)]
@@ -41,7 +41,8 @@ class Exemplars(StartSearch):
 
     The atlas holds poses within the joint limits, in all views, as small depth images. The most
     similar ones, over all rolls and sizes, are rendered in the camera and refined; the best few are
-    registered with a search of their limbs, and the one of least energy and misfit is the start.
+    registered, some with a search of their limbs. The start is the mean of the one of least energy
+    and misfit and those like it, which differ where the data show nothing.
     """
 
     kind: Literal["exemplars"] = "exemplars"
@@ -56,13 +57,13 @@ class Exemplars(StartSearch):
     """Number of similar exemplars that are rendered."""
     refined: Annotated[int, Field(ge=1, le=10_000)] = 40
     """Number of these that are refined."""
-    finalists: Annotated[int, Field(ge=1, le=1000)] = 6
+    finalists: Annotated[int, Field(ge=1, le=1000)] = 16
     """Number of refined poses that are registered."""
     method: Method = slot_default(Method)
     """Method that registers the finalists."""
 
     def find(self, template: Template, observations: Sequence[Observation]) -> Start:
-        """Returns the start of least energy and misfit.
+        """Returns the start: the mean of the poses of least energy and misfit that are alike.
 
         A body whose root is fixed is sought with a free one; of the finalists, those count whose
         root is near where it stands, and their joints are registered there.
@@ -87,14 +88,16 @@ class Exemplars(StartSearch):
             else:
                 finalists = search.sized(sought.body(sizes[0]), observations[0])
             doubts = search.doubts(finalists[0].body, observations[0])
-            body, pose = finalists[0].body, finalists[0].pose
+            body = finalists[0].body
             if fixed:
                 body = template.body(body.size)
                 finalists = standing(finalists, body)
-                pose = at_root(body, finalists[0].pose)
+            pose = mean_pose(finalists)
+            if fixed:
+                pose = at_root(body, pose)
                 pose = self.method.bind(body).register(observations[0], [pose]).pose
             start = judged(body, pose, observations[0], margin(finalists), doubts)
-            rivals = () if fixed else tuple(one.pose for one in finalists[1:])
+            rivals = () if fixed else tuple(one.pose for one in finalists)
             return replace(start, rivals=rivals)
 
     def _search(self, template: Template) -> Search:

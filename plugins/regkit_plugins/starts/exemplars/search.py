@@ -20,7 +20,7 @@ from regkit_plugins.starts.exemplars.finalists import Comparison
 
 MORE = 2
 """Factor of the numbers of exemplars that are looked up and refined over all sizes together, or in
-a thorough search, and of the finalists if the picture cuts the body off."""
+a thorough search."""
 
 CUT_REFINED = 8
 """Factor of the number of exemplars that are refined if the picture cuts the body off.
@@ -145,7 +145,6 @@ class Search:
         # A size between the candidates resembles fewer exemplars, a part of a body more of them.
         more = 1 if len(bodies) == 1 and variation == BRIEF else MORE
         kept = CUT_REFINED if pictures.cut else more
-        each *= MORE if pictures.cut else 1
         finder = Finder(
             bodies,
             self.atlas,
