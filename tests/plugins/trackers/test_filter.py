@@ -97,7 +97,8 @@ def test_a_sudden_motion_is_followed_in_its_frame_and_a_usual_one_is_not_affecte
     errors = {}
     for unforeseen in (0.0, 1.0):
         settings = Filter(joint_deg=0.5, unforeseen=unforeseen, recovery=None)
-        tracker, past, seeded = settings.bind(registrar), Past.start(start), np.random.default_rng(3)
+        tracker, past = settings.bind(registrar), Past.start(start)
+        seeded = np.random.default_rng(3)
         for _ in range(4):
             found = tracker.step(on_surface(linkage, start, seeded), past)
             past = past.followed_by(found)
