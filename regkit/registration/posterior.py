@@ -14,6 +14,7 @@ from regkit.registration.compiled_posterior import (
     inverted,
     to_tangent,
 )
+from regkit.registration.energy import FrameEnergy
 from regkit.registration.tangent import TangentCoordinates
 from regkit.skeleton import Pose, Skeleton
 from regkit.skeleton.arrays import PoseArrays
@@ -78,6 +79,36 @@ class PoseCurvature(Curvature):
             matrix -= _independent(skeleton, stiffness)
         return cls(skeleton, pose, gradient, matrix, prior, shown)
 
+    @classmethod
+    def at(
+        cls,
+        skeleton: Skeleton,
+        pose: Pose,
+        energy: FrameEnergy,
+        prior: Prior | None,
+        shown: Array,
+    ) -> PoseCurvature | None:
+        """Returns the curvature at any pose; None if a part of the energy has none.
+
+        Solvers that do not need it, and other coordinates than steps on the tangent space, take one
+        more evaluation of the energy.
+
+        Args:
+            skeleton: The skeleton.
+            pose: The pose.
+            energy: The energy.
+            prior: The prior whose information the energy contains; None if it contains none.
+            shown: Share of each independent degree of freedom that is seen, (m,).
+        """
+        _, force, matrix = energy.derivatives(pose, 2)
+        if matrix is None:
+            return None
+        stiffness = None if prior is None else prior.stiffness
+        if stiffness is not None:
+            matrix = matrix - stiffness
+        gradient = _independent_force(skeleton, force)
+        return cls(skeleton, pose, gradient, _independent(skeleton, matrix).copy(), prior, shown)
+
     def information(self, points: float) -> Array:
         """Returns what the data alone tell of the independent degrees of freedom, (m, m)."""
         return points * self.matrix
@@ -131,6 +162,12 @@ def _independent(skeleton: Skeleton, matrix: Array) -> Array:
         return matrix
     count = len(skeleton.independent_dofs)
     return contracted(skeleton.arrays.limits, skeleton.hinge_dofs.start, matrix, count)
+
+
+def _independent_force(skeleton: Skeleton, force: Array) -> Array:
+    """Returns K^T f (m,) of a force f (n,) with the couplings K, (n, m)."""
+    hinges = skeleton.hinge_dofs.start
+    return np.concatenate([force[:hinges], skeleton.limits.couplings.jacobian.T @ force[hinges:]])
 
 
 def marker_covariances(jacobian: Array, covariance: Array) -> Array:

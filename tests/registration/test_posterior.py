@@ -125,6 +125,25 @@ def test_covariance_does_not_depend_on_the_start(body, random):
     np.testing.assert_allclose(far.covariance, near.covariance, rtol=0.02, atol=1e-8)
 
 
+@pytest.mark.parametrize("solver", ["lbfgs", "ipopt"])
+@pytest.mark.parametrize("coordinates", ["tangent", "quaternion"])
+def test_every_solver_and_all_coordinates_have_the_same_covariance(
+    body, random, solver, coordinates
+):
+    truth = pose_of(body, 20.0)
+    registrar = method().bind(body)
+    data, prior = drawn(registrar, truth, random), Prior(truth, points=100.0)
+    expected = registrar.register(data, [truth], prior=prior)
+    settings = {"kind": solver, "max_iterations": 300, "value_tolerance": 1e-12}
+    other = method(solver=settings, coordinates=coordinates).bind(body)
+    found = other.register(data, [expected.pose], prior=prior)
+    assert np.abs(body.skeleton.difference(found.pose, expected.pose)).max() < 1e-4
+    largest = np.abs(expected.covariance).max()
+    np.testing.assert_allclose(
+        found.covariance, expected.covariance, rtol=0.02, atol=1e-4 * largest
+    )
+
+
 def test_coupled_hinge_moves_with_its_leader(body, random):
     registrar, bones = method().bind(body), body.skeleton
     truth = pose_of(body, 20.0)

@@ -156,12 +156,14 @@ class BoundDirect(Registrar):
         prior: Prior,
         energy: FrameEnergy,
     ) -> PoseCurvature | None:
-        """Returns the curvature at a solution; None if solver or coordinates have none."""
-        if not isinstance(coordinates, TangentCoordinates):
-            return None
-        informed = prior.informed and any(term.informed for term in self.method.terms)
+        """Returns the curvature at a solution; None if the kernel or a term has none."""
+        known = any(term.informed for term in self.method.terms) and prior.informed
+        informed = prior if known else None
         shown = self._moving @ (energy.weights / self.primitives.weights)
-        return PoseCurvature.of(coordinates, pose, solution, prior if informed else None, shown)
+        found = None
+        if isinstance(coordinates, TangentCoordinates):
+            found = PoseCurvature.of(coordinates, pose, solution, informed, shown)
+        return found or PoseCurvature.at(self.body.skeleton, pose, energy, informed, shown)
 
     @cached_property
     def _moving(self) -> Array:
