@@ -37,8 +37,8 @@ Of folded people who are found, 2 % have a larger one (development set of ``benc
 """
 
 PER_SIZE = 2
-"""Number of finalists of each candidate size. With three of them, a person on a chair of UTD-MHAD is
-20 cm too tall: more poses explain the chair in a wrong size."""
+"""Number of finalists of each candidate size. With three of them, a person on a chair of UTD-MHAD
+is 20 cm too tall: more poses explain the chair in a wrong size."""
 
 
 @dataclass(frozen=True)
