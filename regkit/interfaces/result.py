@@ -31,7 +31,7 @@ class RegistrationResult:
         message: Reason why the solver ended.
         multipliers: Multipliers of the limits, if the solver computes them.
         searched: Number of points in which the tracker sought the whole body anew; 0 if it did not.
-        curvature: Curvature of the energy at the pose, if the solver knows it.
+        curvature: Curvature of the energy at the pose, if the kernel and all terms have one.
         effective_points: Effective number of independent points; NaN if it is not estimated.
         velocity: Step of ``Skeleton.retract`` to the next frame, (n,), if the tracker estimates it.
         deformation: What moves the posed body onto the data; None of a method that only poses it.

@@ -70,8 +70,7 @@ def smoothed(track: Track, body: Body, settings: Smoothing | None = None) -> Tra
     if track.information is None or track.pulls is None:
         raise ConfigError(
             "the track does not know how sure its poses are, so that it cannot be smoothed; take a "
-            "method with the solver 'gauss_newton' and a kernel with residuals, such as the preset "
-            "'filtered'",
+            "method whose kernel knows its residuals, such as the preset 'filtered'",
             place="smooth",
         )
     settings = Smoothing() if settings is None else settings
