@@ -137,8 +137,8 @@ class BoundFilter(BoundTracker):
         candidates = [last.pose]
         if past.before is not None:
             candidates.append(repeated(skeleton, past.before.pose, last.pose))
-        noise = self.noise * (1 + past.missed)
-        prior, extra = self._prior(past, predicted, noise), np.zeros(len(noise))
+        carried, noise = self._carried(past), self.noise * (1 + past.missed)
+        prior, extra = self._prior(past, predicted, carried, noise), np.zeros(len(noise))
         found = self.registrar.register(observation, candidates, prior=prior, warm_start=last)
         for _ in range(ROUNDS if self.settings.unforeseen else 0):
             if prior.information is None:
@@ -153,7 +153,7 @@ class BoundFilter(BoundTracker):
             if not more.any():
                 break
             extra = np.maximum(extra, more)
-            prior = self._prior(past, predicted, noise + extra)
+            prior = self._prior(past, predicted, carried, noise + extra)
             found = self.registrar.register(observation, [found.pose], prior=prior, warm_start=last)
         return found
 
@@ -163,22 +163,28 @@ class BoundFilter(BoundTracker):
             return np.zeros(self.registrar.body.skeleton.dofs)
         return self.settings.damping * past.last.velocity
 
-    def _prior(self, past: Past, predicted: Pose, noise: Array) -> Prior:
+    def _carried(self, past: Past) -> Array | None:
+        """Returns the covariance (n, n) of the last pose; None if it is unknown."""
+        curvature, points = past.last.curvature, past.last.effective_points
+        return None if curvature is None or isnan(points) else curvature.carried(points)
+
+    def _prior(self, past: Past, predicted: Pose, carried: Array | None, noise: Array) -> Prior:
         """Returns the last posterior, one frame later; a pose alone in the first frame.
 
         Args:
             past: Results of previous frames.
             predicted: The pose that is expected.
+            carried: Covariance of the last pose, (n, n); None if it is unknown.
             noise: Variance of the process noise, (n,).
         """
-        curvature, points = past.last.curvature, past.last.effective_points
-        if curvature is None or isnan(points):
-            return Prior(past.last.pose, points=points)
-        velocity = past.last.velocity
+        last, points = past.last, past.last.effective_points
+        if carried is None:
+            return Prior(last.pose, points=points)
+        velocity = np.zeros(len(noise)) if last.velocity is None else last.velocity
         information = predicted_information(
-            curvature.carried(points),
+            carried,
             noise,
-            np.zeros(len(self.noise)) if velocity is None else self.settings.share * velocity,
+            self.settings.share * velocity,
             self.spread,
             self.registrar.body.skeleton.arrays.limits.leaders,
             self.registrar.body.skeleton.ball_dofs.start,
