@@ -52,35 +52,47 @@ class Expected(Brief):
         before = None if self.before is None else self.before.moved(T_camera_world)
         return replace(self, pose=pose, before=before)
 
-    @cached_property
-    def motion(self) -> float:
-        """Largest displacement of a part between the last two frames [m]; zero if unknown."""
-        if self.before is None:
-            return 0.0
-        steps = self._points(self.pose) - self._points(self.before)
-        return float(np.linalg.norm(steps, axis=1).max())
-
     def within(self, points: Array, distance: float) -> NDArray[np.bool_]:
-        """Returns a mask (N,) of the points (N, 3) [m] within a distance [m] of the body."""
-        ends, radius = self._points(self.pose), 0.0
-        if isinstance(self._shape, Capsules):
-            radius = float(self._shape.radii.max())
+        """Returns a mask (N,) of the points (N, 3) [m] where the body may be.
+
+        Each part reaches as far as ``distance`` [m], and as it moved between the last two frames. A
+        hidden limb, whose pose may jump, so widens nothing but its own reach.
+        """
+        shape = self._reaching
+        reach = distance if isinstance(shape, Capsules) else distance + self._motion.max()
         # Most points of a scene are far from the body, which its box tells faster.
-        low, high = ends.min(axis=0) - radius - distance, ends.max(axis=0) + radius + distance
-        near = np.asarray(((points >= low) & (points <= high)).all(axis=1))
+        low, high = self._box
+        near = np.asarray(((points >= low - reach) & (points <= high + reach)).all(axis=1))
         inside = np.flatnonzero(near)
-        if isinstance(self._shape, Capsules):
-            near[inside] = self._shape.surface_distance(points[inside]) <= distance
+        if isinstance(shape, Capsules):
+            near[inside] = shape.surface_distance(points[inside]) <= reach
         else:
-            near[inside] = self._shape.query(points[inside])[0] <= distance
+            near[inside] = shape.query(points[inside])[0] <= reach
         return near
 
     @cached_property
-    def _shape(self) -> Capsules | scipy.spatial.KDTree:
-        """The placed capsules, or the points of a body without capsules."""
-        if len(self.body.capsules):
-            return self.body.capsules.place(self.body.place(self.pose).transforms)
-        return scipy.spatial.KDTree(self._points(self.pose))
+    def _reaching(self) -> Capsules | scipy.spatial.KDTree:
+        """The placed capsules, as much thicker as each moved; or points of a body without them."""
+        if not len(self.body.capsules):
+            return scipy.spatial.KDTree(self._points(self.pose))
+        placed = self.body.capsules.place(self.body.place(self.pose).transforms)
+        motion = self._motion.reshape(len(placed), AXIS_SAMPLES).max(axis=1)
+        return replace(placed, radii=placed.radii + motion[:, None])
+
+    @cached_property
+    def _box(self) -> tuple[Array, Array]:
+        """Least and largest coordinates (3,) of the body [m]."""
+        shape, points = self._reaching, self._points(self.pose)
+        radius = shape.radii.max() if isinstance(shape, Capsules) else 0.0
+        return points.min(axis=0) - radius, points.max(axis=0) + radius
+
+    @cached_property
+    def _motion(self) -> Array:
+        """Displacement of each point that spans the body between the last two frames, (N,) [m]."""
+        points = self._points(self.pose)
+        if self.before is None:
+            return np.zeros(len(points))
+        return np.asarray(np.linalg.norm(points - self._points(self.before), axis=1))
 
     def _points(self, pose: Pose) -> Array:
         """Returns points (N, 3) [m] that span the body in a pose."""

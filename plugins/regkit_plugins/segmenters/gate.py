@@ -18,7 +18,7 @@ class Gate(Segmenter):
 
     It has no effect before the start and where the last motion is unknown: in the first two frames,
     in which a tracker may still correct a limb of the start, and after frames without data. The
-    last motion adds to the distance.
+    last motion of each part adds to its distance.
     """
 
     kind: Literal["gate"] = "gate"
@@ -46,4 +46,4 @@ class BoundGate(BoundSegmenter):
         if expected is None or expected.before is None:
             return frame
         distance = self.distance or DISTANCE * expected.body.size
-        return frame.only(expected.within(frame.points, distance + expected.motion))
+        return frame.only(expected.within(frame.points, distance))

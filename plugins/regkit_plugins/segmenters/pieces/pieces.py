@@ -182,7 +182,7 @@ class BoundPieces(BoundSegmenter):
         """Returns the pieces where the last body was; None if that is unknown, or too little."""
         if expected is None:
             return None
-        reach = NEAR * expected.body.size * (1 + expected.missed) + expected.motion
+        reach = NEAR * expected.body.size * (1 + expected.missed)
         near = expected.within(pieces[0].frame.points, reach)
         found = [piece for piece in pieces if near[piece.at].mean() >= 0.5]
         if sum(piece.area for piece in found) < self._least:
