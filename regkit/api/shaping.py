@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from regkit.api.choices import Choice, Choices
@@ -55,6 +56,7 @@ def fit_shape(
     pipeline = Pipeline.of(
         template, method, segmentation, preprocessor, None, start, place="regkit.fit_shape"
     )
+    pipeline = replace(pipeline, template=pipeline.template.plain())
     description = pipeline.template.description()
     if description.modes is None:
         raise ConfigError(

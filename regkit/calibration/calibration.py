@@ -69,11 +69,12 @@ class Calibration(Model):
             return self._subject(recording)
 
     def _subject(self, recording: Recording) -> Subject:
-        shape = SubjectShape.of(self.template.description())
+        template = self.template.plain()
+        shape = SubjectShape.of(template.description())
         # The fit finds the size; the start needs only a rough one.
         session = Session(
             recording,
-            self.template,
+            template,
             self._preprocessor(),
             self.start,
             sized_in=1,

@@ -115,7 +115,8 @@ class LiveRun:
     def _rows(self, track: LiveTrack, start: Start) -> RowsInFile:
         """Keeps the frames on disk: memory does not grow, and a kill loses half a second."""
         about = (track.name, self.method, track.stream.fps, start.body.size)
-        description = TrackDescription.of(*about, self.pipeline.template)
+        template = self.pipeline.template.chosen(extended=start.extended)
+        description = TrackDescription.of(*about, template)
         remove_former(self.folder(track))
         return description.rows(self.folder(track), start.body, information=self.smooth)
 

@@ -41,13 +41,14 @@ def write_track(
     Args:
         out: The folder.
         tracking: The result.
-        template: The template of the body.
+        template: The template, of which the start may have chosen the extended one.
         figures: The content of ``result.json``.
 
     Raises:
         RegkitError: If a file cannot be written.
     """
-    about = (tracking.name, tracking.method, tracking.fps, tracking.size, template)
+    chosen = template.chosen(extended=tracking.start.extended)
+    about = (tracking.name, tracking.method, tracking.fps, tracking.size, chosen)
     TrackDescription.of(*about).write(out)
     write_json(out / "result.json", figures)
     write_csv(out / "markers.csv", *_markers(tracking))

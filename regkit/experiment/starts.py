@@ -38,6 +38,7 @@ class StoredStart:
         verdict: Whether the body was found.
         reason: Why it is not surely found.
         margin: Advantage over the best other pose; None if there was none.
+        extended: Whether the body is that of the extended template.
         checksum: Digest of the other fields.
     """
 
@@ -49,6 +50,7 @@ class StoredStart:
     verdict: Verdict
     reason: str
     margin: float | None
+    extended: bool = False
     checksum: str = ""
 
     @classmethod
@@ -58,7 +60,7 @@ class StoredStart:
         arrays = (pose.root.tolist(), pose.balls.tolist(), pose.hinges.tolist())
         margin = float(start.margin) if np.isfinite(start.margin) else None
         judged = (start.verdict, start.reason, margin)
-        plain = cls(inputs, float(start.body.size), *arrays, *judged)
+        plain = cls(inputs, float(start.body.size), *arrays, *judged, start.extended)
         return cls(**asdict(plain) | {"checksum": plain.digest()})
 
     @classmethod
@@ -80,7 +82,7 @@ class StoredStart:
 
     def start(self, template: Template) -> Start:
         """Returns the start of a template's body."""
-        body = template.body(self.size)
+        body = template.chosen(extended=self.extended).body(self.size)
         rest = body.skeleton.rest()
         pose = Pose(
             np.array(self.root, dtype=float).reshape(rest.root.shape),
@@ -88,7 +90,8 @@ class StoredStart:
             np.array(self.hinges, dtype=float).reshape(rest.hinges.shape),
         )
         margin = float("nan") if self.margin is None else self.margin
-        return Start(body, pose, self.verdict, self.reason, margin)
+        judged = (self.verdict, self.reason, margin)
+        return Start(body, pose, *judged, extended=self.extended)
 
 
 def kept_start(session: Session, folder: Path, inputs: str) -> Start:

@@ -14,7 +14,7 @@ from regkit.body import Body
 from regkit.config.document import Document
 from regkit.experiment.provenance import manifest
 from regkit.experiment.provenance.manifest import Manifest
-from regkit.experiment.provenance.setup import Setup
+from regkit.experiment.provenance.setup import EXTENDED, Setup
 from regkit.experiment.results_format import check_format
 from regkit.geometry.skinned_mesh import SkinnedMesh
 from regkit.interchange.motion import TrackedMotion
@@ -122,10 +122,12 @@ def _present(results: Path, field: str, setup: Setup) -> Template | None:
     """Returns the template in ``config.yaml``, if it is still that of the run."""
     with suppress(RegkitError, KeyError, TypeError):
         document = Document.read(results / "config.yaml")
-        head, _, subject = field.partition(".")
+        plain = field.removesuffix(EXTENDED)
+        head, _, subject = plain.partition(".")
         data = document.data[head][subject] if subject else document.data[head]
         template = Template.of(Document({head: data}, document.places), head)
-        return template if setup.holds(field, template) else None
+        there = setup.holds(plain, template)
+        return template.chosen(extended=field != plain) if there else None
     return None
 
 

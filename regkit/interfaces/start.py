@@ -29,6 +29,7 @@ class Start(Brief):
             dimensionless; NaN if there was no rival.
         rivals: Other poses that were registered, the best first; what else is known of the scene
             may decide for one of them.
+        extended: Whether the body is that of the extended template (``Template.chosen``).
     """
 
     body: Body
@@ -37,6 +38,7 @@ class Start(Brief):
     reason: str = ""
     margin: float = float("nan")
     rivals: tuple[Pose, ...] = ()
+    extended: bool = False
 
     @property
     def summary(self) -> str:

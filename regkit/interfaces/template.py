@@ -57,6 +57,23 @@ class Template(Plugin, ABC):
             return (smallest,)
         return tuple(float(size) for size in np.geomspace(smallest, largest, count))
 
+    def extended(self) -> Template | None:
+        """Returns the template with further parts that the data may show; by default None.
+
+        They are optional segments: a start keeps this template only if data lie on them. It has the
+        sizes of the other one.
+        """
+        return None
+
+    def chosen(self, *, extended: bool) -> Template:
+        """Returns the extended template, or this one, as a start has chosen."""
+        longer = self.extended() if extended else None
+        return self if longer is None else longer
+
+    def plain(self) -> Template:
+        """Returns this template, of which no start chooses the extended one."""
+        return self
+
     def coarse(self) -> Template | None:
         """Returns the template that is searched for first, before its parts; by default None.
 

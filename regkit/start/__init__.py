@@ -7,10 +7,12 @@
   compare them too.
 - ``rigid``, ``cloud``: starts of rigid surfaces.
 - ``free_root``: starts of bodies whose root is fixed in the world.
+- ``further``: whether a template has the further parts that it may have.
 - ``inside``: the start of a body with parts, whose base is found first.
 - ``beside``, ``several``: the start of bodies beside each other; ``divisions`` divides the points
   among them, a ``scene`` is a pose of all, and ``scene_verdict`` judges it.
 - ``of_size``: a template at a size.
+- ``unseen``: limbs that no camera shows.
 - ``verdict``: whether a start was found.
 """
 
@@ -18,9 +20,11 @@ from regkit.start.beside import with_free_bodies
 from regkit.start.candidate import Candidate
 from regkit.start.finalist import Finalist
 from regkit.start.free_root import FreeRoot, at_root, is_fixed, standing
+from regkit.start.further import with_further_parts
 from regkit.start.inside import with_parts
 from regkit.start.rigid import rigid_start
 from regkit.start.scan import Scan
+from regkit.start.unseen import rested
 from regkit.start.verdict import judged
 
 __all__ = [
@@ -31,8 +35,10 @@ __all__ = [
     "at_root",
     "is_fixed",
     "judged",
+    "rested",
     "rigid_start",
     "standing",
     "with_free_bodies",
+    "with_further_parts",
     "with_parts",
 ]

@@ -8,14 +8,15 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
+from regkit.geometry.camera import Camera
 from regkit.interfaces import Recording
 from regkit.observation import Frame
 from regkit.testing.samples import CAMERA
 
 
-def frame_of(depth: np.ndarray) -> Frame:
+def frame_of(depth: np.ndarray, camera: Camera = CAMERA) -> Frame:
     """Returns the frame of a depth image."""
-    return Frame(CAMERA.back_projected(depth), CAMERA, depth, "an image")
+    return Frame(camera.back_projected(depth), camera, depth, "an image")
 
 
 @dataclass(frozen=True)

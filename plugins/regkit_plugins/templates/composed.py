@@ -82,7 +82,7 @@ class Composed(Template):
 
     def coarse(self) -> Template | None:
         """Returns the base, if it has parts and nothing is beside it."""
-        return self.base if self.at and not self.free else None
+        return self._bodies[BASE] if self.at and not self.free else None
 
     def free_bodies(self) -> Mapping[str, Template]:
         """Returns the templates of the bodies beside each other; of a base, with its parts."""
@@ -103,7 +103,7 @@ class Composed(Template):
             # The leading one has exactly the size that is asked for.
             part = 1.0 if name == leading else descriptions[name].size.value / usual
             own = sizes[name] or part * (usual if size is None else size)
-            prefix = "" if template is self.base else f"{name}_"
+            prefix = "" if name == BASE else f"{name}_"
             member = Member(name, scaled(descriptions[name], own), prefix)
             members.append(Sized(member, partial(template.body, own)))
         for name, template in self.at.items():
@@ -114,8 +114,9 @@ class Composed(Template):
 
     @property
     def _bodies(self) -> dict[str, Template]:
-        """The bodies that move freely, by name."""
-        return ({} if self.base is None else {BASE: self.base}) | self.free
+        """The bodies that move freely, by name; the whole is described with these and no others."""
+        bodies = ({} if self.base is None else {BASE: self.base}) | self.free
+        return {name: template.plain() for name, template in bodies.items()}
 
     def _check_sockets(self) -> None:
         """Refuses parts at segments without a socket.

@@ -31,15 +31,23 @@ class Hand(Template):
     length: Annotated[float, Field(ge=0.05, le=0.3)] | None = None
     """Length from the wrist to the tip of the straight middle finger [m]; by default it is
     estimated."""
-    forearm: bool = False
-    """Whether the template has a forearm. It explains data behind the wrist, and where there are
-    none it costs nothing."""
+    forearm: bool | None = None
+    """Whether the template has a forearm, which explains data behind the wrist. By default the
+    start decides: it has one if the first frame shows one. A part of another body has none."""
 
     def description(self) -> BodyDescription:
         """Returns the description in the file of the side, with the tuned list beside it."""
         file = f"hand_{self.side}.yaml"
         hand = tuned_lists_in(FOLDER / "tuned" / file).added_to(description_in(FOLDER / file))
         return with_forearm(hand) if self.forearm else hand
+
+    def extended(self) -> Hand | None:
+        """Returns the hand with a forearm, unless the configuration decides."""
+        return self.model_copy(update={"forearm": True}) if self.forearm is None else None
+
+    def plain(self) -> Hand:
+        """Returns the hand without a forearm, unless the configuration has one."""
+        return self.model_copy(update={"forearm": bool(self.forearm)})
 
     def given_size(self) -> float | None:
         """Returns the length [m], if it is set."""

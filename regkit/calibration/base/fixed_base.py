@@ -74,7 +74,7 @@ class FixedBase(Model):
     def _found(self, recording: Recording) -> FoundBase:
         session = Session(
             recording,
-            self.template,
+            self.template.plain(),
             self._preprocessor(),
             self.start,
             segmentation=self.segmentation,

@@ -24,6 +24,9 @@ from regkit.system.json_files import write_json
 
 FILE = "setup.json"
 
+EXTENDED = " extended"
+"""What follows the field of a template whose extended one a start may choose."""
+
 
 @dataclass(frozen=True)
 class Setup:
@@ -33,7 +36,8 @@ class Setup:
         versions: Of regkit, of numerical libraries, and of the plug-ins' distributions.
         code: Digests of the code of the plug-ins, by package or file.
         files: Digests of the files that templates and other plug-ins read, by field and name.
-        templates: Descriptions of the templates, by field. ``regkit export`` needs no other file.
+        templates: Descriptions of the templates, by field, and of those that a start may choose in
+            their place. ``regkit export`` needs no other file.
     """
 
     versions: dict[str, str]
@@ -54,6 +58,9 @@ class Setup:
         for field, plugin in plugins.items():
             if isinstance(plugin, Template):
                 templates[field] = _described(plugin)
+                extended = plugin.extended()
+                if extended is not None:
+                    templates[f"{field}{EXTENDED}"] = _described(extended)
             if field.partition(".")[0] != "dataset":
                 files.update(_digests(field, plugin))
         return cls(versions(plugins.values()), code(plugins.values()), files, templates)

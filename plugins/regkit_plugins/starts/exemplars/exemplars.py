@@ -20,9 +20,11 @@ from regkit.start import (
     at_root,
     is_fixed,
     judged,
+    rested,
     rigid_start,
     standing,
     with_free_bodies,
+    with_further_parts,
     with_parts,
 )
 from regkit.system.optional import one_blas_thread
@@ -71,7 +73,8 @@ class Exemplars(StartSearch):
         Raises:
             ConfigError: If the template has no capsules.
         """
-        inside = with_parts(
+        shown = with_further_parts(self.find, template, observations)
+        inside = shown or with_parts(
             lambda base: self.find(base, observations), template, observations[0], self.method
         )
         beside = inside or with_free_bodies(self.find, template, observations, self.method)
@@ -92,7 +95,7 @@ class Exemplars(StartSearch):
             if fixed:
                 body = template.body(body.size)
                 finalists = standing(finalists, body)
-            pose = mean_pose(finalists)
+            pose = rested(body, mean_pose(finalists), observations[0])
             if fixed:
                 pose = at_root(body, pose)
                 pose = self.method.bind(body).register(observations[0], [pose]).pose

@@ -21,6 +21,7 @@ from regkit.start import (
     judged,
     rigid_start,
     with_free_bodies,
+    with_further_parts,
     with_parts,
 )
 from regkit.start.fit import STIFFNESS
@@ -60,7 +61,8 @@ class Stances(StartSearch):
         Raises:
             ConfigError: If the template has no capsules.
         """
-        inside = with_parts(
+        shown = with_further_parts(self.find, template, observations)
+        inside = shown or with_parts(
             lambda base: self.find(base, observations), template, observations[0], self.method
         )
         beside = inside or with_free_bodies(self.find, template, observations, self.method)
