@@ -36,11 +36,11 @@ Of 25 people it is at most 0.05 more, of 21 boxes at least 0.05 and in the media
 set of ``benchmarks/starts.py``).
 """
 
-LOOSE = 0.37
-"""With a larger misfit, data are doubtful that lie on planes, or are flat, by less: see below."""
+LOOSE = 0.15
+"""A body fits loosely with a misfit that is larger by this than the data's noise, in limb radii."""
 
 LOOSE_PLANAR, LOOSE_FLAT = 0.05, 0.45
-"""Bounds of the share on planes and of the relief of data that a body fits loosely.
+"""Bounds of the share on planes and of the relief of data that a body fits loosely, as furniture.
 
 They doubt 1 of 79 people, none of 59 folded ones and none of 51 hands that are right, and the two
 of 160 frames of empty rooms and boxes that would else be found (development set of
@@ -76,9 +76,10 @@ def judged(
     fit = BodyFit.of(body, pose, observation.points, observation.sight)
     shares = (fit.inlier_share, fit.coverage, fit.misfit, fit.relief)
     (verdict,) = frame_verdicts(np.ones(1), *(np.array([share]) for share in shares))
-    reasons = [*_misfits(fit), *doubts]
+    loose = fit.misfit > LOOSE + float(np.sqrt(np.median(observation.variances))) / body.limb_radius
+    reasons = [*_misfits(fit, LOOSE_FLAT if loose else FLAT), *doubts]
     excess = _planar_excess(body, pose, observation.points)
-    if excess > (LOOSE_PLANAR if fit.misfit > LOOSE else SURE_PLANAR):
+    if excess > (LOOSE_PLANAR if loose else SURE_PLANAR):
         reasons.append("the points lie on two planes, as those of furniture do")
         verdict = Verdict.LOST if excess > LOST_PLANAR else verdict
     if margin < SURE_MARGIN:
@@ -91,8 +92,8 @@ def judged(
     return Start(body, pose, verdict, "; ".join(reasons), margin)
 
 
-def _misfits(fit: BodyFit) -> list[str]:
-    """Returns in words where the data and the body differ."""
+def _misfits(fit: BodyFit, flat: float) -> list[str]:
+    """Returns in words where the data and the body differ, and whether the data are flat."""
     told = []
     if fit.inlier_share < SURE_INLIERS:
         told.append(f"{100.0 * fit.inlier_share:.0f} % of the points lie on the body")
@@ -100,7 +101,7 @@ def _misfits(fit: BodyFit) -> list[str]:
         told.append(f"{100.0 * fit.coverage:.0f} % of the visible body has data")
     if fit.misfit > SURE_MISFIT:
         told.append(f"the data and the body are {fit.misfit:.2g} limb radii apart")
-    if fit.relief < (LOOSE_FLAT if fit.misfit > LOOSE else FLAT):
+    if fit.relief < flat:
         told.append(f"the data are {'' if fit.relief < FLAT else 'nearly '}as flat as a wall")
     return told
 

@@ -66,7 +66,7 @@ def check_extent(points: Array, template: Template, *, place: str) -> None:
         return
     sizes, extent = template.candidate_sizes(), extent_of(points)
     advice = "check the unit of the data (depth_scale) and the template"
-    if extent > LARGE * sizes[-1]:
+    if extent > LARGE * sizes[-1] * _extension(template):
         told = f"crop the surroundings (preprocessor.crop), or {advice}"
     elif extent < SMALL * sizes[0]:
         told = f"unless only a part of the body is in view, {advice}"
@@ -91,6 +91,18 @@ def tell_bound(size: float, template: Template, *, place: str) -> None:
             "template",
             place=place,
         )
+
+
+def _extension(template: Template) -> float:
+    """Returns how much longer a body is with the further parts that it may have."""
+    longer = template.extended()
+    if longer is None:
+        return 1.0
+    with_parts, without = (
+        body.capsules.place(body.place(body.skeleton.rest()).transforms).ends.reshape(-1, 3)
+        for body in (one.body(one.candidate_sizes()[0]) for one in (longer, template))
+    )
+    return extent_of(with_parts) / extent_of(without)
 
 
 def _compared(extent: float, template: Template) -> str:

@@ -134,12 +134,20 @@ def test_extent_of_the_data_is_compared_with_the_template(template):
     body = template.body(size)
     points = surface_of(body, body.skeleton.rest())
     check_extent(points, template, place="here")
-    for factor in (0.35, 3.0):
+    for factor in (0.35, 6.0):
         with pytest.warns(RegkitWarning, match="here: the points are spread over"):
             check_extent(factor * points, template, place="here")
     for factor in (0.001, 1000.0):
         with pytest.raises(DataError, match="here: the points are spread over"):
             check_extent(factor * points, template, place="here")
+
+
+def test_extent_with_the_parts_that_the_data_may_show_is_usual():
+    body = Hand(forearm=True).body(0.22)
+    points = surface_of(body, body.skeleton.rest())
+    check_extent(points, Hand(), place="here")
+    with pytest.warns(RegkitWarning, match="here: the points are spread over"):
+        check_extent(points, Hand(forearm=False), place="here")
 
 
 def test_size_at_an_end_of_the_range_is_told():

@@ -98,7 +98,7 @@ def _told(frame: Frame, chain: Chain, extent: float) -> str:
     numbers = [
         number
         for number, piece in enumerate(counted)
-        if chosen is not None and np.isin(piece.at[0], chosen.at)
+        if chosen is not None and np.isin(piece.at, chosen.at).any()
     ]
     what = f"{len(planes.planes)} plane{'s' * (len(planes.planes) != 1)}"
     if planes.floor is not None:

@@ -47,6 +47,7 @@ class Figure:
         largest: Largest area that it shows [m^2].
         length: Usual extent along its longest axis [m].
         roundness: Usual roundness of its surface.
+        extended: The figure with the further parts that the data may show; None without any.
     """
 
     size: float
@@ -54,6 +55,7 @@ class Figure:
     largest: float
     length: float
     roundness: float
+    extended: Figure | None = None
 
     @classmethod
     def of(cls, template: Template) -> Self:
@@ -72,12 +74,15 @@ class Figure:
         clouds = _clouds(body)
         views = [_visible(cloud, axis, size / CELLS) for cloud in clouds for axis in range(3)]
         areas = [len(points) * (size / CELLS) ** 2 for points in views]
+        longer = template.extended()
+        extended = None if longer is None else cls.of(longer)
         return cls(
             size,
             float(np.median(areas)),
-            float(np.max(areas)),
+            max(float(np.max(areas)), 0.0 if extended is None else extended.largest),
             float(np.median([_length(points) for points in views])),
             float(np.median([roundness(points, size) for points in views[::ROUNDED]])),
+            extended,
         )
 
     @classmethod
@@ -91,7 +96,14 @@ class Figure:
         return tuple(sorted(map(cls.of, each), key=lambda one: -one.area))
 
     def cost(self, piece: Piece) -> float:
-        """Returns how unlike the body a piece is: the sum of squared deviations."""
+        """Returns how unlike the body a piece is: the sum of squared deviations.
+
+        It may have the further parts or not.
+        """
+        own = self._cost(piece)
+        return own if self.extended is None else min(own, self.extended.cost(piece))
+
+    def _cost(self, piece: Piece) -> float:
         cost = 0.0
         for found, usual, less, more in (
             (piece.area, self.area, AREA, AREA),

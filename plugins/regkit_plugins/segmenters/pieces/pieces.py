@@ -15,7 +15,8 @@ from regkit.interfaces import BoundSegmenter, Expected, Recording, Segmenter, Te
 from regkit.observation import Frame
 from regkit.system.errors import DataError
 from regkit_plugins.segmenters.pieces.components import components
-from regkit_plugins.segmenters.pieces.figure import LEAST_FIT, Figure
+from regkit_plugins.segmenters.pieces.figure import Figure
+from regkit_plugins.segmenters.pieces.fitting import fitting
 from regkit_plugins.segmenters.pieces.growth import grown, with_fragments
 from regkit_plugins.segmenters.pieces.motion import Motion
 from regkit_plugins.segmenters.pieces.piece import Piece
@@ -27,15 +28,13 @@ GAP = 0.03
 NEAR = 0.06
 """A piece that was within this distance of the last body, in sizes of the body, is a part of it."""
 
+SLOWEST = 7.5
+"""At a lower frame rate [1/s] a limb moves farther than to another piece, and each frame is chosen
+from anew."""
+
 CERTAIN, CERTAINLY_ROUND = 2.0, 0.3
 """Of several pieces, those with a smaller cost and a smaller flatness are bodies, since furniture
 seldom is as like one."""
-
-LIKELY = 4
-"""Number of pieces, those most like the body, that are compared with all that belongs to them."""
-
-ALIKE = 1.0
-"""Pieces whose costs differ by less, one deviation, fit alike: of them the nearest is chosen."""
 
 
 class Pieces(Segmenter):
@@ -68,7 +67,7 @@ class Pieces(Segmenter):
             DataError: If the motion cannot be seen in the recording.
         """
         motion = Motion.of(recording, template) if self.choose == "moving" else None
-        return BoundPieces(self, template, motion)
+        return BoundPieces(self, template, motion, follows=recording.fps >= SLOWEST)
 
     def each(self, recording: Recording, template: Template) -> tuple[Pieces, ...]:
         """Returns a segmenter for each piece of the first frame that fits, from near to far."""
@@ -95,11 +94,13 @@ class BoundPieces(BoundSegmenter):
         settings: The segmenter.
         template: Template of the body.
         motion: What moves, for the choice of what moves.
+        follows: Whether the last body tells where the next one is.
     """
 
     settings: Pieces
     template: Template
     motion: Motion | None
+    follows: bool = True
 
     @cached_property
     def figures(self) -> tuple[Figure, ...]:
@@ -161,7 +162,7 @@ class BoundPieces(BoundSegmenter):
         if not found:
             return None
         if choose == "fits":
-            return _fitting(found, pieces, figure)
+            return fitting(found, pieces, figure)
         if isinstance(choose, int):
             if choose >= len(found):
                 raise DataError(
@@ -180,7 +181,7 @@ class BoundPieces(BoundSegmenter):
 
     def _last(self, pieces: list[Piece], expected: Expected | None) -> Piece | None:
         """Returns the pieces where the last body was; None if that is unknown, or too little."""
-        if expected is None:
+        if expected is None or not self.follows:
             return None
         reach = NEAR * expected.body.size * (1 + expected.missed)
         near = expected.within(pieces[0].frame.points, reach)
@@ -201,13 +202,3 @@ def held(area: float, figures: Sequence[Figure]) -> int:
     """
     sums = np.cumsum([one.area for one in figures])
     return 1 + int(np.abs(np.log(area / sums)).argmin())
-
-
-def _fitting(found: list[Piece], pieces: list[Piece], figure: Figure) -> Piece | None:
-    """Returns the piece that is most like a body; None if none is."""
-    likely = sorted(found, key=figure.cost)[:LIKELY]
-    wholes = [grown(one, pieces, figure) for one in likely]
-    fits = [(piece, cost) for piece, cost in wholes if cost < LEAST_FIT]
-    least = min((cost for _, cost in fits), default=0.0)
-    alike = [piece for piece, cost in fits if cost <= least + ALIKE]
-    return min(alike, key=lambda piece: piece.depth, default=None)
