@@ -62,11 +62,20 @@ class Mirroring:
             reflection @ pose.root[:3, :3] @ own,
             through + reflection @ (pose.root[:3, 3] - through),
         )
-        balls, hinges = np.empty_like(pose.balls), np.empty_like(pose.hinges)
-        vectors = (self.rotations @ pose.balls[:, :3, None])[:, :, 0]
-        balls[self.balls] = np.column_stack([vectors, pose.balls[:, 3]])
-        hinges[self.hinges] = self.signs * pose.hinges
-        return Pose(root, balls, hinges)
+        return Pose(root, *self.sides(pose.balls, pose.hinges))
+
+    def sides(self, balls: Array, hinges: Array) -> tuple[Array, Array]:
+        """Returns joints with left and right exchanged.
+
+        Args:
+            balls: Unit quaternions of the ball joints, (..., n_ball, 4).
+            hinges: Hinge angles, (..., n_hinge) [rad].
+        """
+        own_balls, own_hinges = np.empty_like(balls), np.empty_like(hinges)
+        own_balls[..., self.balls, :3] = (self.rotations @ balls[..., :3, None])[..., 0]
+        own_balls[..., self.balls, 3] = balls[..., 3]
+        own_hinges[..., self.hinges] = self.signs * hinges
+        return own_balls, own_hinges
 
 
 def _mirroring(skeleton: Skeleton, normal: Array) -> Mirroring | None:

@@ -61,3 +61,24 @@ def test_mirroring_twice_changes_nothing(poses):
 
 def test_hand_has_no_other_side():
     assert Mirroring.of(Hand(length=0.18).body(0.18).skeleton) is None
+
+
+def test_sides_of_many_poses_are_those_of_each(random):
+    mirroring = Mirroring.of(BODY.skeleton)
+    balls, hinges = sampled_poses(BODY, random, 7)
+    of_balls, of_hinges = mirroring.sides(balls, hinges)
+    for index in range(7):
+        pose = mirroring.mirrored(Pose(ROOT, balls[index], hinges[index]), PLANE, THROUGH)
+        np.testing.assert_array_equal(of_balls[index], pose.balls)
+        np.testing.assert_array_equal(of_hinges[index], pose.hinges)
+
+
+def test_many_sampled_poses_have_legs_that_are_mirror_images_and_many_have_not(random):
+    names, places = BODY.markers.names, []
+    for joints in zip(*sampled_poses(BODY, random, 200), strict=True):
+        transforms = BODY.place(Pose(np.eye(4), *joints)).transforms
+        placed = dict(zip(names, BODY.markers.place(transforms), strict=True))
+        places.append([placed[f"{side}_ankle"] for side in ("left", "right")])
+    left, right = np.array(places).transpose(1, 0, 2)
+    alike = np.linalg.norm(left * [-1.0, 1.0, 1.0] - right, axis=1) < 0.05
+    assert 0.3 < alike.mean() < 0.8
