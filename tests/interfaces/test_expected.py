@@ -40,3 +40,15 @@ def test_a_body_that_moved_as_a_whole_reaches_as_far_on_all_sides():
     for name in ("head", "left_shin", "right_hand"):
         assert expected.within(around(name, 2.0 * REACH), REACH).all()
         assert not expected.within(around(name, 3.0 * REACH), REACH).any()
+
+
+def test_what_jumped_was_corrected_and_reaches_no_farther():
+    rest = BODY.skeleton.rest()
+    step = np.zeros(BODY.skeleton.dofs)
+    step[0] = 1.0
+    points = np.concatenate(
+        [around(name, away) for name in ("head", "left_shin") for away in (0.05, 0.2)]
+    )
+    jumped = Expected(BODY, rest, BODY.skeleton.retract(rest, step)).within(points, REACH)
+    np.testing.assert_array_equal(jumped, Expected(BODY, rest).within(points, REACH))
+    assert 0 < jumped.sum() < len(points)

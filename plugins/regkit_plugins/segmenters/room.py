@@ -38,9 +38,9 @@ FRAMES = 3
 class Room(Segmenter):
     """Takes the body out of a room; does nothing where the scene is no larger than the body.
 
-    Floor and walls are removed (``planes``), in tracking also what is far from the last body
-    (``gate``), and of the rest the piece that fits the template is kept (``pieces``). Pixels
-    without a measurement among measured ones are unknown.
+    Floor and walls are removed (``planes``), and of the rest the piece that fits the template is
+    kept (``pieces``), in tracking without what is far from the last body (``gate``). Pixels without
+    a measurement among measured ones are unknown.
     """
 
     kind: Literal["room"] = "room"
@@ -61,7 +61,7 @@ class Room(Segmenter):
         if not figures or not any(_is_larger(frame, template, figures) for frame in frames):
             return Chain()
         extent = max(extent_of(frame.points) for frame in frames)
-        steps = (self.planes, self.gate, self.pieces)
+        steps = (self.planes, self.pieces, self.gate)
         chain = Chain.of(steps, recording, template)
         note(_told(frames[0], chain, extent), place=recording.name)
         return Surroundings(chain.steps, chain.names)
@@ -90,7 +90,7 @@ def _is_larger(frame: Frame, template: Template, figures: Sequence[Figure]) -> b
 
 def _told(frame: Frame, chain: Chain, extent: float) -> str:
     """Returns what was removed from the first frame."""
-    planes, _, pieces = chain.steps
+    planes, pieces, _ = chain.steps
     assert isinstance(planes, BoundPlanes)
     assert isinstance(pieces, BoundPieces)
     found = pieces.pieces(planes.segmented(frame, None))

@@ -48,7 +48,7 @@ class AtlasSettings:
         seed: Seed of the poses and views.
     """
 
-    count: int = 45_000
+    count: int = 30_000
     elevation: tuple[float, float] = (-np.pi / 2, np.pi / 2)
     cut: bool = False
     seed: int = 0

@@ -19,7 +19,7 @@ from regkit.system.files import write_arrays
 from regkit.system.notes import note
 from regkit.system.progress import working
 
-FORMAT = "6"
+FORMAT = "7"
 """Changes with the code that makes atlases."""
 
 KEPT, REMEMBERED = 32, 4

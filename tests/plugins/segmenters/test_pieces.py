@@ -172,3 +172,38 @@ def test_several_bodies_alone_in_the_picture_are_no_room():
     frames = recording(twins(50))
     (frame,) = frames.frames()
     assert Room().bind(frames, BOTH).segmented(frame, None) is frame
+
+
+def in_order(depth: np.ndarray, expected: Expected) -> np.ndarray:
+    """Returns the pixels that are kept by pieces, then by the gate, as in a room."""
+    frames = recording(depth)
+    (frame,) = frames.frames()
+    for one in (Pieces(), Gate()):
+        frame = one.bind(frames, TEMPLATE).segmented(frame, expected)
+    return np.nan_to_num(frame.depth) > 0.0
+
+
+def test_what_the_body_touches_goes_beyond_the_gate_only():
+    depth, shown = body_depth(), WALLED.shown(4)
+    rows, columns = np.nonzero(shown)
+    row = slice(int(np.median(rows)) - 2, int(np.median(rows)) + 3)
+    end = int(columns[rows == row.start].max())
+    depth[row, end:] = depth[row.start, end]  # A board that begins at the body, as a bed does.
+    expected = Expected(WALLED.body, WALLED.pose(4), WALLED.pose(4))
+    left = in_order(depth, expected)
+    assert left[shown].mean() > 0.98
+    assert 0 < left[~shown].sum() < 0.5 * ((depth > 0.0) & ~shown).sum()
+
+
+def test_furniture_before_a_hidden_part_is_not_a_fragment_of_the_body():
+    depth, shown = body_depth(), WALLED.shown(4)
+    rows, _ = np.nonzero(shown)
+    desk = int(np.percentile(rows, 70))
+    # Its edge is close to the body, and its top comes towards the camera.
+    before = 0.06 + np.linspace(0.0, 0.6, len(depth) - desk)
+    beside = depth[desk - 1][shown[desk - 1]].min()
+    depth[desk:, 20:-20] = beside - before[:, None]
+    expected = Expected(WALLED.body, WALLED.pose(4), WALLED.pose(4))
+    left = in_order(depth, expected)
+    assert left[:desk][shown[:desk]].mean() > 0.98
+    assert not left[desk:].any()

@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import Annotated, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field
 
 from regkit.config.quantities import Length, Share
@@ -42,9 +43,10 @@ class Pieces(Segmenter):
 
     In an image, neighbouring pixels of like depth are connected; in a cloud, neighbouring points.
     A piece belongs to another if what is between them is hidden by something nearer. In tracking,
-    the pieces where the last body was are kept, and a piece is chosen only at the start and after
-    the body was lost. A frame in which no piece is chosen has no data. Of a template of several
-    bodies that move freely, a piece is chosen for each, or one for several that touch.
+    the pieces where the last body was are kept, and those that a large part of it touches; a piece
+    is chosen only at the start and after the body was lost. A frame in which no piece is chosen has
+    no data. Of a template of several bodies that move freely, a piece is chosen for each, or one
+    for several that touch.
     """
 
     kind: Literal["pieces"] = "pieces"
@@ -185,12 +187,23 @@ class BoundPieces(BoundSegmenter):
             return None
         reach = NEAR * expected.body.size * (1 + expected.missed)
         near = expected.within(pieces[0].frame.points, reach)
-        found = [piece for piece in pieces if near[piece.at].mean() >= 0.5]
+        found = [one for one in pieces if self._holds_body(one, near[one.at])]
         if sum(piece.area for piece in found) < self._least:
             return None
         others = [piece for piece in pieces if all(piece is not one for one in found)]
         whole = replace(found[0], at=np.sort(np.concatenate([piece.at for piece in found])))
         return with_fragments(whole, others, self.figures[0])
+
+    def _holds_body(self, piece: Piece, near: NDArray[np.bool_]) -> bool:
+        """Returns whether a piece is a part of the last body, or is joined to a large part of it.
+
+        Args:
+            piece: The piece.
+            near: Mask of its points where the last body was.
+        """
+        if near.mean() >= 0.5:
+            return True
+        return bool(near.any()) and replace(piece, at=piece.at[near]).area >= self._least
 
 
 def held(area: float, figures: Sequence[Figure]) -> int:

@@ -34,7 +34,7 @@ from regkit_plugins.starts.exemplars.search import Search
 Elevation = Annotated[float, Field(ge=-90.0, le=90.0)]
 Roll = Annotated[float, Field(ge=-180.0, le=180.0)]
 
-CUT = 3
+CUT = 4
 """Factor of the number of exemplars of a body that is cut off; their borders fix their rolls."""
 
 
@@ -49,8 +49,8 @@ class Exemplars(StartSearch):
 
     kind: Literal["exemplars"] = "exemplars"
 
-    exemplars: Annotated[int, Field(ge=100, le=1_000_000)] = 45_000
-    """Number of exemplars; 45,000 of a person take some seconds to make, once, and 19 MB."""
+    exemplars: Annotated[int, Field(ge=100, le=1_000_000)] = 30_000
+    """Number of exemplars; 30,000 of a person take some seconds to make, once, and 13 MB."""
     elevation_deg: Annotated[tuple[Elevation, Elevation], AfterValidator(in_order)] = (-90.0, 90.0)
     """Least and greatest angle of the camera above the body's horizon [deg]."""
     roll_deg: Annotated[tuple[Roll, Roll], AfterValidator(in_order)] = (-180.0, 180.0)

@@ -47,7 +47,7 @@ class Reinitialization(Model):
     the others do not explain.
     """
 
-    exemplars: Annotated[int, Field(ge=100, le=1_000_000)] = 45_000
+    exemplars: Annotated[int, Field(ge=100, le=1_000_000)] = 30_000
     """Number of exemplars; the atlas is shared with a start of equally many."""
     looked_up: Annotated[int, Field(ge=1, le=100_000)] = 600
     """Number of similar exemplars that are rendered."""
