@@ -11,11 +11,12 @@ import numpy as np
 from _starts_bodies import Set
 from _starts_options import Options
 from _starts_sessions import experiment, synthetic
+from numpy.typing import NDArray
 
 from regkit.body import Body
 from regkit.interfaces.segmenter import each_body
 from regkit.metrics.matching import matched
-from regkit.observation import Truth
+from regkit.observation import Frame, Truth
 from regkit.skeleton import Pose
 from regkit.system.arrays import Array
 from regkit.system.errors import RegkitError
@@ -60,6 +61,9 @@ ASKED_FOR = "crowded, asked for"
 ROWS: Mapping[str, str] = {**dict(zip(ROOMS, ROOMS, strict=True)), ASKED_FOR: "crowded"}
 """Room of each row."""
 
+HIDES = 0.25
+"""What is nearer than a joint by more than this hides it; a trunk is half as thick [m]."""
+
 HEIGHTS = {"average": 1.6327, "small": 1.4901, "tall": 1.88}
 
 
@@ -70,12 +74,14 @@ class InRoom:
     Attributes:
         room: Name of the row.
         error: Mean error of all joints in all frames [m]; infinite if nothing was tracked.
+        shown: The same of the joints that nothing hides.
         first: The same in the first frame [m].
         verdict: The start's verdict, or why there is none.
     """
 
     room: str
     error: float
+    shown: float
     first: float
     verdict: str
 
@@ -96,11 +102,13 @@ def tracked(kind: str, item: tuple[str, Mapping[str, Any]]) -> InRoom:
             body, tracker = start.body, method.tracker or chosen.tracker
             frames = list(session.tracked(method.bind(body), tracker, start.pose))
     except RegkitError as error:
-        return InRoom(row, np.inf, np.inf, str(error))
+        return InRoom(row, np.inf, np.inf, np.inf, str(error))
     errors = np.array([
         _errors(body, frame.registered.pose, truth, index) for index, frame in enumerate(frames)
     ])  # fmt: skip
-    return InRoom(row, float(errors.mean()), float(errors[0].mean()), str(start.verdict))
+    shown = np.array([_shown(body, truth, at, one) for at, one in enumerate(recording.frames())])
+    means = (errors.mean(), errors[shown].mean(), errors[0].mean())
+    return InRoom(row, *map(float, means), str(start.verdict))
 
 
 def _asked_for(session: Session, truth: Truth) -> Session:
@@ -121,6 +129,19 @@ def _errors(body: Body, pose: Pose, truth: Truth, frame: int) -> Array:
     return np.asarray(np.linalg.norm(placed - truth.positions[frame, columns], axis=1))
 
 
+def _shown(body: Body, truth: Truth, index: int, frame: Frame) -> NDArray[np.bool_]:
+    """Returns which joints (J,) of a frame are in the picture, and hidden by nothing."""
+    columns, _ = matched(body, truth, {})
+    places, camera, depth = truth.positions[index, columns], frame.camera, frame.depth
+    assert camera is not None
+    assert depth is not None
+    across, down = np.rint(camera.projected(places)).astype(int).T
+    inside = (across >= 0) & (across < camera.width) & (down >= 0) & (down < camera.height)
+    seen = np.zeros(len(places))
+    seen[inside] = depth[down[inside], across[inside]]
+    return np.asarray(inside & ~((seen > 0.0) & (seen < places[:, 2] - HIDES)))
+
+
 def figures(options: Options) -> dict[str, object]:
     """Prints the table of rooms, and returns their figures."""
     takes = TAKES[options.chosen]
@@ -128,16 +149,18 @@ def figures(options: Options) -> dict[str, object]:
     found = options.mapped("rooms", partial(tracked, options.start), items)
     alone = [one.error for one in found if one.room == "none"]
     heads = [f"{take['body']}, {take['motion']['name']}" for take in takes]
-    print(
-        f"\n| room | {' | '.join(f'{head} [cm] | first frame | start' for head in heads)} | ratio |"
-    )
-    print("|---|" + "--:|--:|---|" * len(heads) + "--:|")
-    ratios = {}
+    columns = " | ".join(f"{head} [cm] | first frame | start" for head in heads)
+    print(f"\n| room | {columns} | ratio | of what is in sight |")
+    print("|---|" + "--:|--:|---|" * len(heads) + "--:|--:|")
+    ratios, in_sight = {}, {}
+    alone_shown = sum(one.shown for one in found if one.room == "none")
     for room in ROWS:
         rows = [one for one in found if one.room == room]
         ratios[room] = sum(one.error for one in rows) / sum(alone)
+        in_sight[room] = sum(one.shown for one in rows) / alone_shown
         cells = [f"{100 * one.error:.1f} | {100 * one.first:.1f} | {one.verdict}" for one in rows]
-        print(f"| {room} | {' | '.join(cells)} | {ratios[room]:.2f} |", flush=True)
+        told = f"{ratios[room]:.2f} | {in_sight[room]:.2f}"
+        print(f"| {room} | {' | '.join(cells)} | {told} |", flush=True)
     others = [ratios[room] for room in ROOMS if room != "none"]
     if not np.isfinite(others).all():
         return {"rooms": {"untracked": sum(not np.isfinite(one.error) for one in found)}}
@@ -145,4 +168,5 @@ def figures(options: Options) -> dict[str, object]:
         "rooms_ratio": round(float(np.mean(others)), 2),
         "rooms_worst_ratio": round(max(others), 2),
         "asked_for_ratio": round(ratios[ASKED_FOR], 2),
+        "desk_in_sight_ratio": round(in_sight["desk"], 2),
     }
