@@ -44,6 +44,24 @@ class TemplateLaws(Laws):
                 look_at=at,
             )  # fmt: skip
 
+    def test_extended_template_has_optional_parts_and_the_same_sizes(
+        self, template: Template
+    ) -> None:
+        """What the data may show is optional, and nothing that was decided is extended again."""
+        longer, at = template.extended(), type(template).extended
+        if longer is None:
+            return
+        sizes, others = template.candidate_sizes(), longer.candidate_sizes()
+        require(sizes == others, template, f"has the sizes {sizes}, extended {others}", look_at=at)
+        require(
+            len(longer.body(sizes[0]).optional) > 0, template,
+            "extended has no optional segment, on which data could lie", look_at=at,
+        )  # fmt: skip
+        require(
+            longer.extended() is None and template.plain().extended() is None, template,
+            "is extended again after it was decided", look_at=at,
+        )  # fmt: skip
+
     def test_template_has_something_to_register(self, template: Template, grown: Body) -> None:
         """It has capsules, primitives or a surface, each on an existing segment."""
         flesh = [grown.capsules.segments, *(own.segments for own in grown.shapes.values())]

@@ -147,3 +147,14 @@ def test_faulty_template_breaks_its_law(faulty):
     made = faulty("template", "template.py", "    def given_size", new)
     law = TemplateLaws().test_template_gives_a_body_of_each_size
     refusal(lambda: law(made), "returns a body of size 0.505 for 0.5")
+
+
+def test_template_without_optional_parts_that_is_extended_breaks_its_law(faulty):
+    new = '''    def extended(self):
+        """The same once more."""
+        return self
+
+    def given_size'''
+    made = faulty("template", "template.py", "    def given_size", new)
+    law = TemplateLaws().test_extended_template_has_optional_parts_and_the_same_sizes
+    refusal(lambda: law(made), "extended has no optional segment")
