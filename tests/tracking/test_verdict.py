@@ -128,13 +128,13 @@ def test_fit_falls_with_wrong_places_wrong_sizes_and_missing_parts(template):
     assert min(doubled.inlier_share, doubled.coverage) < 0.75
 
 
-@pytest.mark.parametrize("template", [Human(), Hand(side="right")])
+@pytest.mark.parametrize("template", [Human(), Hand(side="right", forearm=False)])
 def test_extent_of_the_data_is_compared_with_the_template(template):
     size = template.description().size.value
     body = template.body(size)
     points = surface_of(body, body.skeleton.rest())
     check_extent(points, template, place="here")
-    for factor in (0.35, 6.0):
+    for factor in (0.35, 3.0):
         with pytest.warns(RegkitWarning, match="here: the points are spread over"):
             check_extent(factor * points, template, place="here")
     for factor in (0.001, 1000.0):
@@ -146,6 +146,8 @@ def test_extent_with_the_parts_that_the_data_may_show_is_usual():
     body = Hand(forearm=True).body(0.22)
     points = surface_of(body, body.skeleton.rest())
     check_extent(points, Hand(), place="here")
+    with pytest.warns(RegkitWarning, match="here: the points are spread over"):
+        check_extent(3.0 * points, Hand(), place="here")
     with pytest.warns(RegkitWarning, match="here: the points are spread over"):
         check_extent(points, Hand(forearm=False), place="here")
 

@@ -70,7 +70,7 @@ def check(tunable, observation, pose, monkeypatch):
         expected = (ahead - placed(body, pose)).ravel() / BY
         assert np.abs(expected).max() > 1e-5
         np.testing.assert_allclose(
-            rows[:, index], expected, atol=0.02 * np.abs(expected).max(), err_msg=str(index)
+            rows[:, index], expected, atol=0.01 * np.abs(expected).max(), err_msg=str(index)
         )
 
 

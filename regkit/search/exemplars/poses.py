@@ -13,29 +13,24 @@ from regkit.system.arrays import Array
 ANYWHERE = 0.55
 """Probability that a limb is anywhere within its limits, and not near that of a stance."""
 
-SYMMETRIC = 0.5
-"""Probability that two limbs are mirror images.
-
-With it 100 % of 120 folded people are right, with 0.3 97.5 % and without it 95.0 %; of 120 people
-each of whom 65 and 50 % are in view 94.2 and 84.2 %, without it 91.7 and 83.3 % (development set of
-``benchmarks/starts.py``). Of 42 sizes of people before a depth camera (UTD-MHAD) the mean error is
-1.2 %, with 0.33 1.3 and without it 1.8 %.
-"""
-
 LIMB_SHAKE, TRUNK_SHAKE = 0.26, 0.2
 """Standard deviation of the joints about a stance [rad]."""
 
 
-def sampled_poses(body: Body, random: np.random.Generator, count: int) -> tuple[Array, Array]:
+def sampled_poses(
+    body: Body, random: np.random.Generator, count: int, *, symmetric: float = 0.0
+) -> tuple[Array, Array]:
     """Returns ball quaternions (count, n_ball, 4) and hinge angles (count, n_hinge) [rad].
 
     Each is a stance of the body, or its rest pose, shaken; each limb is with some probability
-    anywhere within its limits, and two limbs may be mirror images.
+    anywhere within its limits.
 
     Args:
         body: The body.
         random: Source of the poses.
         count: Number of poses.
+        symmetric: Probability that two limbs of a two-sided body are mirror images, as in people
+            who kneel, squat or sit.
     """
     bones = body.skeleton
     stances = [stance.pose for stance in body.stances] or [bones.rest()]
@@ -54,29 +49,32 @@ def sampled_poses(body: Body, random: np.random.Generator, count: int) -> tuple[
         rows = np.flatnonzero(random.uniform(size=count) < ANYWHERE)[:, None]
         balls[rows, limb.balls] = any_balls[rows, limb.balls]
         hinges[rows, limb.hinges] = any_hinges[rows, limb.hinges]
-    _mirror_limbs(body, random, balls, hinges)
+    if symmetric > 0.0:
+        _mirror_limbs(body, random, balls, hinges, symmetric)
     for index in range(count):
         pose = bones.limits.projected(Pose(np.eye(4), balls[index], hinges[index]))
         balls[index], hinges[index] = pose.balls, pose.hinges
     return balls, hinges
 
 
-def _mirror_limbs(body: Body, random: np.random.Generator, balls: Array, hinges: Array) -> None:
-    """Makes some limbs the mirror images of their counterparts, in place.
-
-    Legs that kneel, squat or sit, and raised arms, are often alike.
-    """
+def _mirror_limbs(
+    body: Body, random: np.random.Generator, balls: Array, hinges: Array, share: float
+) -> None:
+    """Makes a share of the limbs the mirror images of their counterparts, in place."""
     mirroring = Mirroring.of(body.skeleton)
     if mirroring is None:
         return
-    images = mirroring.sides(balls, hinges)
+    of_balls, of_hinges = mirroring.sides(balls, hinges)
+    before = len(mirroring.balls)
+    counterparts = np.concatenate([mirroring.balls, before + mirroring.hinges])
     for limb in limbs_of(body):
-        first = [*limb.balls, *(len(mirroring.balls) + limb.hinges)][0]
-        if first <= [*mirroring.balls, *(len(mirroring.balls) + mirroring.hinges)][first]:
-            continue  # It is the first one of two, or its own counterpart.
-        rows = np.flatnonzero(random.uniform(size=len(balls)) < SYMMETRIC)[:, None]
-        balls[rows, limb.balls] = images[0][rows, limb.balls]
-        hinges[rows, limb.hinges] = images[1][rows, limb.hinges]
+        first = np.concatenate([limb.balls, before + limb.hinges])[0]
+        # Of two counterparts the first one stays, and a head has none.
+        if counterparts[first] >= first:
+            continue
+        rows = np.flatnonzero(random.uniform(size=len(balls)) < share)[:, None]
+        balls[rows, limb.balls] = of_balls[rows, limb.balls]
+        hinges[rows, limb.hinges] = of_hinges[rows, limb.hinges]
 
 
 def _shakes_of_hinges(limits: Limits) -> Array:

@@ -13,7 +13,10 @@ LIKELY = 4
 """Number of pieces, those most like the body, that are compared with all that belongs to them."""
 
 DISTINCT = 4.0
-"""Only if no piece has a smaller cost, two deviations in all, the body may be the end of one."""
+"""Only if no piece has a smaller cost, two deviations in all, the body may be the end of one.
+
+Chosen on 19 frames of a hand before an SR305, of which two need it.
+"""
 
 ALIKE = 1.0
 """Pieces whose costs differ by less, one deviation, fit alike: of them the nearest is chosen."""
